@@ -1,0 +1,74 @@
+# The front door; the work is done by CMake (cmake/CMakeLists.txt).
+#
+#   make demo    dependencies, LAMMPS, the package; then the main job with its picture
+#   make test    the same; then all tests
+#   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so
+#   make doc | bench | bench-full | sanitize | clean
+#
+# LAMMPS_VERSION=20250204|20260704   which pinned LAMMPS          LAMMPS_SOURCE_DIR=DIR   your own LAMMPS source tree
+# BUILD=DIR                          build folder                 JOBS=N                  processes of the compilation
+# PORTABLE=yes                       no -march=native             DEPS=no                 do not look for Debian packages
+# ALLOW_UNTESTED=yes                 another LAMMPS version       CMAKE_ARGS="-D..."      more options for CMake
+# HVI_CACHE=DIR                      where LAMMPS is kept         PYTHON=FILE             interpreter for tests and pictures
+
+LAMMPS_VERSION ?= 20250204
+LAMMPS_SOURCE_DIR ?=
+BUILD ?= $(if $(filter 20250204,$(LAMMPS_VERSION)),build,build-$(LAMMPS_VERSION))
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+RANKS ?= $(if $(filter 1,$(shell nproc 2>/dev/null)),1,2)
+PORTABLE ?= no
+ALLOW_UNTESTED ?= no
+DEPS ?= yes
+SANITIZE = OFF
+export DEPS
+
+MAKEFLAGS += --no-print-directory
+TOP := $(CURDIR)
+OUT = $(abspath $(BUILD))
+export CMAKE_BUILD_PARALLEL_LEVEL = $(JOBS)
+
+.PHONY: all build demo test doc bench bench-full sanitize clean
+all: build
+
+# configures quietly; what went wrong is told in one line
+build:
+	@cmake/deps.sh build
+	@if [ -z "$(LAMMPS_SOURCE_DIR)" ]; then cmake/fetch.sh $(LAMMPS_VERSION) >/dev/null; fi
+	@mkdir -p $(BUILD)
+	@cmake -S cmake -B $(BUILD) -DHVI_LAMMPS_VERSION=$(LAMMPS_VERSION) -DLAMMPS_SOURCE_DIR="$(LAMMPS_SOURCE_DIR)" \
+	  -DHVI_PORTABLE=$(if $(filter yes,$(PORTABLE)),ON,OFF) -DHVI_SANITIZE=$(SANITIZE) \
+	  -DHVI_ALLOW_UNTESTED=$(if $(filter yes,$(ALLOW_UNTESTED)),ON,OFF) $(CMAKE_ARGS) \
+	  >$(BUILD)/configure.log 2>&1 || \
+	  { cat $(BUILD)/stopped.txt 2>/dev/null || { cat $(BUILD)/configure.log; \
+	    echo "lammps-hvi: cmake failed: see $(BUILD)/configure.log; after a change of compiler remove $(BUILD)"; }; exit 1; } >&2
+	@cmake --build $(BUILD) --parallel $(JOBS)
+
+demo:
+	@cmake/deps.sh build demo
+	@$(MAKE) build
+	@mkdir -p $(OUT)/demo
+	cd examples/debris-cloud && $(TOP)/cmake/env.sh mpirun -np $(RANKS) $(OUT)/lmp -in in.debris -var size small \
+	  -var out $(OUT)/demo -log $(OUT)/demo/log.lammps
+	@echo; cat $(OUT)/demo/result.yaml; echo "picture: $(OUT)/demo/cloud.png"
+
+test:
+	@cmake/deps.sh build test
+	@$(MAKE) build
+	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
+
+sanitize:
+	@$(MAKE) test BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON
+
+doc:
+	@cmake/deps.sh doc
+	@python=$$(cmake/find-python.sh sphinx) && $$python -m sphinx -q -W --keep-going -b html -d $(OUT)/doc/doctrees doc $(OUT)/doc/html
+	@echo "documentation: $(OUT)/doc/html/index.html"
+
+bench bench-full:
+	@cmake/deps.sh build demo
+	@$(MAKE) build
+	@python=$$(cmake/find-python.sh numpy matplotlib) && \
+	  cmake/env.sh $$python bench/run.py --size $(if $(filter bench-full,$@),full,small) --build $(OUT) --out $(OUT)/bench
+
+clean:
+	rm -rf build build-sanitize build-portable $(BUILD)

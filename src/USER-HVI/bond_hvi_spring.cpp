@@ -1,0 +1,440 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "bond_hvi_spring.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_hvi_ledger.h"
+#include "force.h"
+#include "hvi_compat.h"
+#include "memory.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+BondHVISpring::BondHVISpring(LAMMPS *lmp) :
+    Bond(lmp), kappa(nullptr), r_eq(nullptr), r_cut(nullptr), law(nullptr), ledger(nullptr),
+    exact_images(0), nmax(0), xowner(nullptr)
+{
+  partial_flag = 1;
+  born_matrix_enable = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+BondHVISpring::~BondHVISpring()
+{
+  memory->destroy(xowner);
+
+  if (allocated && !copymode) {
+    memory->destroy(setflag);
+    memory->destroy(kappa);
+    memory->destroy(r_eq);
+    memory->destroy(r_cut);
+    memory->destroy(law);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BondHVISpring::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag);
+
+  if (exact_images) {
+    if (atom->nmax > nmax) {
+      nmax = atom->nmax;
+      memory->destroy(xowner);
+      memory->create(xowner, nmax, 3, "bond/hvi/spring:xowner");
+    }
+    comm->forward_comm(this);
+    if (evflag)
+      eval<1, 0, 1>();
+    else
+      eval<0, 0, 1>();
+  } else if (force->newton_bond) {
+    if (evflag)
+      eval<1, 1, 0>();
+    else
+      eval<0, 1, 0>();
+  } else {
+    if (evflag)
+      eval<1, 0, 0>();
+    else
+      eval<0, 0, 0>();
+  }
+}
+
+/* ----------------------------------------------------------------------
+   EXACT: with newton_bond off both owners of a bond decide whether it breaks.
+   Across a periodic boundary a ghost's coordinates are rounded after the
+   shift, so the two would see distances that differ in the last digit.  Both
+   then work from the coordinates as the owners hold them instead.
+------------------------------------------------------------------------- */
+
+template <int EVFLAG, int NEWTON_BOND, int EXACT> void BondHVISpring::eval()
+{
+  const int nbondlist = neighbor->nbondlist;
+  if (nbondlist == 0) return;
+
+  // rows of x, f and bondlist lie side by side: no need to fetch their pointers
+
+  const double(*const x)[3] = (const double(*)[3]) atom->x[0];
+  double(*const f)[3] = (double(*)[3]) atom->f[0];
+  int(*const bondlist)[3] = (int(*)[3]) neighbor->bondlist[0];
+  const int nlocal = atom->nlocal;
+
+  for (int n = 0; n < nbondlist; n++) {
+    const int type = bondlist[n][2];
+    if (type <= 0) continue;
+
+    const int i1 = bondlist[n][0];
+    const int i2 = bondlist[n][1];
+    double delx, dely, delz;
+    if (EXACT) {
+      const double *const x2 = (i2 < nlocal) ? x[i2] : xowner[i2];
+      delx = x[i1][0] - x2[0];
+      dely = x[i1][1] - x2[1];
+      delz = x[i1][2] - x2[2];
+      HVI::minimum_image(domain, delx, dely, delz);
+    } else {
+      delx = x[i1][0] - x[i2][0];
+      dely = x[i1][1] - x[i2][1];
+      delz = x[i1][2] - x[i2][2];
+    }
+    const double rsq = delx * delx + dely * dely + delz * delz;
+
+    // whether a bond of an intact lattice is slack is a coin toss: no branch on it
+
+    const HVI::Spring &s = law[type];
+    const double fbond = s.force(rsq);
+
+    if (s.broken(rsq)) {
+      bondlist[n][2] = 0;
+      break_bond(i1, i2, NEWTON_BOND, s.energy(rsq), delx * fbond, dely * fbond, delz * fbond);
+      continue;
+    }
+
+    f[i1][0] += delx * fbond;
+    f[i1][1] += dely * fbond;
+    f[i1][2] += delz * fbond;
+    if (NEWTON_BOND || i2 < nlocal) {
+      f[i2][0] -= delx * fbond;
+      f[i2][1] -= dely * fbond;
+      f[i2][2] -= delz * fbond;
+    }
+
+    if (EVFLAG)
+      ev_tally(i1, i2, nlocal, NEWTON_BOND, eflag_either ? s.energy(rsq) : 0.0, fbond, delx, dely,
+               delz);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   the bond is gone for good: off both owners' records at once, its energy
+   and the half kick it no longer gives into the ledger
+------------------------------------------------------------------------- */
+
+void BondHVISpring::break_bond(int i1, int i2, int newton_bond, double energy, double fx, double fy,
+                               double fz)
+{
+  const int nlocal = atom->nlocal;
+  int nerased = erase_record(i1, atom->tag[i2]);
+  if (i2 < nlocal) nerased += erase_record(i2, atom->tag[i1]);
+
+  // newton_bond off: a bond between ranks is broken, and half of it booked, on both
+
+  const int both = newton_bond || i2 < nlocal;
+  ledger->book_break(nerased, both ? energy : 0.5 * energy);
+  ledger->book_lost_kick(i1, fx, fy, fz);
+  if (both) ledger->book_lost_kick(i2, -fx, -fy, -fz);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int BondHVISpring::erase_record(int i, tagint partner)
+{
+  const int n = atom->num_bond[i];
+  tagint *const bond_atom = atom->bond_atom[i];
+  int *const bond_type = atom->bond_type[i];
+
+  for (int m = 0; m < n; m++)
+    if (bond_atom[m] == partner) {
+      bond_atom[m] = bond_atom[n - 1];
+      bond_type[m] = bond_type[n - 1];
+      atom->num_bond[i]--;
+      return 1;
+    }
+  return 0;
+}
+
+/* ----------------------------------------------------------------------
+   shortest sqrt(m/k) of the intact bonds
+------------------------------------------------------------------------- */
+
+void BondHVISpring::tighten(HVI::TimeStepBounds &bounds)
+{
+  const double *const rmass = atom->rmass;
+  const double *const mass = atom->mass;
+  const int *const type = atom->type;
+  const double mvv2e = force->mvv2e;
+
+  double spring = bounds.spring * bounds.spring;
+  for (int n = 0; n < neighbor->nbondlist; n++) {
+    const int btype = neighbor->bondlist[n][2];
+    if (btype <= 0) continue;
+    const int i1 = neighbor->bondlist[n][0];
+    const int i2 = neighbor->bondlist[n][1];
+    const double m1 = rmass ? rmass[i1] : mass[type[i1]];
+    const double m2 = rmass ? rmass[i2] : mass[type[i2]];
+    spring = MIN(spring, mvv2e * m1 * m2 / ((m1 + m2) * kappa[btype]));
+  }
+  bounds.spring = std::sqrt(spring);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BondHVISpring::allocate()
+{
+  allocated = 1;
+  const int np1 = atom->nbondtypes + 1;
+
+  memory->create(kappa, np1, "bond:kappa");
+  memory->create(r_eq, np1, "bond:r_eq");
+  memory->create(r_cut, np1, "bond:r_cut");
+  memory->create(law, np1, "bond:law");
+  memory->create(setflag, np1, "bond:setflag");
+  for (int i = 1; i < np1; i++) setflag[i] = 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BondHVISpring::coeff(int narg, char **arg)
+{
+  if (narg < 4) utils::missing_cmd_args(FLERR, "bond_coeff hvi/spring", error);
+  if (narg > 4)
+    error->all(FLERR, "Bond_coeff for hvi/spring takes T kappa r_eq r_cut, but got extra: {}",
+               arg[4]);
+  if (!allocated) allocate();
+
+  int ilo, ihi;
+  utils::bounds(FLERR, arg[0], 1, atom->nbondtypes, ilo, ihi, error);
+
+  const double kappa_one = utils::numeric(FLERR, arg[1], false, lmp);
+  const double r_eq_one = utils::numeric(FLERR, arg[2], false, lmp);
+  const double r_cut_one = utils::numeric(FLERR, arg[3], false, lmp);
+  if (!(kappa_one > 0.0) || !std::isfinite(kappa_one))
+    error->all(FLERR, "Bond hvi/spring kappa must be > 0, not {}", arg[1]);
+  if (!(r_eq_one > 0.0) || !std::isfinite(r_eq_one))
+    error->all(FLERR, "Bond hvi/spring r_eq must be > 0, not {}", arg[2]);
+  if (!(r_cut_one > r_eq_one) || !std::isfinite(r_cut_one))
+    error->all(FLERR, "Bond hvi/spring r_cut must be > r_eq = {}, not {}", arg[2], arg[3]);
+
+  for (int i = ilo; i <= ihi; i++) {
+    kappa[i] = kappa_one;
+    r_eq[i] = r_eq_one;
+    r_cut[i] = r_cut_one;
+    setflag[i] = 1;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BondHVISpring::init_style()
+{
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Bond style hvi/spring does not support run_style respa");
+  if (update->whichflag == 2)
+    error->all(FLERR, "Bond style hvi/spring cannot be minimized: its bonds break for good");
+  if (atom->molecular != Atom::MOLECULAR)
+    error->all(FLERR, "Bond style hvi/spring requires an atom style with bonds stored per atom");
+
+  double rmax = 0.0;
+  for (int i = 1; i <= atom->nbondtypes; i++)
+    if (setflag[i]) {
+      law[i] = HVI::Spring::make(kappa[i], r_eq[i], r_cut[i]);
+      rmax = MAX(rmax, r_cut[i]);
+    }
+
+  // a rebuild must find both ends of every intact bond: by then a bond may
+  // have stretched beyond r_cut by one step's motion, which the neighbor
+  // list's own criterion keeps below half the skin
+
+  const double cutneed = rmax + 0.5 * neighbor->skin;
+  if (comm->cutghostuser < cutneed) comm->cutghostuser = cutneed;
+
+  ledger = FixHVILedger::instance(lmp);
+  ledger->watch_breaking();
+  exact_images = !force->newton_bond &&
+      (domain->xperiodic || domain->yperiodic || domain->zperiodic);
+  comm_forward = exact_images ? 3 : 0;
+
+  // weights matter only once there is a run: create_bonds wants 1-2 weights of 0 and comes
+  // here through init() as well
+
+  if (update->whichflag == 1) {
+    for (int i = 1; i <= 3; i++)
+      if (force->special_lj[i] != 1.0 || force->special_coul[i] != 1.0)
+        error->all(FLERR,
+                   "Bond style hvi/spring requires special_bonds lj/coul 1 1 1 for a run: contact "
+                   "acts between bonded particles too");
+    drop_special();
+  }
+}
+
+/* ----------------------------------------------------------------------
+   with all weights 1 nothing reads the lists of special neighbors, which
+   breaking bonds would leave stale: free them, they cost memory, migration
+   and a search per pair in every rebuild
+------------------------------------------------------------------------- */
+
+void BondHVISpring::drop_special()
+{
+  for (int i = 0; i < atom->nlocal; i++)
+    atom->nspecial[i][0] = atom->nspecial[i][1] = atom->nspecial[i][2] = 0;
+
+  if (atom->maxspecial > 1) {
+    atom->maxspecial = 1;
+    memory->destroy(atom->special);
+    memory->create(atom->special, atom->nmax, atom->maxspecial, "atom:special");
+    atom->avec->grow_pointers();
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Comm::get_comm_cutoff() takes 1.5 times this plus the skin as its estimate
+   of what bonds need: give it what makes that the true need, see init_style()
+------------------------------------------------------------------------- */
+
+double BondHVISpring::equilibrium_distance(int i)
+{
+  return MAX(r_cut[i] - 0.5001 * neighbor->skin, 0.0) / 1.5;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BondHVISpring::write_restart(FILE *fp)
+{
+  fwrite(&kappa[1], sizeof(double), atom->nbondtypes, fp);
+  fwrite(&r_eq[1], sizeof(double), atom->nbondtypes, fp);
+  fwrite(&r_cut[1], sizeof(double), atom->nbondtypes, fp);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BondHVISpring::read_restart(FILE *fp)
+{
+  allocate();
+
+  const int n = atom->nbondtypes;
+  if (comm->me == 0) {
+    utils::sfread(FLERR, &kappa[1], sizeof(double), n, fp, nullptr, error);
+    utils::sfread(FLERR, &r_eq[1], sizeof(double), n, fp, nullptr, error);
+    utils::sfread(FLERR, &r_cut[1], sizeof(double), n, fp, nullptr, error);
+  }
+  MPI_Bcast(&kappa[1], n, MPI_DOUBLE, 0, world);
+  MPI_Bcast(&r_eq[1], n, MPI_DOUBLE, 0, world);
+  MPI_Bcast(&r_cut[1], n, MPI_DOUBLE, 0, world);
+
+  for (int i = 1; i <= n; i++) setflag[i] = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BondHVISpring::write_data(FILE *fp)
+{
+  for (int i = 1; i <= atom->nbondtypes; i++)
+    fprintf(fp, "%d %.17g %.17g %.17g\n", i, kappa[i], r_eq[i], r_cut[i]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double BondHVISpring::single(int type, double rsq, int /*i*/, int /*j*/, double &fforce)
+{
+  fforce = 0.0;
+  if (type <= 0) return 0.0;
+
+  // beyond r_cut only between a move and the force evaluation that breaks the bond
+
+  const HVI::Spring &s = law[type];
+  fforce = s.force(rsq);
+  return s.energy(rsq);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BondHVISpring::born_matrix(int type, double rsq, int /*i*/, int /*j*/, double &du, double &du2)
+{
+  du = du2 = 0.0;
+  if (type <= 0) return;
+
+  const HVI::Spring &s = law[type];
+  if (rsq <= s.eqsq) return;
+  du = s.kappa * (std::sqrt(rsq) - s.r_eq);
+  du2 = s.kappa;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void *BondHVISpring::extract(const char *str, int &dim)
+{
+  dim = 1;
+  if (strcmp(str, "kappa") == 0) return (void *) kappa;
+  if (strcmp(str, "r_eq") == 0 || strcmp(str, "r0") == 0) return (void *) r_eq;
+  if (strcmp(str, "r_cut") == 0) return (void *) r_cut;
+  return nullptr;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int BondHVISpring::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+{
+  const int nlocal = atom->nlocal;
+  int m = 0;
+  for (int i = 0; i < n; i++) {
+    const int j = list[i];
+    const double *const xj = (j < nlocal) ? atom->x[j] : xowner[j];
+    buf[m++] = xj[0];
+    buf[m++] = xj[1];
+    buf[m++] = xj[2];
+  }
+  return m;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BondHVISpring::unpack_forward_comm(int n, int first, double *buf)
+{
+  int m = 0;
+  for (int i = first; i < first + n; i++) {
+    xowner[i][0] = buf[m++];
+    xowner[i][1] = buf[m++];
+    xowner[i][2] = buf[m++];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double BondHVISpring::memory_usage()
+{
+  return Bond::memory_usage() + 3.0 * nmax * sizeof(double);
+}

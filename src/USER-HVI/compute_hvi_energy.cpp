@@ -1,0 +1,156 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "compute_hvi_energy.h"
+
+#include "atom.h"
+#include "bond.h"
+#include "comm.h"
+#include "error.h"
+#include "fix_hvi_ledger.h"
+#include "force.h"
+#include "group.h"
+#include "pair.h"
+#include "update.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+// the global vector, in this order
+
+// clang-format off
+enum {
+  KINETIC, INTERNAL, CONTACT, SPRING, BROKEN, LEFT, CLAMPS, TOTAL, RATIO,
+  PX, PY, PZ, LEFT_PX, LEFT_PY, LEFT_PZ, JX, JY, JZ,
+  MASS, LEFT_MASS, LEFT_COUNT, BONDS_BROKEN, BONDS_LEFT, NVALUES
+};
+// clang-format on
+
+/* ---------------------------------------------------------------------- */
+
+ComputeHVIEnergy::ComputeHVIEnergy(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg), ledger(nullptr)
+{
+  if (igroup != 0)
+    error->all(FLERR, "Compute hvi/energy is the ledger of the whole system: group must be all");
+
+  scalar_flag = vector_flag = 1;
+  size_vector = NVALUES;
+  extscalar = extvector = 0;
+  peflag = 1;      // energies of pairs and bonds are tallied on the steps asked for
+  timeflag = 1;
+
+  ledger = FixHVILedger::instance(lmp);
+
+  int iarg = 3;
+  while (iarg < narg) {
+    if (strcmp(arg[iarg], "clamps") == 0) {
+      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "compute hvi/energy clamps", error);
+      const int jgroup = group->find(arg[iarg + 1]);
+      if (jgroup == -1)
+        error->all(FLERR, "Could not find compute hvi/energy clamps group ID {}", arg[iarg + 1]);
+      ledger->clamp(group->bitmask[jgroup]);
+      iarg += 2;
+    } else
+      error->all(FLERR, "Unknown compute hvi/energy keyword: {}", arg[iarg]);
+  }
+
+  vector = new double[size_vector];
+}
+
+/* ---------------------------------------------------------------------- */
+
+ComputeHVIEnergy::~ComputeHVIEnergy()
+{
+  delete[] vector;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIEnergy::init()
+{
+  ledger = FixHVILedger::instance(lmp);
+
+  if (atom->molecular != Atom::ATOMIC && (force->angle || force->dihedral || force->improper))
+    error->all(FLERR, "Compute hvi/energy does not book angle, dihedral and improper energies");
+  if (force->kspace) error->all(FLERR, "Compute hvi/energy does not book kspace energies");
+}
+
+/* ----------------------------------------------------------------------
+   the first total of all is what later ones are compared with
+------------------------------------------------------------------------- */
+
+void ComputeHVIEnergy::setup()
+{
+  compute_vector();
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeHVIEnergy::compute_scalar()
+{
+  if (invoked_vector != update->ntimestep) compute_vector();
+  invoked_scalar = invoked_vector;
+  scalar = vector[TOTAL];
+  return scalar;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIEnergy::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+  if (update->eflag_global != invoked_vector)
+    error->all(FLERR, "Energy was not tallied on needed timestep: use compute hvi/energy through "
+                      "thermo output, fix ave/time or a variable on a step that tallies it");
+
+  const double *const *const v = atom->v;
+  const double *const rmass = atom->rmass;
+  const double *const mass = atom->mass;
+  const int *const type = atom->type;
+
+  double mine[NVALUES] = {0.0};
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double m = rmass ? rmass[i] : mass[type[i]];
+    mine[KINETIC] += m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]);
+    mine[PX] += m * v[i][0];
+    mine[PY] += m * v[i][1];
+    mine[PZ] += m * v[i][2];
+    mine[MASS] += m;
+  }
+  mine[KINETIC] *= 0.5 * force->mvv2e;
+  if (atom->esph_flag)
+    for (int i = 0; i < atom->nlocal; i++) mine[INTERNAL] += atom->esph[i];
+  if (force->pair) mine[CONTACT] = force->pair->eng_vdwl + force->pair->eng_coul;
+  if (force->bond) mine[SPRING] = force->bond->energy;
+  MPI_Allreduce(mine, vector, NVALUES, MPI_DOUBLE, MPI_SUM, world);
+
+  double booked[FixHVILedger::NENTRY];
+  ledger->totals(booked);
+  vector[BROKEN] = booked[FixHVILedger::BROKEN];
+  vector[LEFT] = booked[FixHVILedger::LEFT];
+  vector[CLAMPS] = -booked[FixHVILedger::CLAMP_WORK];    // what the clamps have taken up
+  for (int k = 0; k < 3; k++) {
+    vector[LEFT_PX + k] = booked[FixHVILedger::LEFT_PX + k];
+    vector[JX + k] = booked[FixHVILedger::CLAMP_JX + k];
+  }
+  vector[LEFT_MASS] = booked[FixHVILedger::LEFT_MASS];
+  vector[LEFT_COUNT] = booked[FixHVILedger::LEFT_COUNT];
+  vector[BONDS_BROKEN] = booked[FixHVILedger::BONDS_BROKEN];
+  vector[BONDS_LEFT] = booked[FixHVILedger::BONDS_LEFT];
+
+  vector[TOTAL] = 0.0;
+  for (int n = KINETIC; n < TOTAL; n++) vector[TOTAL] += vector[n];
+  const double start = ledger->start_energy(vector[TOTAL]);
+  vector[RATIO] = (start != 0.0) ? vector[TOTAL] / start : 1.0;
+}

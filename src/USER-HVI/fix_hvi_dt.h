@@ -1,0 +1,54 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(hvi/dt,FixHVIDt);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_HVI_DT_H
+#define LMP_FIX_HVI_DT_H
+
+#include "fix.h"
+#include "hvi_timestep.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixHVIDt : public Fix {
+ public:
+  FixHVIDt(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void end_of_step() override;
+  double compute_scalar() override;
+  double compute_vector(int) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+ private:
+  double factor, dtmin, dtmax;
+  int every;
+  int limiter;
+  int restored;
+  double reach;    // shortest cutoff of the pair style
+  std::vector<HVI::TimeStepSource *> sources;
+
+  double choose(double);
+  void apply(double);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,587 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "fix_hvi_ledger.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "bond.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "hvi_compat.h"
+#include "memory.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "output.h"
+#include "pair.h"
+#include "thermo.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+#include <unordered_map>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+static constexpr char LEDGER_ID[] = "HVI_LEDGER";
+
+static inline double dot(const double *a, const double *b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixHVILedger *FixHVILedger::instance(LAMMPS *lmp)
+{
+  auto found = lmp->modify->get_fix_by_style("^hvi/ledger$");
+  Fix *ifix =
+      found.empty() ? lmp->modify->add_fix(fmt::format("{} all hvi/ledger", LEDGER_ID)) : found[0];
+  return dynamic_cast<FixHVILedger *>(ifix);
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixHVILedger::FixHVILedger(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), entry(), start_set(0), start(0.0), breaking(0), nerased(0), dt_step(0.0),
+    nmax(0), lost(nullptr), clampbit(0), nmax_clamp(0), finternal(nullptr), clamp_power(0.0),
+    clamp_state()
+{
+  if (strcmp(id, LEDGER_ID) != 0)
+    error->all(FLERR, "Fix hvi/ledger is made by the styles that need it: use compute hvi/energy");
+
+  restart_global = 1;
+  comm_reverse = 3;
+  nevery = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixHVILedger::~FixHVILedger()
+{
+  memory->destroy(lost);
+  memory->destroy(finternal);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixHVILedger::setmask()
+{
+  return POST_INTEGRATE | PRE_EXCHANGE | POST_FORCE | END_OF_STEP;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVILedger::init()
+{
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Compute hvi/energy and breaking bonds do not support run_style respa");
+
+  if (!clampbit) return;
+
+  // clamps are what other fixes make of the forces, so see the forces before they do
+
+  for (auto &ifix : modify->get_fix_list()) {
+    if (ifix == this) break;
+    if (ifix->setmask() & POST_FORCE)
+      error->all(FLERR,
+                 "Compute hvi/energy with clamps must be defined before fix {} ({}): it books the "
+                 "forces that clamps take up",
+                 ifix->id, ifix->style);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   bonds that are too long from the start break in the first force evaluation:
+   there is no kick to miss then, only their energy
+------------------------------------------------------------------------- */
+
+void FixHVILedger::setup(int /*vflag*/)
+{
+  dt_step = 0.0;
+  if (clampbit) clamp_state = measure_clamps();
+  book_forces();
+  end_of_step();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVILedger::post_force(int /*vflag*/)
+{
+  dt_step = update->dt;
+  book_forces();
+}
+
+/* ----------------------------------------------------------------------
+   called once per broken bond (newton_bond off: once per owner)
+------------------------------------------------------------------------- */
+
+void FixHVILedger::book_break(int n, double energy)
+{
+  nerased += n;
+  entry[BROKEN] += energy;
+  entry[BONDS_BROKEN] += force->newton_bond ? n : 0.5 * n;
+}
+
+/* ----------------------------------------------------------------------
+   a bond that breaks at the end of a step has given only the first half of its
+   kick.  The total that velocity Verlet keeps counts on the second, so what
+   leaves with the bond is phi(r) + dt/2 F.v, v averaged over before and after
+   the second half kick.  F on i is kept until that average is known.
+------------------------------------------------------------------------- */
+
+void FixHVILedger::book_lost_kick(int i, double fx, double fy, double fz)
+{
+  grow_lost();
+  const double f[3] = {fx, fy, fz};
+  add_lost(i, f);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVILedger::grow_lost()
+{
+  if (atom->nmax <= nmax) return;
+  const int nold = nmax;
+  nmax = atom->nmax;
+  memory->grow(lost, nmax, 3, "hvi/ledger:lost");
+  memset(&lost[nold][0], 0, 3 * sizeof(double) * (nmax - nold));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVILedger::add_lost(int i, const double *f)
+{
+  double *const l = lost[i];
+  if (l[0] == 0.0 && l[1] == 0.0 && l[2] == 0.0) lost_list.push_back(i);
+  l[0] += f[0];
+  l[1] += f[1];
+  l[2] += f[2];
+}
+
+/* ----------------------------------------------------------------------
+   forces are complete and untouched by other fixes, velocities are those
+   between the two half kicks
+------------------------------------------------------------------------- */
+
+void FixHVILedger::book_forces()
+{
+  if (breaking) {
+    bigint mine = nerased, all;
+    MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    nerased = 0;
+    if (all) {
+      count_erased(all);
+      grow_lost();
+      if (force->newton_bond) comm->reverse_comm(this);
+    }
+    for (const int i : lost_list)
+      if (i < atom->nlocal) entry[BROKEN] += 0.25 * dt_step * dot(lost[i], atom->v[i]);
+  }
+
+  if (clampbit) {
+    if (atom->nmax > nmax_clamp) {
+      nmax_clamp = atom->nmax;
+      memory->destroy(finternal);
+      memory->create(finternal, nmax_clamp, 3, "hvi/ledger:finternal");
+    }
+    memcpy(&finternal[0][0], &atom->f[0][0], 3 * sizeof(double) * atom->nlocal);
+    book_clamps(clamp_internal_power());
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVILedger::end_of_step()
+{
+  for (const int i : lost_list) {
+    if (i < atom->nlocal) entry[BROKEN] += 0.25 * dt_step * dot(lost[i], atom->v[i]);
+    lost[i][0] = lost[i][1] = lost[i][2] = 0.0;
+  }
+  lost_list.clear();
+
+  if (clampbit) {
+    clamp_power = clamp_internal_power();
+    book_clamps(clamp_power);
+    const ClampState now = measure_clamps();
+    entry[CLAMP_WORK] += now.energy - clamp_state.energy;
+    for (int k = 0; k < 3; k++) entry[CLAMP_JX + k] += now.momentum[k] - clamp_state.momentum[k];
+    clamp_state = now;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   first half kick of the next step; its length may be a new one
+------------------------------------------------------------------------- */
+
+void FixHVILedger::post_integrate()
+{
+  if (!clampbit) return;
+  dt_step = update->dt;
+  book_clamps(clamp_power);
+  book_clamps(clamp_internal_power());
+}
+
+/* ----------------------------------------------------------------------
+   What clamps do to their particles is the change of those particles' kinetic
+   energy and momentum less what pairs and bonds do to them.  A half kick of
+   length dt/2 from v to v' works dt/2 F.(v + v')/2, exactly.
+------------------------------------------------------------------------- */
+
+void FixHVILedger::clamp(int bit)
+{
+  clampbit |= bit;
+}
+
+FixHVILedger::ClampState FixHVILedger::measure_clamps() const
+{
+  ClampState s = {0.0, {0.0, 0.0, 0.0}};
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & clampbit) {
+      const double *const v = atom->v[i];
+      const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+      s.energy += 0.5 * force->mvv2e * m * dot(v, v);
+      for (int k = 0; k < 3; k++) s.momentum[k] += m * v[k];
+    }
+  return s;
+}
+
+double FixHVILedger::clamp_internal_power() const
+{
+  double power = 0.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & clampbit) power += dot(finternal[i], atom->v[i]);
+  return power;
+}
+
+void FixHVILedger::book_clamps(double power)
+{
+  entry[CLAMP_WORK] -= 0.25 * dt_step * power;
+
+  const double kick = 0.25 * dt_step * force->ftm2v;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & clampbit)
+      for (int k = 0; k < 3; k++) entry[CLAMP_JX + k] -= kick * finternal[i][k];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVILedger::count_erased(bigint nrecords)
+{
+  atom->nbonds -= force->newton_bond ? nrecords : nrecords / 2;
+}
+
+/* ----------------------------------------------------------------------
+   Particles beyond a fixed face of the box would be lost in the exchange that
+   follows.  If the user lets that happen (thermo_modify lost), take them out
+   here with all that leaves with them.  Velocities are those between the half
+   kicks of a step of length dt (0: at a full step).
+------------------------------------------------------------------------- */
+
+void FixHVILedger::setup_pre_exchange()
+{
+  let_go(0.0);
+}
+
+void FixHVILedger::pre_exchange()
+{
+  let_go(update->dt);
+}
+
+void FixHVILedger::let_go(double dt)
+{
+  if (output->thermo->lostflag == Thermo::ERROR) return;
+
+  bool fixed[3][2], any = false;
+  for (int k = 0; k < 3; k++)
+    for (int side = 0; side < 2; side++) {
+      fixed[k][side] = domain->boundary[k][side] == 1;
+      any = any || fixed[k][side];
+    }
+  if (!any) return;
+
+  // pick the leavers, and those who stay but may have been in touch with one
+
+  const double reach = MAX(neighbor->cutneighmax, comm->cutghostuser);
+  double skin[3], lo[3], hi[3];
+  for (int k = 0; k < 3; k++) {
+    lo[k] = domain->triclinic ? 0.0 : domain->boxlo[k];
+    hi[k] = domain->triclinic ? 1.0 : domain->boxhi[k];
+  }
+  skin[0] = skin[1] = skin[2] = reach;
+  if (domain->triclinic) {
+    const double *const h = domain->h_inv;
+    skin[0] = reach * std::sqrt(h[0] * h[0] + h[5] * h[5] + h[4] * h[4]);
+    skin[1] = reach * std::sqrt(h[1] * h[1] + h[3] * h[3]);
+    skin[2] = reach * h[2];
+  }
+
+  std::vector<int> leaving, near;
+  for (int i = 0; i < atom->nlocal; i++) {
+    double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
+    if (domain->triclinic) domain->x2lamda(atom->x[i], x);
+    bool out = false, close = false;
+    for (int k = 0; k < 3; k++) {
+      out = out || (fixed[k][0] && x[k] < lo[k]) || (fixed[k][1] && x[k] >= hi[k]);
+      close = close || (fixed[k][0] && x[k] < lo[k] + skin[k]) ||
+          (fixed[k][1] && x[k] >= hi[k] - skin[k]);
+    }
+    if (out)
+      leaving.push_back(i);
+    else if (close)
+      near.push_back(i);
+  }
+
+  bigint mine = leaving.size(), all;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all == 0) return;
+
+  // every rank sees all leavers and their bonds
+
+  const bool bonded = atom->molecular == Atom::MOLECULAR && force->bond;
+  std::vector<Leaver> out;
+  std::vector<LeaverBond> bonds;
+  for (const int i : leaving) {
+    Leaver l;
+    l.tag = atom->tag[i];
+    l.type = atom->type[i];
+    for (int k = 0; k < 3; k++) {
+      l.x[k] = atom->x[i][k];
+      l.v[k] = atom->v[i][k];
+    }
+    out.push_back(l);
+
+    const double m = atom->rmass ? atom->rmass[i] : atom->mass[l.type];
+    const double ke = 0.5 * force->mvv2e * m * dot(l.v, l.v);
+    entry[LEFT] += ke;
+    if (atom->esph_flag) entry[LEFT] += atom->esph[i];
+    for (int k = 0; k < 3; k++) entry[LEFT_PX + k] += m * l.v[k];
+    entry[LEFT_MASS] += m;
+    entry[LEFT_COUNT] += 1.0;
+    if (atom->mask[i] & clampbit) {
+      clamp_state.energy -= ke;
+      for (int k = 0; k < 3; k++) clamp_state.momentum[k] -= m * l.v[k];
+    }
+
+    if (bonded)
+      for (int n = 0; n < atom->num_bond[i]; n++)
+        if (atom->bond_type[i][n] > 0)
+          bonds.push_back({l.tag, atom->bond_atom[i][n], atom->bond_type[i][n]});
+  }
+  bigint nrecords = bonds.size();
+  out = gather_all(out);
+  bonds = gather_all(bonds);
+
+  std::unordered_map<tagint, int> leaver;
+  for (int n = 0; n < (int) out.size(); n++) leaver[out[n].tag] = n;
+
+  // energy of a pair that is torn apart, with the half kick it no longer gives
+
+  auto torn = [&](double phi, double fforce, const double *xi, const double *vi, const double *xj,
+                  const double *vj) {
+    double d[3] = {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]};
+    HVI::minimum_image(domain, d[0], d[1], d[2]);
+    double rdotv = 0.0;
+    for (int k = 0; k < 3; k++) rdotv += d[k] * (vi[k] - vj[k]);
+    return phi + 0.5 * dt * fforce * rdotv;
+  };
+  auto distsq = [&](const double *xi, const double *xj) {
+    double d[3] = {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]};
+    HVI::minimum_image(domain, d[0], d[1], d[2]);
+    return dot(d, d);
+  };
+  auto contact = [&](int itype, const double *xi, const double *vi, const Leaver &l) {
+    const double rsq = distsq(xi, l.x);
+    double fforce = 0.0;
+    if (rsq >= force->pair->cutsq[itype][l.type]) return 0.0;
+    const double phi = force->pair->single(0, 0, itype, l.type, rsq, 1.0, 1.0, fforce);
+    return torn(phi, fforce, xi, vi, l.x, l.v);
+  };
+  auto spring = [&](int btype, const double *xi, const double *vi, const Leaver &l) {
+    const double rsq = distsq(xi, l.x);
+    double fforce = 0.0;
+    const double phi = force->bond->single(btype, rsq, 0, 0, fforce);
+    return torn(phi, fforce, xi, vi, l.x, l.v);
+  };
+
+  // contacts; pairs of two leavers are booked by rank 0
+
+  if (force->pair && force->pair->single_enable) {
+    for (const int i : near)
+      for (const Leaver &l : out)
+        entry[LEFT] += contact(atom->type[i], atom->x[i], atom->v[i], l);
+    if (comm->me == 0)
+      for (size_t n = 0; n < out.size(); n++)
+        for (size_t m = 0; m < n; m++)
+          entry[LEFT] += contact(out[n].type, out[n].x, out[n].v, out[m]);
+  }
+
+  // bonds, by record: with newton_bond off a bond has one at either end
+
+  if (bonded) {
+    const double share = force->newton_bond ? 1.0 : 0.5;
+
+    for (const int i : near)
+      for (int n = 0; n < atom->num_bond[i];) {
+        auto it = leaver.find(atom->bond_atom[i][n]);
+        if (it == leaver.end()) {
+          n++;
+          continue;
+        }
+        const int btype = atom->bond_type[i][n];
+        if (btype > 0)
+          entry[LEFT] += share * spring(btype, atom->x[i], atom->v[i], out[it->second]);
+        const int last = --atom->num_bond[i];
+        atom->bond_atom[i][n] = atom->bond_atom[i][last];
+        atom->bond_type[i][n] = atom->bond_type[i][last];
+        nrecords++;
+      }
+
+    for (const LeaverBond &b : bonds) {
+      const Leaver &l = out[leaver[b.tag]];
+      auto it = leaver.find(b.partner);
+      if (it != leaver.end()) {
+        if (comm->me == 0)
+          entry[LEFT] += share * spring(b.type, out[it->second].x, out[it->second].v, l);
+      } else {
+        const int i = atom->map(b.partner);
+        if (i >= 0 && i < atom->nlocal)
+          entry[LEFT] += share * spring(b.type, atom->x[i], atom->v[i], l);
+      }
+    }
+
+    bigint allrecords;
+    MPI_Allreduce(&nrecords, &allrecords, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    count_erased(allrecords);
+    if (comm->me == 0) entry[BONDS_LEFT] += allrecords * share;
+  }
+
+  // take them out, as fix evaporate does
+
+  for (int n = (int) leaving.size() - 1; n >= 0; n--) {
+    atom->avec->copy(atom->nlocal - 1, leaving[n], 1);
+    atom->nlocal--;
+  }
+  atom->natoms -= all;
+  if (atom->map_style != Atom::MAP_NONE) {
+    atom->nghost = 0;
+    atom->map_init();
+    atom->map_set();
+  }
+  if (comm->me == 0 && output->thermo->lostflag == Thermo::WARN)
+    error->warning(FLERR, "{} particles left the box at step {}", all, update->ntimestep);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <typename T> std::vector<T> FixHVILedger::gather_all(const std::vector<T> &mine) const
+{
+  const int nbytes = mine.size() * sizeof(T);
+  std::vector<int> count(comm->nprocs), offset(comm->nprocs);
+  MPI_Allgather(&nbytes, 1, MPI_INT, count.data(), 1, MPI_INT, world);
+  int sum = 0;
+  for (int p = 0; p < comm->nprocs; p++) {
+    offset[p] = sum;
+    sum += count[p];
+  }
+
+  // one spare element at either end: no buffer is ever empty
+
+  std::vector<T> send(mine), all(sum / sizeof(T) + 1);
+  send.resize(mine.size() + 1);
+  MPI_Allgatherv(send.data(), nbytes, MPI_BYTE, all.data(), count.data(), offset.data(), MPI_BYTE,
+                 world);
+  all.resize(sum / sizeof(T));
+  return all;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixHVILedger::pack_reverse_comm(int n, int first, double *buf)
+{
+  if (n > 0) memcpy(buf, &lost[first][0], 3 * sizeof(double) * n);
+  return 3 * n;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVILedger::unpack_reverse_comm(int n, int *list, double *buf)
+{
+  for (int i = 0; i < n; i++, buf += 3)
+    if (buf[0] != 0.0 || buf[1] != 0.0 || buf[2] != 0.0) add_lost(list[i], buf);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVILedger::totals(double *sum)
+{
+  MPI_Allreduce(entry, sum, NENTRY, MPI_DOUBLE, MPI_SUM, world);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixHVILedger::start_energy(double total)
+{
+  if (!start_set) {
+    start_set = 1;
+    start = total;
+  }
+  return start;
+}
+
+/* ----------------------------------------------------------------------
+   shares are kept by rank: on the same number of ranks a continued run adds
+   up the same numbers in the same order
+------------------------------------------------------------------------- */
+
+void FixHVILedger::write_restart(FILE *fp)
+{
+  std::vector<double> list(3 + NENTRY * comm->nprocs);
+  list[0] = comm->nprocs;
+  list[1] = start_set;
+  list[2] = start;
+  MPI_Gather(entry, NENTRY, MPI_DOUBLE, &list[3], NENTRY, MPI_DOUBLE, 0, world);
+
+  if (comm->me == 0) {
+    const int size = list.size() * sizeof(double);
+    fwrite(&size, sizeof(int), 1, fp);
+    fwrite(list.data(), sizeof(double), list.size(), fp);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVILedger::restart(char *buf)
+{
+  const double *const list = (double *) buf;
+  const int nprocs = static_cast<int>(list[0]);
+  start_set = static_cast<int>(list[1]);
+  start = list[2];
+
+  for (int n = 0; n < NENTRY; n++) {
+    entry[n] = 0.0;
+    if (nprocs == comm->nprocs)
+      entry[n] = list[3 + NENTRY * comm->me + n];
+    else if (comm->me == 0)
+      for (int p = 0; p < nprocs; p++) entry[n] += list[3 + NENTRY * p + n];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixHVILedger::memory_usage()
+{
+  return 3.0 * (nmax + nmax_clamp) * sizeof(double);
+}

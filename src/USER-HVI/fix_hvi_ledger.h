@@ -1,0 +1,119 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(hvi/ledger,FixHVILedger);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_HVI_LEDGER_H
+#define LMP_FIX_HVI_LEDGER_H
+
+#include "fix.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/* ----------------------------------------------------------------------
+   The books: energy, momentum and mass that are no longer in the particles,
+   each booked where it happens.  One per simulation, made by the styles that
+   need it; read by compute hvi/energy.
+------------------------------------------------------------------------- */
+
+class FixHVILedger : public Fix {
+ public:
+  // clang-format off
+  enum Entry {
+    BROKEN,                                 // energy of broken bonds
+    LEFT,                                   // energy of particles that left the box
+    LEFT_PX, LEFT_PY, LEFT_PZ, LEFT_MASS, LEFT_COUNT,
+    BONDS_BROKEN, BONDS_LEFT,               // their numbers
+    CLAMP_WORK,                             // work of the clamps on the particles
+    CLAMP_JX, CLAMP_JY, CLAMP_JZ,           // their impulse on the particles
+    NENTRY
+  };
+  // clang-format on
+
+  FixHVILedger(class LAMMPS *, int, char **);
+  ~FixHVILedger() override;
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void post_integrate() override;
+  void setup_pre_exchange() override;
+  void pre_exchange() override;
+  void post_force(int) override;
+  void end_of_step() override;
+  int pack_reverse_comm(int, int, double *) override;
+  void unpack_reverse_comm(int, int *, double *) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  double memory_usage() override;
+
+  static FixHVILedger *instance(class LAMMPS *);    // the one of this simulation
+
+  // for bond styles, in compute()
+
+  void watch_breaking() { breaking = 1; }
+  void book_break(int nerased, double energy);
+  void book_lost_kick(int i, double fx, double fy, double fz);
+
+  // for compute hvi/energy
+
+  void clamp(int groupbit);               // particles moved by more than pairs and bonds
+  void totals(double *sum);               // the NENTRY entries, summed over ranks
+  double start_energy(double total);      // the first total ever seen, also across restarts
+
+ private:
+  struct Leaver {
+    tagint tag;
+    int type;
+    double x[3], v[3];
+  };
+  struct LeaverBond {
+    tagint tag, partner;
+    int type;
+  };
+  struct ClampState {
+    double energy, momentum[3];
+  };
+
+  double entry[NENTRY];    // this rank's share
+  int start_set;
+  double start;
+
+  int breaking;
+  int nerased;                   // bond records erased on this rank in this step
+  double dt_step;                // length of the step in progress, 0 in setup
+  int nmax;
+  double **lost;                 // force that bonds broken in this step no longer exert
+  std::vector<int> lost_list;    // owned and ghost particles with an entry in it
+
+  int clampbit;
+  int nmax_clamp;
+  double **finternal;        // forces before other fixes change them
+  double clamp_power;        // of finternal, at the end of the last step
+  ClampState clamp_state;    // likewise
+
+  void grow_lost();
+  void add_lost(int, const double *);
+  void count_erased(bigint);
+  void book_forces();
+  ClampState measure_clamps() const;
+  double clamp_internal_power() const;
+  void book_clamps(double);
+  void let_go(double);
+  template <typename T> std::vector<T> gather_all(const std::vector<T> &) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

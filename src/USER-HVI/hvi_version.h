@@ -1,0 +1,19 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_HVI_VERSION_H
+#define LMP_HVI_VERSION_H
+
+namespace HVI {
+
+// the only place where the version of the package is written; CMake reads it from here
+static constexpr char HVI_VERSION[] = "0.1.0";
+
+}    // namespace HVI
+
+#endif

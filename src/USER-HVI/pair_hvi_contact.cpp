@@ -1,0 +1,443 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "pair_hvi_contact.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+using namespace LAMMPS_NS;
+
+static constexpr double BIG = 1.0e100;
+
+/* ---------------------------------------------------------------------- */
+
+PairHVIContact::PairHVIContact(LAMMPS *lmp) :
+    Pair(lmp), prefactor(1.0), uniform(0), epsilon(nullptr), sigma(nullptr), law(nullptr)
+{
+  writedata = 1;
+  respa_enable = 0;
+  born_matrix_enable = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairHVIContact::~PairHVIContact()
+{
+  if (copymode) return;
+
+  if (allocated) {
+    memory->destroy(setflag);
+    memory->destroy(cutsq);
+    memory->destroy(epsilon);
+    memory->destroy(sigma);
+    memory->destroy(law);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVIContact::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag);
+
+  if (uniform) {
+    if (force->newton_pair)
+      evflag ? eval<1, 1, 1>() : eval<0, 1, 1>();
+    else
+      evflag ? eval<1, 0, 1>() : eval<0, 0, 1>();
+  } else {
+    if (force->newton_pair)
+      evflag ? eval<1, 1, 0>() : eval<0, 1, 0>();
+    else
+      evflag ? eval<1, 0, 0>() : eval<0, 0, 0>();
+  }
+
+  if (vflag_fdotr) virial_fdotr_compute();
+}
+
+/* ----------------------------------------------------------------------
+   One sweep over the half list; bonded pairs are in it like all others.
+   Whether a pair at rest touches is a coin toss, and a mispredicted branch
+   costs more than the force: so first collect the pairs in touch without a
+   branch, then work through them.
+   UNIFORM: all types share one law, their types need not be fetched
+------------------------------------------------------------------------- */
+
+template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void PairHVIContact::eval()
+{
+  if (list->inum == 0) return;
+
+  // rows of x and f lie side by side: no need to fetch their pointers
+
+  const double(*const x)[3] = (const double(*)[3]) atom->x[0];
+  double(*const f)[3] = (double(*)[3]) atom->f[0];
+  const int *const type = atom->type;
+  const int nlocal = atom->nlocal;
+
+  const int inum = list->inum;
+  const int *const ilist = list->ilist;
+  const int *const numneigh = list->numneigh;
+  const int *const *const firstneigh = list->firstneigh;
+
+  const HVI::Contact same = law[1][1];
+  Touch touch[NTOUCH];
+
+  for (int ii = 0; ii < inum; ii++) {
+    const int i = ilist[ii];
+    const double xtmp = x[i][0];
+    const double ytmp = x[i][1];
+    const double ztmp = x[i][2];
+    const HVI::Contact *const ilaw = law[type[i]];
+    const int *const jlist = firstneigh[i];
+    const int jnum = numneigh[i];
+    double fxtmp = 0.0, fytmp = 0.0, fztmp = 0.0;
+
+    for (int jfirst = 0; jfirst < jnum; jfirst += NTOUCH) {
+      const int jlast = MIN(jfirst + NTOUCH, jnum);
+      int ntouch = 0;
+      for (int jj = jfirst; jj < jlast; jj++) {
+        const int j = jlist[jj] & NEIGHMASK;
+        const double delx = xtmp - x[j][0];
+        const double dely = ytmp - x[j][1];
+        const double delz = ztmp - x[j][2];
+        const double rsq = delx * delx + dely * dely + delz * delz;
+        touch[ntouch] = {delx, dely, delz, rsq, j};
+        ntouch += rsq < (UNIFORM ? same.cutsq : ilaw[type[j]].cutsq);
+      }
+
+      for (int n = 0; n < ntouch; n++) {
+        const Touch &t = touch[n];
+        const HVI::Contact &c = UNIFORM ? same : ilaw[type[t.j]];
+        const double fpair = c.force(t.rsq);    // Watson & Steinhauser eq 2
+        fxtmp += t.delx * fpair;
+        fytmp += t.dely * fpair;
+        fztmp += t.delz * fpair;
+        if (NEWTON_PAIR || t.j < nlocal) {
+          f[t.j][0] -= t.delx * fpair;
+          f[t.j][1] -= t.dely * fpair;
+          f[t.j][2] -= t.delz * fpair;
+        }
+
+        if (EVFLAG)
+          ev_tally(i, t.j, nlocal, NEWTON_PAIR, eflag_either ? c.energy(t.rsq) : 0.0, 0.0, fpair,
+                   t.delx, t.dely, t.delz);
+      }
+    }
+
+    f[i][0] += fxtmp;
+    f[i][1] += fytmp;
+    f[i][2] += fztmp;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   shortest sqrt(m/k) of the pairs in reach: as they stand, and where a pair
+   that approaches will turn back if left alone.  The stiffness k grows with
+   depth and with energy, so only a pair that is deeper, more energetic or
+   lighter than the worst one so far of its types needs to be worked out.
+------------------------------------------------------------------------- */
+
+void PairHVIContact::tighten(HVI::TimeStepBounds &bounds)
+{
+  const double *const *const x = atom->x;
+  const double *const *const v = atom->v;
+  const double *const rmass = atom->rmass;
+  const double *const mass = atom->mass;
+  const int *const type = atom->type;
+  const double mvv2e = force->mvv2e;
+
+  double contact = bounds.contact * bounds.contact;
+  double approach = bounds.approach * bounds.approach;
+
+  struct Worst {
+    double rsq, m_contact, e, m_approach;
+  };
+  const int np1 = atom->ntypes + 1;
+  std::vector<Worst> worst(np1 * np1, {BIG, BIG, 0.0, BIG});
+
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const int itype = type[i];
+    const int *const jlist = list->firstneigh[i];
+    const int jnum = list->numneigh[i];
+    const double mi = rmass ? rmass[i] : mass[itype];
+
+    for (int jj = 0; jj < jnum; jj++) {
+      const int j = jlist[jj] & NEIGHMASK;
+      const int jtype = type[j];
+      const double delx = x[i][0] - x[j][0];
+      const double dely = x[i][1] - x[j][1];
+      const double delz = x[i][2] - x[j][2];
+      const double rsq = delx * delx + dely * dely + delz * delz;
+      const double rdotv = delx * (v[i][0] - v[j][0]) + dely * (v[i][1] - v[j][1]) +
+          delz * (v[i][2] - v[j][2]);
+
+      const HVI::Contact &c = law[itype][jtype];
+      Worst &w = worst[itype * np1 + jtype];
+      const double mj = rmass ? rmass[j] : mass[jtype];
+      const double m = mvv2e * mi * mj / (mi + mj);
+      const bool touching = rsq < c.cutsq;
+
+      if (touching && !(rsq >= w.rsq && m >= w.m_contact)) {
+        const double bound = m / c.stiffness(rsq);
+        if (bound < contact || std::isnan(bound)) {
+          contact = bound;
+          w.rsq = rsq;
+          w.m_contact = m;
+        }
+      }
+
+      if (!(rdotv >= 0.0)) {
+        const double e = 0.5 * m * rdotv * rdotv / rsq + (touching ? c.energy(rsq) : 0.0);
+        if (!(e <= w.e && m >= w.m_approach)) {
+          const double bound = m / c.stiffness(c.turning_rsq(e));
+          if (bound < approach || std::isnan(bound)) {
+            approach = bound;
+            w.e = e;
+            w.m_approach = m;
+          }
+        }
+      }
+    }
+  }
+
+  bounds.contact = std::sqrt(contact);
+  bounds.approach = std::sqrt(approach);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVIContact::allocate()
+{
+  allocated = 1;
+  const int np1 = atom->ntypes + 1;
+
+  memory->create(setflag, np1, np1, "pair:setflag");
+  for (int i = 1; i < np1; i++)
+    for (int j = i; j < np1; j++) setflag[i][j] = 0;
+
+  memory->create(cutsq, np1, np1, "pair:cutsq");
+  memory->create(epsilon, np1, np1, "pair:epsilon");
+  memory->create(sigma, np1, np1, "pair:sigma");
+  memory->create(law, np1, np1, "pair:law");
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVIContact::settings(int narg, char **arg)
+{
+  prefactor = 1.0;
+
+  int iarg = 0;
+  while (iarg < narg) {
+    if (strcmp(arg[iarg], "prefactor") == 0) {
+      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_style hvi/contact prefactor", error);
+      prefactor = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+      if (!(prefactor > 0.0) || !std::isfinite(prefactor))
+        error->all(FLERR, "Pair_style hvi/contact prefactor must be > 0, not {}", arg[iarg + 1]);
+      iarg += 2;
+    } else
+      error->all(FLERR, "Unknown pair_style hvi/contact keyword: {}", arg[iarg]);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVIContact::coeff(int narg, char **arg)
+{
+  if (narg < 4) utils::missing_cmd_args(FLERR, "pair_coeff hvi/contact", error);
+  if (narg > 4)
+    error->all(FLERR, "Pair_coeff for pair hvi/contact takes I J epsilon sigma, but got extra: {}",
+               arg[4]);
+  if (!allocated) allocate();
+
+  int ilo, ihi, jlo, jhi;
+  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
+  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
+
+  const double epsilon_one = utils::numeric(FLERR, arg[2], false, lmp);
+  const double sigma_one = utils::numeric(FLERR, arg[3], false, lmp);
+  if (!(epsilon_one > 0.0) || !std::isfinite(epsilon_one))
+    error->all(FLERR, "Pair hvi/contact epsilon must be > 0, not {}", arg[2]);
+  if (!(sigma_one > 0.0) || !std::isfinite(sigma_one))
+    error->all(FLERR, "Pair hvi/contact sigma must be > 0, not {}", arg[3]);
+
+  int count = 0;
+  for (int i = ilo; i <= ihi; i++)
+    for (int j = MAX(jlo, i); j <= jhi; j++) {
+      epsilon[i][j] = epsilon_one;
+      sigma[i][j] = sigma_one;
+      setflag[i][j] = 1;
+      count++;
+    }
+
+  if (count == 0)
+    error->all(FLERR, "Incorrect args for pair coefficients: no type pair with I <= J in {} {}",
+               arg[0], arg[1]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVIContact::init_style()
+{
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Pair style hvi/contact does not support run_style respa");
+
+  neighbor->add_request(this);
+  uniform = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairHVIContact::init_one(int i, int j)
+{
+  if (setflag[i][j] == 0) {
+    epsilon[i][j] = mix_energy(epsilon[i][i], epsilon[j][j], sigma[i][i], sigma[j][j]);
+    sigma[i][j] = mix_distance(sigma[i][i], sigma[j][j]);
+  }
+
+  epsilon[j][i] = epsilon[i][j];
+  sigma[j][i] = sigma[i][j];
+  law[i][j] = law[j][i] = HVI::Contact::make(epsilon[i][j], sigma[i][j], prefactor);
+
+  // types are visited from 1 1 on
+
+  if (epsilon[i][j] != epsilon[1][1] || sigma[i][j] != sigma[1][1]) uniform = 0;
+
+  return HVI::Contact::r_eq(sigma[i][j]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVIContact::write_restart(FILE *fp)
+{
+  write_restart_settings(fp);
+
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      fwrite(&setflag[i][j], sizeof(int), 1, fp);
+      if (setflag[i][j]) {
+        fwrite(&epsilon[i][j], sizeof(double), 1, fp);
+        fwrite(&sigma[i][j], sizeof(double), 1, fp);
+      }
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVIContact::read_restart(FILE *fp)
+{
+  read_restart_settings(fp);
+  allocate();
+
+  const int me = comm->me;
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      if (me == 0) utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
+      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
+      if (setflag[i][j]) {
+        if (me == 0) {
+          utils::sfread(FLERR, &epsilon[i][j], sizeof(double), 1, fp, nullptr, error);
+          utils::sfread(FLERR, &sigma[i][j], sizeof(double), 1, fp, nullptr, error);
+        }
+        MPI_Bcast(&epsilon[i][j], 1, MPI_DOUBLE, 0, world);
+        MPI_Bcast(&sigma[i][j], 1, MPI_DOUBLE, 0, world);
+      }
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVIContact::write_restart_settings(FILE *fp)
+{
+  fwrite(&prefactor, sizeof(double), 1, fp);
+  fwrite(&mix_flag, sizeof(int), 1, fp);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVIContact::read_restart_settings(FILE *fp)
+{
+  if (comm->me == 0) {
+    utils::sfread(FLERR, &prefactor, sizeof(double), 1, fp, nullptr, error);
+    utils::sfread(FLERR, &mix_flag, sizeof(int), 1, fp, nullptr, error);
+  }
+  MPI_Bcast(&prefactor, 1, MPI_DOUBLE, 0, world);
+  MPI_Bcast(&mix_flag, 1, MPI_INT, 0, world);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVIContact::write_data(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    fprintf(fp, "%d %.17g %.17g\n", i, epsilon[i][i], sigma[i][i]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVIContact::write_data_all(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++)
+      fprintf(fp, "%d %d %.17g %.17g\n", i, j, epsilon[i][j], sigma[i][j]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairHVIContact::single(int /*i*/, int /*j*/, int itype, int jtype, double rsq,
+                              double /*factor_coul*/, double /*factor_lj*/, double &fforce)
+{
+  const HVI::Contact &c = law[itype][jtype];
+  if (rsq >= c.cutsq) {
+    fforce = 0.0;
+    return 0.0;
+  }
+  fforce = c.force(rsq);
+  return c.energy(rsq);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVIContact::born_matrix(int /*i*/, int /*j*/, int itype, int jtype, double rsq,
+                                 double /*factor_coul*/, double /*factor_lj*/, double &dupair,
+                                 double &du2pair)
+{
+  const HVI::Contact &c = law[itype][jtype];
+  dupair = du2pair = 0.0;
+  if (rsq >= c.cutsq) return;
+  dupair = -std::sqrt(rsq) * c.force(rsq);
+  du2pair = c.stiffness(rsq);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void *PairHVIContact::extract(const char *str, int &dim)
+{
+  dim = 2;
+  if (strcmp(str, "epsilon") == 0) return (void *) epsilon;
+  if (strcmp(str, "sigma") == 0) return (void *) sigma;
+  dim = 0;
+  if (strcmp(str, "prefactor") == 0) return (void *) &prefactor;
+  return nullptr;
+}

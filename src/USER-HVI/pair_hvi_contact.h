@@ -1,0 +1,64 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifdef PAIR_CLASS
+// clang-format off
+PairStyle(hvi/contact,PairHVIContact);
+// clang-format on
+#else
+
+#ifndef LMP_PAIR_HVI_CONTACT_H
+#define LMP_PAIR_HVI_CONTACT_H
+
+#include "hvi_contact.h"
+#include "hvi_timestep.h"
+#include "pair.h"
+
+namespace LAMMPS_NS {
+
+class PairHVIContact : public Pair, public HVI::TimeStepSource {
+ public:
+  PairHVIContact(class LAMMPS *);
+  ~PairHVIContact() override;
+
+  void compute(int, int) override;
+  void settings(int, char **) override;
+  void coeff(int, char **) override;
+  void init_style() override;
+  double init_one(int, int) override;
+  void write_restart(FILE *) override;
+  void read_restart(FILE *) override;
+  void write_restart_settings(FILE *) override;
+  void read_restart_settings(FILE *) override;
+  void write_data(FILE *) override;
+  void write_data_all(FILE *) override;
+  double single(int, int, int, int, double, double, double, double &) override;
+  void born_matrix(int, int, int, int, double, double, double, double &, double &) override;
+  void *extract(const char *, int &) override;
+  void tighten(HVI::TimeStepBounds &) override;
+
+ protected:
+  double prefactor;
+  int uniform;    // 1 if all pairs of types share one law
+  double **epsilon, **sigma;
+  HVI::Contact **law;
+
+  static constexpr int NTOUCH = 64;
+  struct Touch {
+    double delx, dely, delz, rsq;
+    int j;
+  };
+
+  void allocate();
+  template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void eval();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

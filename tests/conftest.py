@@ -1,0 +1,159 @@
+"""Fixtures for all Python tests: run LAMMPS, read its thermo output.
+
+Run by ctest (`make test`) or by hand: `pytest tests/style/test_x.py` uses build/.
+"""
+
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+ROOT = pathlib.Path(os.environ.get("HVI_ROOT", pathlib.Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(ROOT / "python"))
+
+
+def _built(variable, name):
+    path = pathlib.Path(os.environ.get(variable, ROOT / "build" / name))
+    if not path.exists():
+        pytest.fail(f"{path} does not exist: run make first, or set {variable}", pytrace=False)
+    return path
+
+
+class Result:
+    """What one LAMMPS run left behind.
+
+    stdout, stderr, log: text; returncode; command; cwd (a Path)
+    runs: for every run or minimize one dict of NumPy columns; thermo: the last of them
+    """
+
+    def __init__(self, command, cwd, returncode, stdout, stderr, log):
+        self.command, self.cwd, self.returncode = command, cwd, returncode
+        self.stdout, self.stderr, self.log = stdout, stderr, log
+        self.runs = read_thermo(log)
+
+    @property
+    def thermo(self):
+        if not self.runs:
+            raise AssertionError("no thermo output in the log\n" + str(self))
+        return self.runs[-1]
+
+    @property
+    def warnings(self):
+        return [line for line in self.log.splitlines() if line.startswith("WARNING")]
+
+    @property
+    def error(self):
+        """the text of LAMMPS's error line, '' if there is none"""
+        found = re.search(r"^ERROR[^:\n]*: *(.*)$", self.log + "\n" + self.stdout, re.M)
+        return found.group(1) if found else ""
+
+    def __str__(self):
+        return (f"in {self.cwd}: {shlex.join(map(str, self.command))}\nreturn code {self.returncode}\n"
+                f"{self.stdout[-6000:]}\n{self.stderr[-3000:]}")
+
+
+def read_thermo(log):
+    """Thermo tables of a log in the default (one) style: a list of {column: array}."""
+    runs, names, rows = [], None, []
+
+    def close():
+        if names:
+            table = np.array(rows, dtype=float).reshape(len(rows), len(names))
+            runs.append({n: table[:, i] for i, n in enumerate(names)})
+
+    for line in log.splitlines():
+        words = line.split()
+        if words and words[0] == "Step":
+            close()
+            names, rows = words, []
+        elif names:
+            if line.startswith("Loop time"):
+                close()
+                names, rows = None, []
+            elif len(words) == len(names):
+                try:
+                    rows.append([float(w) for w in words])
+                except ValueError:
+                    pass  # a warning between the lines
+    close()
+    return runs
+
+
+@pytest.fixture(scope="session")
+def root():
+    return ROOT
+
+
+@pytest.fixture(scope="session")
+def lmp_exe():
+    """LAMMPS with the package built in"""
+    return _built("HVI_LMP", "lmp")
+
+
+@pytest.fixture(scope="session")
+def lmp_stock():
+    """the same LAMMPS without the package"""
+    return _built("HVI_LMP_STOCK", "lmp-stock")
+
+
+@pytest.fixture(scope="session")
+def plugin():
+    return _built("HVI_PLUGIN", "hviplugin.so")
+
+
+@pytest.fixture
+def lmp(tmp_path, lmp_exe):
+    """Runs LAMMPS on an input text (or the Path of an input file) and returns a Result.
+
+    lmp(text, nranks=1, vars={"name": value or list}, expect_fail=False, exe=other program, extra=["-sf", "opt"],
+        cwd=folder, timeout=seconds, env={...})
+    A wrong return code or a hang fails the test. Each call has its own log.
+    """
+    count = 0
+
+    def run(text, nranks=1, vars=None, cwd=None, expect_fail=False, exe=None, extra=(), timeout=300, env=None):
+        nonlocal count
+        count += 1
+        cwd = pathlib.Path(cwd or tmp_path)
+        cwd.mkdir(parents=True, exist_ok=True)
+        if isinstance(text, pathlib.Path):
+            infile = text
+        else:
+            infile = cwd / f"in.{count}"
+            infile.write_text(text)
+        log = cwd / f"log.{count}"
+        command = [ROOT / "cmake" / "env.sh"]
+        if nranks > 1:
+            command += ["mpirun", "-np", str(nranks)]
+        command += [exe or lmp_exe, "-in", infile, "-log", log]
+        for name, value in (vars or {}).items():
+            values = value if isinstance(value, (list, tuple)) else [value]
+            command += ["-var", name, *map(str, values)]
+        command = [str(c) for c in [*command, *extra]]
+        # a group of its own: on a hang mpirun and all its ranks end
+        process = subprocess.Popen(command, cwd=cwd, env={**os.environ, **(env or {})}, text=True, errors="replace",
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   start_new_session=True)
+        try:
+            out, err = process.communicate(timeout=timeout)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, 15)
+            try:
+                out, err = process.communicate(timeout=10)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, 9)
+                out, err = process.communicate()
+            pytest.fail(f"no end after {timeout} s: {shlex.join(command)}\n{out[-3000:]}\n{err[-2000:]}", pytrace=False)
+        result = Result(command, cwd, process.returncode, out, err, log.read_text() if log.exists() else "")
+        if expect_fail and result.returncode == 0:
+            pytest.fail(f"should have failed: {result}", pytrace=False)
+        if not expect_fail and result.returncode != 0:
+            pytest.fail(str(result), pytrace=False)
+        return result
+
+    return run
