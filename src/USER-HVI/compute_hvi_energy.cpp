@@ -32,7 +32,8 @@ using namespace LAMMPS_NS;
 enum {
   KINETIC, INTERNAL, CONTACT, SPRING, BROKEN, LEFT, CLAMPS, TOTAL, RATIO,
   PX, PY, PZ, LEFT_PX, LEFT_PY, LEFT_PZ, JX, JY, JZ,
-  MASS, LEFT_MASS, LEFT_COUNT, BONDS_BROKEN, BONDS_LEFT, NVALUES
+  MASS, LEFT_MASS, LEFT_COUNT, BONDS_BROKEN, BONDS_LEFT,
+  P0X, P0Y, P0Z, MASS0, NVALUES
 };
 // clang-format on
 
@@ -92,7 +93,7 @@ void ComputeHVIEnergy::init()
 
 void ComputeHVIEnergy::setup()
 {
-  compute_vector();
+  if (update->eflag_global == update->ntimestep) compute_vector();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -151,6 +152,11 @@ void ComputeHVIEnergy::compute_vector()
 
   vector[TOTAL] = 0.0;
   for (int n = KINETIC; n < TOTAL; n++) vector[TOTAL] += vector[n];
-  const double start = ledger->start_energy(vector[TOTAL]);
-  vector[RATIO] = (start != 0.0) ? vector[TOTAL] / start : 1.0;
+
+  const double now[FixHVILedger::NSTART] = {vector[TOTAL], vector[PX], vector[PY], vector[PZ],
+                                            vector[MASS]};
+  const double *const start = ledger->first(now);
+  vector[RATIO] = start[0] != 0.0 ? vector[TOTAL] / start[0] : 1.0;
+  for (int k = 0; k < 3; k++) vector[P0X + k] = start[1 + k];
+  vector[MASS0] = start[4];
 }

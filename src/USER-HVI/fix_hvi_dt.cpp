@@ -31,10 +31,11 @@ using namespace FixConst;
 
 static constexpr double BIG = 1.0e100;
 
-// the step may shrink at once but grows slowly: velocity Verlet keeps energy only while
-// its step changes little from one to the next
+// The step may shrink at once but grows by no more than this in one step: velocity Verlet keeps
+// energy only while its step changes slowly.  Where a whole plate is struck at once and rebounds,
+// 0.2 % in place of 0.05 % costs 100 times the drift.
 
-static constexpr double GROWTH = 1.02;
+static constexpr double GROWTH = 1.0005;
 
 // no two particles come closer by more than this part of a contact distance in one step, so
 // that a pair is seen on its approach before it is deep in contact
@@ -47,7 +48,7 @@ enum { MAXIMUM, CONTACT, SPRING, APPROACH, GROWING, NLIMITER };
 
 FixHVIDt::FixHVIDt(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtmin(0.0), dtmax(BIG), every(10), limiter(MAXIMUM), restored(0),
-    reach(0.0)
+    laststep(0), reach(0.0)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix hvi/dt", error);
 
@@ -126,9 +127,10 @@ void FixHVIDt::init()
 
 void FixHVIDt::setup(int /*vflag*/)
 {
-  const double dt = restored ? update->dt : choose(BIG);
-  restored = 0;
-  apply(dt);
+  if (restored)
+    restored = 0;
+  else
+    apply(choose(BIG));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -138,13 +140,14 @@ void FixHVIDt::end_of_step()
   // a pair that is new in the list has not been looked at yet
 
   if (update->ntimestep % every && neighbor->lastcall != update->ntimestep) return;
-  apply(choose(GROWTH * update->dt));
+  apply(choose(std::pow(GROWTH, update->ntimestep - laststep) * update->dt));
 }
 
 /* ---------------------------------------------------------------------- */
 
 double FixHVIDt::choose(double grown)
 {
+  laststep = update->ntimestep;
   comm->forward_comm(this);
 
   HVI::TimeStepBounds bounds = {BIG, BIG, BIG};
@@ -256,10 +259,10 @@ void FixHVIDt::unpack_forward_comm(int n, int first, double *buf)
 void FixHVIDt::write_restart(FILE *fp)
 {
   if (comm->me) return;
-  const double list[2] = {update->dt, (double) limiter};
+  const double list[3] = {update->dt, (double) limiter, (double) laststep};
   const int size = sizeof(list);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(list, sizeof(double), 2, fp);
+  fwrite(list, sizeof(double), 3, fp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -270,5 +273,6 @@ void FixHVIDt::restart(char *buf)
   update->dt = list[0];
   update->dt_default = 0;
   limiter = static_cast<int>(list[1]);
+  laststep = static_cast<bigint>(list[2]);
   restored = 1;
 }

@@ -41,6 +41,7 @@ class FixHVIDt : public Fix {
   int every;
   int limiter;
   int restored;
+  bigint laststep;    // that chose dt
   double reach;    // shortest cutoff of the pair style
   std::vector<HVI::TimeStepSource *> sources;
 

@@ -55,7 +55,7 @@ FixHVILedger *FixHVILedger::instance(LAMMPS *lmp)
 /* ---------------------------------------------------------------------- */
 
 FixHVILedger::FixHVILedger(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), entry(), start_set(0), start(0.0), breaking(0), nerased(0), dt_step(0.0),
+    Fix(lmp, narg, arg), entry(), start_set(0), start(), breaking(0), nerased(0), dt_step(0.0),
     nmax(0), lost(nullptr), clampbit(0), nmax_clamp(0), finternal(nullptr), clamp_power(0.0),
     clamp_state()
 {
@@ -93,14 +93,12 @@ void FixHVILedger::init()
 
   // clamps are what other fixes make of the forces, so see the forces before they do
 
-  for (auto &ifix : modify->get_fix_list()) {
-    if (ifix == this) break;
-    if (ifix->setmask() & POST_FORCE)
+  for (int i = 0; i < modify->nfix && modify->fix[i] != this; i++)
+    if (modify->fmask[i] & POST_FORCE)
       error->all(FLERR,
                  "Compute hvi/energy with clamps must be defined before fix {} ({}): it books the "
                  "forces that clamps take up",
-                 ifix->id, ifix->style);
-  }
+                 modify->fix[i]->id, modify->fix[i]->style);
 }
 
 /* ----------------------------------------------------------------------
@@ -429,11 +427,14 @@ void FixHVILedger::let_go(double dt)
   }
 
   // bonds, by record: with newton_bond off a bond has one at either end
+  // the atom map may be gone by now: fix balance migrates particles before us
 
   if (bonded) {
     const double share = force->newton_bond ? 1.0 : 0.5;
+    std::unordered_map<tagint, int> stayer;
 
-    for (const int i : near)
+    for (const int i : near) {
+      stayer[atom->tag[i]] = i;
       for (int n = 0; n < atom->num_bond[i];) {
         auto it = leaver.find(atom->bond_atom[i][n]);
         if (it == leaver.end()) {
@@ -448,6 +449,7 @@ void FixHVILedger::let_go(double dt)
         atom->bond_type[i][n] = atom->bond_type[i][last];
         nrecords++;
       }
+    }
 
     for (const LeaverBond &b : bonds) {
       const Leaver &l = out[leaver[b.tag]];
@@ -456,9 +458,9 @@ void FixHVILedger::let_go(double dt)
         if (comm->me == 0)
           entry[LEFT] += share * spring(b.type, out[it->second].x, out[it->second].v, l);
       } else {
-        const int i = atom->map(b.partner);
-        if (i >= 0 && i < atom->nlocal)
-          entry[LEFT] += share * spring(b.type, atom->x[i], atom->v[i], l);
+        auto jt = stayer.find(b.partner);
+        if (jt != stayer.end())
+          entry[LEFT] += share * spring(b.type, atom->x[jt->second], atom->v[jt->second], l);
       }
     }
 
@@ -532,11 +534,11 @@ void FixHVILedger::totals(double *sum)
 
 /* ---------------------------------------------------------------------- */
 
-double FixHVILedger::start_energy(double total)
+const double *FixHVILedger::first(const double *now)
 {
   if (!start_set) {
     start_set = 1;
-    start = total;
+    memcpy(start, now, sizeof(start));
   }
   return start;
 }
@@ -548,11 +550,11 @@ double FixHVILedger::start_energy(double total)
 
 void FixHVILedger::write_restart(FILE *fp)
 {
-  std::vector<double> list(3 + NENTRY * comm->nprocs);
+  std::vector<double> list(2 + NSTART + NENTRY * comm->nprocs);
   list[0] = comm->nprocs;
   list[1] = start_set;
-  list[2] = start;
-  MPI_Gather(entry, NENTRY, MPI_DOUBLE, &list[3], NENTRY, MPI_DOUBLE, 0, world);
+  memcpy(&list[2], start, sizeof(start));
+  MPI_Gather(entry, NENTRY, MPI_DOUBLE, &list[2 + NSTART], NENTRY, MPI_DOUBLE, 0, world);
 
   if (comm->me == 0) {
     const int size = list.size() * sizeof(double);
@@ -565,17 +567,18 @@ void FixHVILedger::write_restart(FILE *fp)
 
 void FixHVILedger::restart(char *buf)
 {
-  const double *const list = (double *) buf;
+  const double *list = (double *) buf;
   const int nprocs = static_cast<int>(list[0]);
   start_set = static_cast<int>(list[1]);
-  start = list[2];
+  memcpy(start, &list[2], sizeof(start));
+  list += 2 + NSTART;
 
   for (int n = 0; n < NENTRY; n++) {
     entry[n] = 0.0;
     if (nprocs == comm->nprocs)
-      entry[n] = list[3 + NENTRY * comm->me + n];
+      entry[n] = list[NENTRY * comm->me + n];
     else if (comm->me == 0)
-      for (int p = 0; p < nprocs; p++) entry[n] += list[3 + NENTRY * p + n];
+      for (int p = 0; p < nprocs; p++) entry[n] += list[NENTRY * p + n];
   }
 }
 

@@ -69,7 +69,8 @@ class FixHVILedger : public Fix {
 
   void clamp(int groupbit);               // particles moved by more than pairs and bonds
   void totals(double *sum);               // the NENTRY entries, summed over ranks
-  double start_energy(double total);      // the first total ever seen, also across restarts
+  enum { START_ENERGY, START_PX, START_PY, START_PZ, START_MASS, NSTART };
+  const double *first(const double *now);    // the first totals ever seen, also across restarts
 
  private:
   struct Leaver {
@@ -87,7 +88,7 @@ class FixHVILedger : public Fix {
 
   double entry[NENTRY];    // this rank's share
   int start_set;
-  double start;
+  double start[NSTART];
 
   int breaking;
   int nerased;                   // bond records erased on this rank in this step

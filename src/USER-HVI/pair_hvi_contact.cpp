@@ -99,7 +99,7 @@ template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void PairHVIContact::eval()
   const int *const numneigh = list->numneigh;
   const int *const *const firstneigh = list->firstneigh;
 
-  const HVI::Contact same = law[1][1];
+  const HVI::Contact same = common;
   Touch touch[NTOUCH];
 
   for (int ii = 0; ii < inum; ii++) {
@@ -304,7 +304,7 @@ void PairHVIContact::init_style()
     error->all(FLERR, "Pair style hvi/contact does not support run_style respa");
 
   neighbor->add_request(this);
-  uniform = 1;
+  uniform = -1;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -320,9 +320,11 @@ double PairHVIContact::init_one(int i, int j)
   sigma[j][i] = sigma[i][j];
   law[i][j] = law[j][i] = HVI::Contact::make(epsilon[i][j], sigma[i][j], prefactor);
 
-  // types are visited from 1 1 on
-
-  if (epsilon[i][j] != epsilon[1][1] || sigma[i][j] != sigma[1][1]) uniform = 0;
+  if (uniform < 0) {
+    uniform = 1;
+    common = law[i][j];
+  } else if (law[i][j].depth != common.depth || law[i][j].cutsq != common.cutsq)
+    uniform = 0;
 
   return HVI::Contact::r_eq(sigma[i][j]);
 }

@@ -44,7 +44,8 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource {
 
  protected:
   double prefactor;
-  int uniform;    // 1 if all pairs of types share one law
+  int uniform;            // 1 if all pairs of types share one law,
+  HVI::Contact common;    // and this is it
   double **epsilon, **sigma;
   HVI::Contact **law;
 

@@ -1,0 +1,220 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+#include "compute_hvi_fragment.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "region.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+enum { N_FRAG, N_PART, FRAGMENTATION, LARGEST, SINGLES, NVALUES };    // global vector
+static constexpr int NCOLS = 11;                                      // of a row
+
+/* ---------------------------------------------------------------------- */
+
+ComputeHVIFragment::ComputeHVIFragment(LAMMPS *lmp, int narg, char **arg) :
+    ComputeHVIFragmentAtom(lmp, narg, arg, 1), idregion(nullptr), region(nullptr), table_step(-1)
+{
+  vector_flag = local_flag = 1;
+  size_vector = NVALUES;
+  extvector = 0;
+  size_local_cols = NCOLS;
+  size_local_rows = 0;
+
+  while (iarg < narg) {
+    if (strcmp(arg[iarg], "region") == 0) {
+      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "compute hvi/fragment region", error);
+      if (!domain->get_region_by_id(arg[iarg + 1]))
+        error->all(FLERR, "Region {} for compute hvi/fragment does not exist", arg[iarg + 1]);
+      delete[] idregion;
+      idregion = utils::strdup(arg[iarg + 1]);
+      iarg += 2;
+    } else
+      error->all(FLERR, "Unknown compute hvi/fragment keyword: {}", arg[iarg]);
+  }
+
+  vector = new double[size_vector];
+}
+
+/* ---------------------------------------------------------------------- */
+
+ComputeHVIFragment::~ComputeHVIFragment()
+{
+  delete[] idregion;
+  delete[] vector;
+  memory->destroy(array_local);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIFragment::init()
+{
+  ComputeHVIFragmentAtom::init();
+
+  if (idregion) {
+    region = domain->get_region_by_id(idregion);
+    if (!region) error->all(FLERR, "Region {} for compute hvi/fragment does not exist", idregion);
+  }
+  table_step = -1;    // a new run may start at the same step from other particles
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIFragment::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+  make_rows();
+
+  double mine[NVALUES] = {0.0}, sum[NVALUES], mass = 0.0, largest = 0.0;
+  mine[N_FRAG] = rows.size();
+  for (const Row &r : rows) {
+    mine[N_PART] += r.count;
+    mine[LARGEST] += r.mass;
+    if (r.count == 1.0) mine[SINGLES] += r.mass;
+    mass = MAX(mass, r.mass);
+  }
+  MPI_Allreduce(mine, sum, NVALUES, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(&mass, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
+
+  vector[N_FRAG] = sum[N_FRAG];
+  vector[N_PART] = sum[N_PART];
+  vector[FRAGMENTATION] = (sum[N_PART] > 0.0) ? sum[N_FRAG] / sum[N_PART] : 0.0;
+  vector[LARGEST] = (sum[LARGEST] > 0.0) ? largest / sum[LARGEST] : 0.0;
+  vector[SINGLES] = sum[SINGLES];
+}
+
+/* ----------------------------------------------------------------------
+   rank 0 holds them all: a dump shows them in order
+------------------------------------------------------------------------- */
+
+void ComputeHVIFragment::compute_local()
+{
+  invoked_local = update->ntimestep;
+  make_rows();
+
+  std::vector<Row> all = HVI::deliver(world, rows, std::vector<int>(rows.size(), 0));
+  std::sort(all.begin(), all.end(), [](const Row &a, const Row &b) {
+    return (a.mass != b.mass) ? a.mass > b.mass : a.id < b.id;
+  });
+
+  size_local_rows = all.size();
+  memory->destroy(array_local);
+  memory->create(array_local, size_local_rows, NCOLS, "hvi/fragment:array_local");
+  for (int n = 0; n < size_local_rows; n++) {
+    const Row &r = all[n];
+    double *const col = array_local[n];
+    col[0] = r.id;
+    col[1] = r.count;
+    col[2] = r.mass;
+    for (int k = 0; k < 3; k++) {
+      col[3 + k] = r.center[k];
+      col[6 + k] = r.momentum[k] / r.mass;
+    }
+    col[9] = 0.5 * force->mvv2e * r.mvsq;
+    col[10] = 2.0 * std::sqrt(5.0 / 3.0 * r.spread / r.mass);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   the owner of a fragment's lowest ID gathers what others have of it
+------------------------------------------------------------------------- */
+
+void ComputeHVIFragment::make_rows()
+{
+  if (table_step == update->ntimestep) return;
+  table_step = update->ntimestep;
+
+  find_fragments(region);
+
+  const int nlocal = atom->nlocal;
+  const double *const *const v = atom->v;
+  const double *const rmass = atom->rmass;
+  const double *const mass = atom->mass;
+  const int *const type = atom->type;
+
+  rows.clear();
+  slot.assign(nlocal, -1);
+  std::vector<Share> shares;
+  std::vector<int> rank;
+
+  for (int i = 0; i < nlocal; i++) {
+    if (id[i] == 0) continue;
+    const HVI::Components::Node &fragment = components.component(i);
+    const bool here = fragment.rank == comm->me;
+    const int vertex = here ? fragment.vertex : components.local(i);
+
+    if (slot[vertex] < 0) {
+      const Row empty = {std::abs(fragment.id), 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0};
+      if (here) {
+        slot[vertex] = rows.size();
+        rows.push_back(empty);
+      } else {
+        slot[vertex] = shares.size();
+        shares.push_back({empty, fragment.vertex});
+        rank.push_back(fragment.rank);
+      }
+    }
+    Row &row = here ? rows[slot[vertex]] : shares[slot[vertex]].row;
+
+    Row one;
+    one.count = 1.0;
+    one.mass = rmass ? rmass[i] : mass[type[i]];
+    domain->unmap(atom->x[i], atom->image[i], one.center);
+    for (int k = 0; k < 3; k++) one.momentum[k] = one.mass * v[i][k];
+    one.mvsq = one.mass * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]);
+    one.spread = 0.0;
+    row.add(one);
+  }
+
+  for (const Share &s : HVI::deliver(world, shares, rank)) rows[slot[s.vertex]].add(s.row);
+}
+
+/* ----------------------------------------------------------------------
+   spread about the common center (Chan, Golub & LeVeque 1983): no difference
+   of large numbers
+------------------------------------------------------------------------- */
+
+void ComputeHVIFragment::Row::add(const Row &other)
+{
+  const double total = mass + other.mass;
+  const double part = other.mass / total;
+  double distsq = 0.0;
+  for (int k = 0; k < 3; k++) {
+    const double d = other.center[k] - center[k];
+    distsq += d * d;
+    center[k] += part * d;
+    momentum[k] += other.momentum[k];
+  }
+  spread += other.spread + mass * part * distsq;
+  count += other.count;
+  mass = total;
+  mvsq += other.mvsq;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeHVIFragment::memory_usage()
+{
+  return ComputeHVIFragmentAtom::memory_usage() + (double) rows.capacity() * sizeof(Row) +
+      (double) slot.capacity() * sizeof(int) + (double) size_local_rows * NCOLS * sizeof(double);
+}

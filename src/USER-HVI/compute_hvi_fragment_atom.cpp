@@ -1,0 +1,282 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "compute_hvi_fragment_atom.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "neigh_list.h"
+#include "neigh_request.h"
+#include "neighbor.h"
+#include "output.h"
+#include "pair.h"
+#include "region.h"
+#include "thermo.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+static constexpr char DAMAGE[] = "hvi_damage";
+
+// a node travels in the place of doubles
+
+static constexpr int NODE_SIZE = sizeof(HVI::Components::Node) / sizeof(double);
+static_assert(sizeof(HVI::Components::Node) == NODE_SIZE * sizeof(double));
+
+/* ---------------------------------------------------------------------- */
+
+ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg) :
+    ComputeHVIFragmentAtom(lmp, narg, arg, 0)
+{
+  peratom_flag = 1;
+  size_peratom_cols = 0;
+}
+
+/* ----------------------------------------------------------------------
+   keywords: 1 if the derived class reads on at arg[iarg]
+------------------------------------------------------------------------- */
+
+ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg, int keywords) :
+    Compute(lmp, narg, arg), iarg(3), components(world), mode(BONDS), cutoff(0.0), damage(0),
+    list(nullptr), nmax(0), fragment(nullptr), node(nullptr)
+{
+  comm_forward = NODE_SIZE;
+
+  const std::string name = fmt::format("compute {}", style);
+  if (narg < 4) utils::missing_cmd_args(FLERR, name, error);
+  if (strcmp(arg[iarg], "bonds") == 0) {
+    mode = BONDS;
+    iarg++;
+  } else if (strcmp(arg[iarg], "distance") == 0) {
+    mode = DISTANCE;
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, name + " distance", error);
+    cutoff = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    if (!(cutoff > 0.0) || !std::isfinite(cutoff))
+      error->all(FLERR, "Compute {} distance must be > 0, not {}", style, arg[iarg + 1]);
+    iarg += 2;
+    if (iarg < narg && strcmp(arg[iarg], "damage") == 0) {
+      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, name + " damage", error);
+      damage = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      iarg += 2;
+    }
+  } else
+    error->all(FLERR, "Unknown compute {} mode: {} (must be bonds or distance)", style, arg[iarg]);
+
+  if (!keywords && iarg < narg)
+    error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[iarg]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+ComputeHVIFragmentAtom::~ComputeHVIFragmentAtom()
+{
+  memory->destroy(fragment);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIFragmentAtom::init()
+{
+  if (!atom->tag_enable)
+    error->all(FLERR, "Compute {} requires atoms with IDs", style);
+  if (mode == BONDS) {
+    if (atom->molecular != Atom::MOLECULAR)
+      error->all(FLERR, "Compute {} bonds requires an atom style with bonds stored per atom", style);
+    return;
+  }
+
+  if (damage) find_damage();
+
+  // what the neighbor list would leave out
+
+  if (atom->nbonds > 0)
+    for (int i = 1; i <= 3; i++)
+      if (force->special_lj[i] == 0.0 && force->special_coul[i] == 0.0)
+        error->all(FLERR,
+                   "Compute {} distance would miss bonded pairs: use special_bonds with weights "
+                   "other than 0, or mode bonds",
+                   style);
+  if (neighbor->style != Neighbor::BIN && neighbor->style != Neighbor::NSQ)
+    error->all(FLERR, "Compute {} distance requires neighbor style bin or nsq", style);
+
+  // the list is built when first asked for after a rebuild, and used until the next: meanwhile
+  // particles that were half a skin from home may have come half a skin to the other side
+
+  const double cutlist = cutoff + 2.0 * neighbor->skin;
+  const double cutghost =
+      MAX(force->pair ? force->pair->cutforce + neighbor->skin : 0.0, comm->cutghostuser);
+  if (cutlist > cutghost)
+    error->all(FLERR,
+               "Compute {} distance {} plus twice the neighbor skin needs ghosts within {:.8}, but "
+               "they reach only {:.8}: use comm_modify cutoff",
+               style, cutoff, cutlist, cutghost);
+  neighbor->add_request(this, NeighConst::REQ_OCCASIONAL)->set_cutoff(cutlist);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIFragmentAtom::init_list(int /*which*/, NeighList *ptr)
+{
+  list = ptr;
+}
+
+/* ----------------------------------------------------------------------
+   damage of the particles, as fixes that compute it keep it
+------------------------------------------------------------------------- */
+
+const double *ComputeHVIFragmentAtom::find_damage() const
+{
+  int isdouble, ncols;
+  const int index = atom->find_custom(DAMAGE, isdouble, ncols);
+  if (index < 0 || !isdouble || ncols)
+    error->all(FLERR, "Compute {} damage yes: nothing here provides damage (property d_{})", style,
+               DAMAGE);
+  return atom->dvector[index];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIFragmentAtom::compute_peratom()
+{
+  invoked_peratom = update->ntimestep;
+
+  if (atom->nmax > nmax) {
+    nmax = atom->nmax;
+    memory->destroy(fragment);
+    memory->create(fragment, nmax, "hvi/fragment/atom:fragment");
+    vector_atom = fragment;
+  }
+
+  find_fragments(nullptr);
+  for (int i = 0; i < atom->nlocal; i++)
+    fragment[i] = static_cast<double>(std::abs(components.component(i).id));
+}
+
+/* ----------------------------------------------------------------------
+   among the particles of the group and the region: both ends must be in it
+------------------------------------------------------------------------- */
+
+void ComputeHVIFragmentAtom::find_fragments(Region *region)
+{
+  const int nlocal = atom->nlocal;
+  const tagint *const tag = atom->tag;
+  const int *const mask = atom->mask;
+
+  id.assign(nlocal, 0);
+  if (region) region->prematch();
+  for (int i = 0; i < nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    if (region) {
+      double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
+      domain->remap(x);    // it may have left a periodic box since the last rebuild
+      if (!region->match(x[0], x[1], x[2])) continue;
+    }
+    id[i] = tag[i];
+  }
+
+  if (damage) {
+    const double *const d = find_damage();
+    for (int i = 0; i < nlocal; i++)
+      if (!(d[i] < 1.0)) id[i] = -id[i];
+  }
+
+  components.start(id, nlocal + atom->nghost);
+  if (mode == BONDS)
+    join_bonds();
+  else
+    join_close();
+  components.finish([this](HVI::Components::Node *n) {
+    node = n;
+    comm->forward_comm(this);
+  });
+}
+
+/* ----------------------------------------------------------------------
+   a bond is known to the owner of at least one end: no matter which
+------------------------------------------------------------------------- */
+
+void ComputeHVIFragmentAtom::join_bonds()
+{
+  const int *const num_bond = atom->num_bond;
+  const int *const *const bond_type = atom->bond_type;
+  const tagint *const *const bond_atom = atom->bond_atom;
+
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (id[i] == 0) continue;
+    for (int m = 0; m < num_bond[i]; m++) {
+      if (bond_type[i][m] <= 0) continue;
+      const int j = atom->map(bond_atom[i][m]);
+      if (j >= 0)
+        components.join(i, j);
+      else if (output->thermo->lostbond == Thermo::ERROR)
+        error->one(FLERR,
+                   "Compute {}: atom {} is bonded to atom {}, which is neither on this rank nor "
+                   "among its ghosts: use comm_modify cutoff",
+                   style, atom->tag[i], bond_atom[i][m]);
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIFragmentAtom::join_close()
+{
+  comm->forward_comm();    // ghosts are behind if the box has changed since
+  neighbor->build_one(list);
+
+  const double *const *const x = atom->x;
+  const double cutsq = cutoff * cutoff;
+
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    if (id[i] == 0) continue;
+    for (int jj = 0; jj < list->numneigh[i]; jj++) {
+      const int j = list->firstneigh[i][jj] & NEIGHMASK;
+      const double delx = x[i][0] - x[j][0];
+      const double dely = x[i][1] - x[j][1];
+      const double delz = x[i][2] - x[j][2];
+      if (delx * delx + dely * dely + delz * delz < cutsq) components.join(i, j);
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+int ComputeHVIFragmentAtom::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
+                                              int * /*pbc*/)
+{
+  for (int i = 0; i < n; i++) memcpy(&buf[NODE_SIZE * i], &node[list[i]], sizeof(node[0]));
+  return NODE_SIZE * n;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIFragmentAtom::unpack_forward_comm(int n, int first, double *buf)
+{
+  memcpy(&node[first], buf, n * sizeof(node[0]));
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeHVIFragmentAtom::memory_usage()
+{
+  return (double) nmax * sizeof(double) + (double) id.capacity() * sizeof(int64_t) +
+      components.memory_usage();
+}

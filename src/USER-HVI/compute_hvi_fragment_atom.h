@@ -1,0 +1,73 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifdef COMPUTE_CLASS
+// clang-format off
+ComputeStyle(hvi/fragment/atom,ComputeHVIFragmentAtom);
+// clang-format on
+#else
+
+#ifndef LMP_COMPUTE_HVI_FRAGMENT_ATOM_H
+#define LMP_COMPUTE_HVI_FRAGMENT_ATOM_H
+
+#include "compute.h"
+
+#include "hvi_components.h"
+
+namespace LAMMPS_NS {
+
+/* ----------------------------------------------------------------------
+   Fragments: particles of the group that hang together through others of the
+   group.  The lowest atom ID in a fragment is its ID.
+
+   bonds         bonded particles hang together: live bonds only, as the bond
+                 style has left them in the last force evaluation
+   distance R    particles closer than R hang together; with "damage yes" those
+                 whose damage (property d_hvi_damage) has reached 1 stay alone
+------------------------------------------------------------------------- */
+
+class ComputeHVIFragmentAtom : public Compute {
+ public:
+  ComputeHVIFragmentAtom(class LAMMPS *, int, char **);
+  ~ComputeHVIFragmentAtom() override;
+  void init() override;
+  void init_list(int, class NeighList *) override;
+  void compute_peratom() override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  double memory_usage() override;
+
+ protected:
+  ComputeHVIFragmentAtom(class LAMMPS *, int, char **, int keywords);
+
+  int iarg;    // first argument after MODE
+  HVI::Components components;
+  std::vector<int64_t> id;    // atom ID; 0 if left out, < 0 if it stays alone
+
+  void find_fragments(class Region *);
+
+ private:
+  enum Mode { BONDS, DISTANCE };
+
+  Mode mode;
+  double cutoff;
+  int damage;         // 1: failed particles stay alone
+  class NeighList *list;
+  int nmax;
+  double *fragment;
+  HVI::Components::Node *node;    // what forward communication carries
+
+  const double *find_damage() const;
+  void join_bonds();
+  void join_close();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
