@@ -61,7 +61,7 @@ sanitize:
 
 doc:
 	@cmake/deps.sh doc
-	@python=$$(cmake/find-python.sh sphinx) && $$python -m sphinx -q -W --keep-going -b html -d $(OUT)/doc/doctrees doc $(OUT)/doc/html
+	@python=$$(cmake/find-python.sh sphinx) && $$python -m sphinx -q -W --keep-going -b html -d $(OUT)/doc/doctrees doc/src $(OUT)/doc/html
 	@echo "documentation: $(OUT)/doc/html/index.html"
 
 bench bench-full:

@@ -201,7 +201,7 @@ void BondHVISpring::tighten(HVI::TimeStepBounds &bounds)
   double spring = bounds.spring * bounds.spring;
   for (int n = 0; n < neighbor->nbondlist; n++) {
     const int btype = neighbor->bondlist[n][2];
-    if (btype <= 0) continue;
+    if (btype <= 0 || !setflag[btype]) continue;    // broken, or of another style under hybrid
     const int i1 = neighbor->bondlist[n][0];
     const int i2 = neighbor->bondlist[n][1];
     const double m1 = rmass ? rmass[i1] : mass[type[i1]];
