@@ -56,7 +56,7 @@ FixHVILedger *FixHVILedger::instance(LAMMPS *lmp)
 
 FixHVILedger::FixHVILedger(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), entry(), start_set(0), start(), breaking(0), nerased(0), dt_step(0.0),
-    nmax(0), lost(nullptr), clampbit(0), nmax_clamp(0), finternal(nullptr), clamp_power(0.0),
+    nmax(0), lost(nullptr), clampbit(0), finternal(nullptr), xold(nullptr), dx(nullptr),
     clamp_state()
 {
   if (strcmp(id, LEDGER_ID) != 0)
@@ -65,6 +65,8 @@ FixHVILedger::FixHVILedger(LAMMPS *lmp, int narg, char **arg) :
   restart_global = 1;
   comm_reverse = 3;
   nevery = 1;
+  maxexchange = 3;
+  atom->add_callback(Atom::GROW);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -73,6 +75,9 @@ FixHVILedger::~FixHVILedger()
 {
   memory->destroy(lost);
   memory->destroy(finternal);
+  memory->destroy(xold);
+  memory->destroy(dx);
+  atom->delete_callback(id, Atom::GROW);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -109,7 +114,10 @@ void FixHVILedger::init()
 void FixHVILedger::setup(int /*vflag*/)
 {
   dt_step = 0.0;
-  if (clampbit) clamp_state = measure_clamps();
+  if (clampbit) {
+    clamp_state = measure_clamps();
+    for (int i = 0; i < atom->nlocal; i++) dx[i][0] = dx[i][1] = dx[i][2] = 0.0;
+  }
   book_forces();
   end_of_step();
 }
@@ -189,14 +197,9 @@ void FixHVILedger::book_forces()
       if (i < atom->nlocal) entry[BROKEN] += 0.25 * dt_step * dot(lost[i], atom->v[i]);
   }
 
-  if (clampbit) {
-    if (atom->nmax > nmax_clamp) {
-      nmax_clamp = atom->nmax;
-      memory->destroy(finternal);
-      memory->create(finternal, nmax_clamp, 3, "hvi/ledger:finternal");
-    }
+  if (clampbit && atom->nlocal) {
     memcpy(&finternal[0][0], &atom->f[0][0], 3 * sizeof(double) * atom->nlocal);
-    book_clamps(clamp_internal_power());
+    book_clamps();
   }
 }
 
@@ -211,37 +214,81 @@ void FixHVILedger::end_of_step()
   lost_list.clear();
 
   if (clampbit) {
-    clamp_power = clamp_internal_power();
-    book_clamps(clamp_power);
     const ClampState now = measure_clamps();
     entry[CLAMP_WORK] += now.energy - clamp_state.energy;
     for (int k = 0; k < 3; k++) entry[CLAMP_JX + k] += now.momentum[k] - clamp_state.momentum[k];
     clamp_state = now;
+    if (atom->nlocal) memcpy(&xold[0][0], &atom->x[0][0], 3 * sizeof(double) * atom->nlocal);
   }
 }
 
 /* ----------------------------------------------------------------------
-   first half kick of the next step; its length may be a new one
-------------------------------------------------------------------------- */
-
-void FixHVILedger::post_integrate()
-{
-  if (!clampbit) return;
-  dt_step = update->dt;
-  book_clamps(clamp_power);
-  book_clamps(clamp_internal_power());
-}
-
-/* ----------------------------------------------------------------------
    What clamps do to their particles is the change of those particles' kinetic
-   energy and momentum less what pairs and bonds do to them.  A half kick of
-   length dt/2 from v to v' works dt/2 F.(v + v')/2, exactly.
+   energy and momentum less what pairs and bonds do to them: in a step of
+   length dt the impulse dt/2 (F_old + F_new), the work 1/2 (F_old + F_new).dx,
+   half of each booked before and after the forces change.  The displacement
+   serves whoever moves the particles, fix move as well as fix nve.
 ------------------------------------------------------------------------- */
 
 void FixHVILedger::clamp(int bit)
 {
   clampbit |= bit;
+  grow_arrays(atom->nmax);
 }
+
+void FixHVILedger::post_integrate()
+{
+  if (!clampbit) return;
+
+  dt_step = update->dt;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++) dx[i][k] = atom->x[i][k] - xold[i][k];
+  book_clamps();
+}
+
+void FixHVILedger::book_clamps()
+{
+  const double kick = 0.5 * dt_step * force->ftm2v;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & clampbit) {
+      entry[CLAMP_WORK] -= 0.5 * dot(finternal[i], dx[i]);
+      for (int k = 0; k < 3; k++) entry[CLAMP_JX + k] -= kick * finternal[i][k];
+    }
+}
+
+/* ----------------------------------------------------------------------
+   the displacement of a step outlives the migration in the middle of it;
+   nothing is stored or sent without clamps
+------------------------------------------------------------------------- */
+
+void FixHVILedger::grow_arrays(int n)
+{
+  if (!clampbit) return;
+  memory->grow(finternal, n, 3, "hvi/ledger:finternal");
+  memory->grow(xold, n, 3, "hvi/ledger:xold");
+  memory->grow(dx, n, 3, "hvi/ledger:dx");
+}
+
+void FixHVILedger::copy_arrays(int i, int j, int /*delflag*/)
+{
+  if (clampbit) memcpy(dx[j], dx[i], 3 * sizeof(double));
+}
+
+int FixHVILedger::pack_exchange(int i, double *buf)
+{
+  if (!clampbit) return 0;
+  memcpy(buf, dx[i], 3 * sizeof(double));
+  return 3;
+}
+
+int FixHVILedger::unpack_exchange(int i, double *buf)
+{
+  if (!clampbit) return 0;
+  memcpy(dx[i], buf, 3 * sizeof(double));
+  return 3;
+}
+
+/* ---------------------------------------------------------------------- */
 
 FixHVILedger::ClampState FixHVILedger::measure_clamps() const
 {
@@ -254,24 +301,6 @@ FixHVILedger::ClampState FixHVILedger::measure_clamps() const
       for (int k = 0; k < 3; k++) s.momentum[k] += m * v[k];
     }
   return s;
-}
-
-double FixHVILedger::clamp_internal_power() const
-{
-  double power = 0.0;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & clampbit) power += dot(finternal[i], atom->v[i]);
-  return power;
-}
-
-void FixHVILedger::book_clamps(double power)
-{
-  entry[CLAMP_WORK] -= 0.25 * dt_step * power;
-
-  const double kick = 0.25 * dt_step * force->ftm2v;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & clampbit)
-      for (int k = 0; k < 3; k++) entry[CLAMP_JX + k] -= kick * finternal[i][k];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -586,5 +615,5 @@ void FixHVILedger::restart(char *buf)
 
 double FixHVILedger::memory_usage()
 {
-  return 3.0 * (nmax + nmax_clamp) * sizeof(double);
+  return 3.0 * (nmax + (clampbit ? 3.0 * atom->nmax : 0.0)) * sizeof(double);
 }

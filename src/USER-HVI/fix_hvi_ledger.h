@@ -55,6 +55,10 @@ class FixHVILedger : public Fix {
   void unpack_reverse_comm(int, int *, double *) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
   double memory_usage() override;
 
   static FixHVILedger *instance(class LAMMPS *);    // the one of this simulation
@@ -98,18 +102,16 @@ class FixHVILedger : public Fix {
   std::vector<int> lost_list;    // owned and ghost particles with an entry in it
 
   int clampbit;
-  int nmax_clamp;
   double **finternal;        // forces before other fixes change them
-  double clamp_power;        // of finternal, at the end of the last step
-  ClampState clamp_state;    // likewise
+  double **xold, **dx;       // positions before the step in progress, displacement in it
+  ClampState clamp_state;    // at the end of the last step
 
   void grow_lost();
   void add_lost(int, const double *);
   void count_erased(bigint);
   void book_forces();
   ClampState measure_clamps() const;
-  double clamp_internal_power() const;
-  void book_clamps(double);
+  void book_clamps();
   void let_go(double);
   template <typename T> std::vector<T> gather_all(const std::vector<T> &) const;
 };
