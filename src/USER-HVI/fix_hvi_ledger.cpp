@@ -13,24 +13,17 @@
 #include "fix_hvi_ledger.h"
 
 #include "atom.h"
-#include "atom_vec.h"
-#include "bond.h"
 #include "comm.h"
-#include "domain.h"
 #include "error.h"
 #include "force.h"
-#include "hvi_compat.h"
+#include "hvi_leavers.h"
 #include "memory.h"
 #include "modify.h"
-#include "neighbor.h"
 #include "output.h"
-#include "pair.h"
 #include "thermo.h"
 #include "update.h"
 
-#include <cmath>
 #include <cstring>
-#include <unordered_map>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -331,211 +324,25 @@ void FixHVILedger::let_go(double dt)
 {
   if (output->thermo->lostflag == Thermo::ERROR) return;
 
-  bool fixed[3][2], any = false;
-  for (int k = 0; k < 3; k++)
-    for (int side = 0; side < 2; side++) {
-      fixed[k][side] = domain->boundary[k][side] == 1;
-      any = any || fixed[k][side];
-    }
-  if (!any) return;
+  HVILeavers leavers(lmp);
+  const bigint nleft = leavers.pick();
+  if (nleft == 0) return;
 
-  // pick the leavers, and those who stay but may have been in touch with one
+  const HVILeavers::Account left = leavers.take_out(dt, clampbit);
+  entry[LEFT] += left.energy;
+  for (int k = 0; k < 3; k++) entry[LEFT_PX + k] += left.momentum[k];
+  entry[LEFT_MASS] += left.mass;
+  entry[LEFT_COUNT] += left.count;
 
-  const double reach = MAX(neighbor->cutneighmax, comm->cutghostuser);
-  double skin[3], lo[3], hi[3];
-  for (int k = 0; k < 3; k++) {
-    lo[k] = domain->triclinic ? 0.0 : domain->boxlo[k];
-    hi[k] = domain->triclinic ? 1.0 : domain->boxhi[k];
-  }
-  skin[0] = skin[1] = skin[2] = reach;
-  if (domain->triclinic) {
-    const double *const h = domain->h_inv;
-    skin[0] = reach * std::sqrt(h[0] * h[0] + h[5] * h[5] + h[4] * h[4]);
-    skin[1] = reach * std::sqrt(h[1] * h[1] + h[3] * h[3]);
-    skin[2] = reach * h[2];
-  }
+  // half the records with newton_bond off, where a bond has one at either end
 
-  std::vector<int> leaving, near;
-  for (int i = 0; i < atom->nlocal; i++) {
-    double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
-    if (domain->triclinic) domain->x2lamda(atom->x[i], x);
-    bool out = false, close = false;
-    for (int k = 0; k < 3; k++) {
-      out = out || (fixed[k][0] && x[k] < lo[k]) || (fixed[k][1] && x[k] >= hi[k]);
-      close = close || (fixed[k][0] && x[k] < lo[k] + skin[k]) ||
-          (fixed[k][1] && x[k] >= hi[k] - skin[k]);
-    }
-    if (out)
-      leaving.push_back(i);
-    else if (close)
-      near.push_back(i);
-  }
+  if (comm->me == 0) entry[BONDS_LEFT] += left.nrecords * (force->newton_bond ? 1.0 : 0.5);
+  count_erased(left.nrecords);
+  clamp_state.energy -= left.clamped_energy;
+  for (int k = 0; k < 3; k++) clamp_state.momentum[k] -= left.clamped_momentum[k];
 
-  bigint mine = leaving.size(), all;
-  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all == 0) return;
-
-  // every rank sees all leavers and their bonds
-
-  const bool bonded = atom->molecular == Atom::MOLECULAR && force->bond;
-  std::vector<Leaver> out;
-  std::vector<LeaverBond> bonds;
-  for (const int i : leaving) {
-    Leaver l;
-    l.tag = atom->tag[i];
-    l.type = atom->type[i];
-    for (int k = 0; k < 3; k++) {
-      l.x[k] = atom->x[i][k];
-      l.v[k] = atom->v[i][k];
-    }
-    out.push_back(l);
-
-    const double m = atom->rmass ? atom->rmass[i] : atom->mass[l.type];
-    const double ke = 0.5 * force->mvv2e * m * dot(l.v, l.v);
-    entry[LEFT] += ke;
-    if (atom->esph_flag) entry[LEFT] += atom->esph[i];
-    for (int k = 0; k < 3; k++) entry[LEFT_PX + k] += m * l.v[k];
-    entry[LEFT_MASS] += m;
-    entry[LEFT_COUNT] += 1.0;
-    if (atom->mask[i] & clampbit) {
-      clamp_state.energy -= ke;
-      for (int k = 0; k < 3; k++) clamp_state.momentum[k] -= m * l.v[k];
-    }
-
-    if (bonded)
-      for (int n = 0; n < atom->num_bond[i]; n++)
-        if (atom->bond_type[i][n] > 0)
-          bonds.push_back({l.tag, atom->bond_atom[i][n], atom->bond_type[i][n]});
-  }
-  bigint nrecords = bonds.size();
-  out = gather_all(out);
-  bonds = gather_all(bonds);
-
-  std::unordered_map<tagint, int> leaver;
-  for (int n = 0; n < (int) out.size(); n++) leaver[out[n].tag] = n;
-
-  // energy of a pair that is torn apart, with the half kick it no longer gives
-
-  auto torn = [&](double phi, double fforce, const double *xi, const double *vi, const double *xj,
-                  const double *vj) {
-    double d[3] = {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]};
-    HVI::minimum_image(domain, d[0], d[1], d[2]);
-    double rdotv = 0.0;
-    for (int k = 0; k < 3; k++) rdotv += d[k] * (vi[k] - vj[k]);
-    return phi + 0.5 * dt * fforce * rdotv;
-  };
-  auto distsq = [&](const double *xi, const double *xj) {
-    double d[3] = {xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]};
-    HVI::minimum_image(domain, d[0], d[1], d[2]);
-    return dot(d, d);
-  };
-  auto contact = [&](int itype, const double *xi, const double *vi, const Leaver &l) {
-    const double rsq = distsq(xi, l.x);
-    double fforce = 0.0;
-    if (rsq >= force->pair->cutsq[itype][l.type]) return 0.0;
-    const double phi = force->pair->single(0, 0, itype, l.type, rsq, 1.0, 1.0, fforce);
-    return torn(phi, fforce, xi, vi, l.x, l.v);
-  };
-  auto spring = [&](int btype, const double *xi, const double *vi, const Leaver &l) {
-    const double rsq = distsq(xi, l.x);
-    double fforce = 0.0;
-    const double phi = force->bond->single(btype, rsq, 0, 0, fforce);
-    return torn(phi, fforce, xi, vi, l.x, l.v);
-  };
-
-  // contacts; pairs of two leavers are booked by rank 0
-
-  if (force->pair && force->pair->single_enable) {
-    for (const int i : near)
-      for (const Leaver &l : out)
-        entry[LEFT] += contact(atom->type[i], atom->x[i], atom->v[i], l);
-    if (comm->me == 0)
-      for (size_t n = 0; n < out.size(); n++)
-        for (size_t m = 0; m < n; m++)
-          entry[LEFT] += contact(out[n].type, out[n].x, out[n].v, out[m]);
-  }
-
-  // bonds, by record: with newton_bond off a bond has one at either end
-  // the atom map may be gone by now: fix balance migrates particles before us
-
-  if (bonded) {
-    const double share = force->newton_bond ? 1.0 : 0.5;
-    std::unordered_map<tagint, int> stayer;
-
-    for (const int i : near) {
-      stayer[atom->tag[i]] = i;
-      for (int n = 0; n < atom->num_bond[i];) {
-        auto it = leaver.find(atom->bond_atom[i][n]);
-        if (it == leaver.end()) {
-          n++;
-          continue;
-        }
-        const int btype = atom->bond_type[i][n];
-        if (btype > 0)
-          entry[LEFT] += share * spring(btype, atom->x[i], atom->v[i], out[it->second]);
-        const int last = --atom->num_bond[i];
-        atom->bond_atom[i][n] = atom->bond_atom[i][last];
-        atom->bond_type[i][n] = atom->bond_type[i][last];
-        nrecords++;
-      }
-    }
-
-    for (const LeaverBond &b : bonds) {
-      const Leaver &l = out[leaver[b.tag]];
-      auto it = leaver.find(b.partner);
-      if (it != leaver.end()) {
-        if (comm->me == 0)
-          entry[LEFT] += share * spring(b.type, out[it->second].x, out[it->second].v, l);
-      } else {
-        auto jt = stayer.find(b.partner);
-        if (jt != stayer.end())
-          entry[LEFT] += share * spring(b.type, atom->x[jt->second], atom->v[jt->second], l);
-      }
-    }
-
-    bigint allrecords;
-    MPI_Allreduce(&nrecords, &allrecords, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-    count_erased(allrecords);
-    if (comm->me == 0) entry[BONDS_LEFT] += allrecords * share;
-  }
-
-  // take them out, as fix evaporate does
-
-  for (int n = (int) leaving.size() - 1; n >= 0; n--) {
-    atom->avec->copy(atom->nlocal - 1, leaving[n], 1);
-    atom->nlocal--;
-  }
-  atom->natoms -= all;
-  if (atom->map_style != Atom::MAP_NONE) {
-    atom->nghost = 0;
-    atom->map_init();
-    atom->map_set();
-  }
   if (comm->me == 0 && output->thermo->lostflag == Thermo::WARN)
-    error->warning(FLERR, "{} particles left the box at step {}", all, update->ntimestep);
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <typename T> std::vector<T> FixHVILedger::gather_all(const std::vector<T> &mine) const
-{
-  const int nbytes = mine.size() * sizeof(T);
-  std::vector<int> count(comm->nprocs), offset(comm->nprocs);
-  MPI_Allgather(&nbytes, 1, MPI_INT, count.data(), 1, MPI_INT, world);
-  int sum = 0;
-  for (int p = 0; p < comm->nprocs; p++) {
-    offset[p] = sum;
-    sum += count[p];
-  }
-
-  // one spare element at either end: no buffer is ever empty
-
-  std::vector<T> send(mine), all(sum / sizeof(T) + 1);
-  send.resize(mine.size() + 1);
-  MPI_Allgatherv(send.data(), nbytes, MPI_BYTE, all.data(), count.data(), offset.data(), MPI_BYTE,
-                 world);
-  all.resize(sum / sizeof(T));
-  return all;
+    error->warning(FLERR, "{} particles left the box at step {}", nleft, update->ntimestep);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -77,15 +77,6 @@ class FixHVILedger : public Fix {
   const double *first(const double *now);    // the first totals ever seen, also across restarts
 
  private:
-  struct Leaver {
-    tagint tag;
-    int type;
-    double x[3], v[3];
-  };
-  struct LeaverBond {
-    tagint tag, partner;
-    int type;
-  };
   struct ClampState {
     double energy, momentum[3];
   };
@@ -113,7 +104,6 @@ class FixHVILedger : public Fix {
   ClampState measure_clamps() const;
   void book_clamps();
   void let_go(double);
-  template <typename T> std::vector<T> gather_all(const std::vector<T> &) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -1,0 +1,268 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "hvi_leavers.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "bond.h"
+#include "comm.h"
+#include "domain.h"
+#include "force.h"
+#include "hvi_compat.h"
+#include "neighbor.h"
+#include "pair.h"
+
+#include <cmath>
+#include <unordered_map>
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+bigint HVILeavers::pick()
+{
+  bool fixed[3][2], any = false;
+  for (int k = 0; k < 3; k++)
+    for (int side = 0; side < 2; side++) {
+      fixed[k][side] = domain->boundary[k][side] == 1;
+      any = any || fixed[k][side];
+    }
+  if (!any) return 0;
+
+  const double reach = MAX(neighbor->cutneighmax, comm->cutghostuser);
+  double depth[3] = {reach, reach, reach}, lo[3], hi[3];
+  for (int k = 0; k < 3; k++) {
+    lo[k] = domain->triclinic ? 0.0 : domain->boxlo[k];
+    hi[k] = domain->triclinic ? 1.0 : domain->boxhi[k];
+  }
+  if (domain->triclinic) {
+    const double *const h = domain->h_inv;
+    depth[0] = reach * std::sqrt(h[0] * h[0] + h[5] * h[5] + h[4] * h[4]);
+    depth[1] = reach * std::sqrt(h[1] * h[1] + h[3] * h[3]);
+    depth[2] = reach * h[2];
+  }
+
+  for (int i = 0; i < atom->nlocal; i++) {
+    double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
+    if (domain->triclinic) domain->x2lamda(atom->x[i], x);
+    bool outside = false, close = false;
+    for (int k = 0; k < 3; k++) {
+      outside = outside || (fixed[k][0] && x[k] < lo[k]) || (fixed[k][1] && x[k] >= hi[k]);
+      close = close || (fixed[k][0] && x[k] < lo[k] + depth[k]) ||
+          (fixed[k][1] && x[k] >= hi[k] - depth[k]);
+    }
+    if (outside)
+      leaving.push_back(i);
+    else if (close)
+      near.push_back(i);
+  }
+
+  bigint mine = leaving.size(), all;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   velocities are those between the half kicks of a step of length dt, or
+   those at a full step if dt is 0
+------------------------------------------------------------------------- */
+
+HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
+{
+  dt = dt_in;
+  Account a = {};
+
+  for (const int i : leaving) {
+    Leaver l;
+    l.tag = atom->tag[i];
+    l.type = atom->type[i];
+    for (int k = 0; k < 3; k++) {
+      l.x[k] = atom->x[i][k];
+      l.v[k] = atom->v[i][k];
+    }
+    out.push_back(l);
+
+    const double m = atom->rmass ? atom->rmass[i] : atom->mass[l.type];
+    const double ke =
+        0.5 * force->mvv2e * m * (l.v[0] * l.v[0] + l.v[1] * l.v[1] + l.v[2] * l.v[2]);
+    const bool clamped = atom->mask[i] & clampbit;
+    a.energy += ke;
+    if (atom->esph_flag) a.energy += atom->esph[i];
+    if (clamped) a.clamped_energy += ke;
+    for (int k = 0; k < 3; k++) {
+      a.momentum[k] += m * l.v[k];
+      if (clamped) a.clamped_momentum[k] += m * l.v[k];
+    }
+    a.mass += m;
+    a.count += 1.0;
+  }
+
+  out = gather_all(out);
+  if (force->pair && force->pair->single_enable) a.energy += tear_contacts();
+  if (force->bond && atom->molecular == Atom::MOLECULAR) a.energy += tear_bonds(a.nrecords);
+  remove();
+  return a;
+}
+
+/* ----------------------------------------------------------------------
+   a pair that is torn apart takes its energy along, and the half kick that it
+   no longer gives
+------------------------------------------------------------------------- */
+
+double HVILeavers::torn(double phi, double fforce, const double *x, const double *v,
+                        const Leaver &l) const
+{
+  double d[3] = {x[0] - l.x[0], x[1] - l.x[1], x[2] - l.x[2]};
+  HVI::minimum_image(domain, d[0], d[1], d[2]);
+  double rdotv = 0.0;
+  for (int k = 0; k < 3; k++) rdotv += d[k] * (v[k] - l.v[k]);
+  return phi + 0.5 * dt * fforce * rdotv;
+}
+
+static double distsq(Domain *domain, const double *x, const double *y)
+{
+  double d[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+  HVI::minimum_image(domain, d[0], d[1], d[2]);
+  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+}
+
+double HVILeavers::contact(int type, const double *x, const double *v, const Leaver &l) const
+{
+  const double rsq = distsq(domain, x, l.x);
+  if (rsq >= force->pair->cutsq[type][l.type]) return 0.0;
+  double fforce = 0.0;
+  const double phi = force->pair->single(0, 0, type, l.type, rsq, 1.0, 1.0, fforce);
+  return torn(phi, fforce, x, v, l);
+}
+
+double HVILeavers::spring(int btype, const double *x, const double *v, const Leaver &l) const
+{
+  double fforce = 0.0;
+  const double phi = force->bond->single(btype, distsq(domain, x, l.x), 0, 0, fforce);
+  return torn(phi, fforce, x, v, l);
+}
+
+/* ----------------------------------------------------------------------
+   pairs of two leavers are rank 0's
+------------------------------------------------------------------------- */
+
+double HVILeavers::tear_contacts() const
+{
+  double energy = 0.0;
+  for (const int i : near)
+    for (const Leaver &l : out) energy += contact(atom->type[i], atom->x[i], atom->v[i], l);
+
+  if (comm->me == 0)
+    for (size_t n = 0; n < out.size(); n++)
+      for (size_t m = 0; m < n; m++) energy += contact(out[n].type, out[n].x, out[n].v, out[m]);
+  return energy;
+}
+
+/* ----------------------------------------------------------------------
+   bonds by record: with newton_bond off a bond has one at either end, each
+   worth half.  The atom map may be gone: fix balance migrates particles first.
+------------------------------------------------------------------------- */
+
+double HVILeavers::tear_bonds(bigint &nrecords)
+{
+  const double share = force->newton_bond ? 1.0 : 0.5;
+  double energy = 0.0;
+  bigint mine = 0;
+
+  std::unordered_map<tagint, const Leaver *> leaver;
+  for (const Leaver &l : out) leaver[l.tag] = &l;
+
+  // records of those who stay
+
+  std::unordered_map<tagint, int> stayer;
+  for (const int i : near) {
+    stayer[atom->tag[i]] = i;
+    for (int n = 0; n < atom->num_bond[i];) {
+      const auto it = leaver.find(atom->bond_atom[i][n]);
+      if (it == leaver.end()) {
+        n++;
+        continue;
+      }
+      const int btype = atom->bond_type[i][n];
+      if (btype > 0) energy += share * spring(btype, atom->x[i], atom->v[i], *it->second);
+      const int last = --atom->num_bond[i];
+      atom->bond_atom[i][n] = atom->bond_atom[i][last];
+      atom->bond_type[i][n] = atom->bond_type[i][last];
+      mine++;
+    }
+  }
+
+  // records of those who leave: the partner's owner knows where it is
+
+  std::vector<LeaverBond> bonds;
+  for (const int i : leaving)
+    for (int n = 0; n < atom->num_bond[i]; n++)
+      if (atom->bond_type[i][n] > 0)
+        bonds.push_back({atom->tag[i], atom->bond_atom[i][n], atom->bond_type[i][n]});
+  mine += bonds.size();
+
+  for (const LeaverBond &b : gather_all(bonds)) {
+    const Leaver &l = *leaver[b.tag];
+    const auto other = leaver.find(b.partner);
+    const auto it = stayer.find(b.partner);
+    if (other != leaver.end()) {
+      if (comm->me == 0)
+        energy += share * spring(b.type, other->second->x, other->second->v, l);
+    } else if (it != stayer.end())
+      energy += share * spring(b.type, atom->x[it->second], atom->v[it->second], l);
+  }
+
+  MPI_Allreduce(&mine, &nrecords, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return energy;
+}
+
+/* ----------------------------------------------------------------------
+   as fix evaporate does
+------------------------------------------------------------------------- */
+
+void HVILeavers::remove()
+{
+  for (int n = (int) leaving.size() - 1; n >= 0; n--) {
+    atom->avec->copy(atom->nlocal - 1, leaving[n], 1);
+    atom->nlocal--;
+  }
+  atom->natoms -= out.size();
+  if (atom->map_style != Atom::MAP_NONE) {
+    atom->nghost = 0;
+    atom->map_init();
+    atom->map_set();
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <typename T> std::vector<T> HVILeavers::gather_all(const std::vector<T> &mine) const
+{
+  const int nbytes = mine.size() * sizeof(T);
+  std::vector<int> count(comm->nprocs), offset(comm->nprocs);
+  MPI_Allgather(&nbytes, 1, MPI_INT, count.data(), 1, MPI_INT, world);
+  int sum = 0;
+  for (int p = 0; p < comm->nprocs; p++) {
+    offset[p] = sum;
+    sum += count[p];
+  }
+
+  // one spare element each: no buffer is ever empty
+
+  std::vector<T> send(mine), all(sum / sizeof(T) + 1);
+  send.resize(mine.size() + 1);
+  MPI_Allgatherv(send.data(), nbytes, MPI_BYTE, all.data(), count.data(), offset.data(), MPI_BYTE,
+                 world);
+  all.pop_back();
+  return all;
+}

@@ -1,0 +1,65 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_HVI_LEAVERS_H
+#define LMP_HVI_LEAVERS_H
+
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/* ----------------------------------------------------------------------
+   Particles beyond a fixed face of the box, about to be lost: counts up what
+   leaves with them and takes them out.  Needs neither ghosts nor a neighbor
+   list: all ranks see all leavers.
+------------------------------------------------------------------------- */
+
+class HVILeavers : protected Pointers {
+ public:
+  struct Account {    // on this rank, but nrecords of all
+    double energy;    // kinetic, internal, of contacts and bonds torn apart
+    double momentum[3], mass, count;
+    double clamped_energy, clamped_momentum[3];    // of leavers in the clamped groups
+    bigint nrecords;                               // of bonds: one or, newton_bond off, two a bond
+  };
+
+  HVILeavers(class LAMMPS *lmp) : Pointers(lmp), dt(0.0) {}
+
+  bigint pick();                                 // how many, on all ranks
+  Account take_out(double dt, int clampbit);
+
+ private:
+  struct Leaver {
+    tagint tag;
+    int type;
+    double x[3], v[3];
+  };
+  struct LeaverBond {
+    tagint tag, partner;
+    int type;
+  };
+
+  double dt;
+  std::vector<int> leaving;    // owned particles that leave
+  std::vector<int> near;       // owned particles that stay, but may be in touch with one that leaves
+  std::vector<Leaver> out;     // leavers of all ranks
+
+  double torn(double, double, const double *, const double *, const Leaver &) const;
+  double contact(int, const double *, const double *, const Leaver &) const;
+  double spring(int, const double *, const double *, const Leaver &) const;
+  double tear_contacts() const;
+  double tear_bonds(bigint &);
+  void remove();
+  template <typename T> std::vector<T> gather_all(const std::vector<T> &) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
