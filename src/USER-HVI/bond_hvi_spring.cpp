@@ -284,8 +284,8 @@ void BondHVISpring::init_style()
 
   ledger = FixHVILedger::instance(lmp);
   ledger->watch_breaking();
-  exact_images = !force->newton_bond &&
-      (domain->xperiodic || domain->yperiodic || domain->zperiodic);
+  exact_images =
+      !force->newton_bond && (domain->xperiodic || domain->yperiodic || domain->zperiodic);
   comm_forward = exact_images ? 3 : 0;
 
   // weights matter only once there is a run: create_bonds wants 1-2 weights of 0 and comes

@@ -33,7 +33,7 @@ enum {
 };
 // clang-format on
 
-static constexpr double TIE = 1.0e-9;         // distances that differ by less are equal
+static constexpr double TIE = 1.0e-9;          // distances that differ by less are equal
 static constexpr double TIE_MASS = 1.0e-12;    // shares of the mass likewise
 
 /* ---------------------------------------------------------------------- */
@@ -202,14 +202,16 @@ double ComputeHVICloud::find_quantile(double Particle::*what, double sign)
   ordered.clear();
   for (const Particle &p : cloud)
     ordered.push_back({sign * p.*what, std::llround(std::ldexp(p.mass, unit))});
-  std::sort(ordered.begin(), ordered.end(),
-            [](const Weighted &a, const Weighted &b) { return a.value < b.value; });
+  std::sort(ordered.begin(), ordered.end(), [](const Weighted &a, const Weighted &b) {
+    return a.value < b.value;
+  });
   for (int i = 1; i < n; i++) ordered[i].weight += ordered[i - 1].weight;
 
   auto weight_up_to = [this](double value) {
     const auto it =
-        std::upper_bound(ordered.begin(), ordered.end(), value,
-                         [](double v, const Weighted &w) { return v < w.value; });
+        std::upper_bound(ordered.begin(), ordered.end(), value, [](double v, const Weighted &w) {
+          return v < w.value;
+        });
     int64_t mine = (it == ordered.begin()) ? 0 : (it - 1)->weight, all;
     MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_SUM, world);
     return all;

@@ -48,7 +48,7 @@ ComputeHVIEnergy::ComputeHVIEnergy(LAMMPS *lmp, int narg, char **arg) :
   scalar_flag = vector_flag = 1;
   size_vector = NVALUES;
   extscalar = extvector = 0;
-  peflag = 1;      // energies of pairs and bonds are tallied on the steps asked for
+  peflag = 1;    // energies of pairs and bonds are tallied on the steps asked for
   timeflag = 1;
 
   ledger = FixHVILedger::instance(lmp);
@@ -112,8 +112,9 @@ void ComputeHVIEnergy::compute_vector()
 {
   invoked_vector = update->ntimestep;
   if (update->eflag_global != invoked_vector)
-    error->all(FLERR, "Energy was not tallied on needed timestep: use compute hvi/energy through "
-                      "thermo output, fix ave/time or a variable on a step that tallies it");
+    error->all(FLERR,
+               "Energy was not tallied on needed timestep: use compute hvi/energy through "
+               "thermo output, fix ave/time or a variable on a step that tallies it");
 
   const double *const *const v = atom->v;
   const double *const rmass = atom->rmass;

@@ -94,11 +94,11 @@ ComputeHVIFragmentAtom::~ComputeHVIFragmentAtom()
 
 void ComputeHVIFragmentAtom::init()
 {
-  if (!atom->tag_enable)
-    error->all(FLERR, "Compute {} requires atoms with IDs", style);
+  if (!atom->tag_enable) error->all(FLERR, "Compute {} requires atoms with IDs", style);
   if (mode == BONDS) {
     if (atom->molecular != Atom::MOLECULAR)
-      error->all(FLERR, "Compute {} bonds requires an atom style with bonds stored per atom", style);
+      error->all(FLERR, "Compute {} bonds requires an atom style with bonds stored per atom",
+                 style);
     return;
   }
 

@@ -56,7 +56,7 @@ class ComputeHVIFragmentAtom : public Compute {
 
   Mode mode;
   double cutoff;
-  int damage;         // 1: failed particles stay alone
+  int damage;    // 1: failed particles stay alone
   class NeighList *list;
   int nmax;
   double *fragment;

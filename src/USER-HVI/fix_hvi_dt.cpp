@@ -172,9 +172,10 @@ double FixHVIDt::choose(double grown)
     if (std::isnan(mine[k]) || !std::isfinite(sum)) mine[k] = -1.0;
   MPI_Allreduce(mine, all, 9, MPI_DOUBLE, MPI_MIN, world);
 
-  double spread = 0.0;
-  for (int k = 3; k < 6; k++) spread += (all[k] + all[k + 3]) * (all[k] + all[k + 3]);
-  const double travel = TRAVEL * reach / std::sqrt(spread + 1.0 / (BIG * BIG));
+  double spread = 0.0, travel = BIG;
+  if (atom->natoms > 0)
+    for (int k = 3; k < 6; k++) spread += (all[k] + all[k + 3]) * (all[k] + all[k + 3]);
+  if (spread > 0.0) travel = TRAVEL * reach / std::sqrt(spread);
 
   const double bound[NLIMITER] = {dtmax, factor * all[0], factor * all[1],
                                   MIN(factor * all[2], travel), grown};
@@ -184,12 +185,14 @@ double FixHVIDt::choose(double grown)
 
   const double dt = bound[limiter];
   if (!(dt > 0.0))
-    error->all(FLERR, "Time step of fix hvi/dt is not a number at step {}: particles overlap or "
-                      "positions or velocities are NaN", update->ntimestep);
+    error->all(FLERR,
+               "Time step of fix hvi/dt is not a number at step {}: particles overlap or "
+               "positions or velocities are NaN",
+               update->ntimestep);
   if (dt < dtmin)
     error->all(FLERR, "Time step {} of fix hvi/dt fell below min {} at step {}", dt, dtmin,
                update->ntimestep);
-  if (dt >= BIG)
+  if (dt >= factor * BIG)
     error->all(FLERR, "Fix hvi/dt finds nothing that limits the time step: give it a max");
   return dt;
 }

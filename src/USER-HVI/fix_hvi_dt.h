@@ -42,7 +42,7 @@ class FixHVIDt : public Fix {
   int limiter;
   int restored;
   bigint laststep;    // that chose dt
-  double reach;    // shortest cutoff of the pair style
+  double reach;       // shortest cutoff of the pair style
   std::vector<HVI::TimeStepSource *> sources;
 
   double choose(double);

@@ -40,8 +40,8 @@ static inline double dot(const double *a, const double *b)
 FixHVILedger *FixHVILedger::instance(LAMMPS *lmp)
 {
   auto found = lmp->modify->get_fix_by_style("^hvi/ledger$");
-  Fix *ifix =
-      found.empty() ? lmp->modify->add_fix(fmt::format("{} all hvi/ledger", LEDGER_ID)) : found[0];
+  Fix *ifix = found.empty() ? lmp->modify->add_fix(fmt::format("{} all hvi/ledger", LEDGER_ID))
+                            : found[0];
   return dynamic_cast<FixHVILedger *>(ifix);
 }
 

@@ -71,8 +71,8 @@ class FixHVILedger : public Fix {
 
   // for compute hvi/energy
 
-  void clamp(int groupbit);               // particles moved by more than pairs and bonds
-  void totals(double *sum);               // the NENTRY entries, summed over ranks
+  void clamp(int groupbit);    // particles moved by more than pairs and bonds
+  void totals(double *sum);    // the NENTRY entries, summed over ranks
   enum { START_ENERGY, START_PX, START_PY, START_PZ, START_MASS, NSTART };
   const double *first(const double *now);    // the first totals ever seen, also across restarts
 
@@ -86,8 +86,8 @@ class FixHVILedger : public Fix {
   double start[NSTART];
 
   int breaking;
-  int nerased;                   // bond records erased on this rank in this step
-  double dt_step;                // length of the step in progress, 0 in setup
+  int nerased;       // bond records erased on this rank in this step
+  double dt_step;    // length of the step in progress, 0 in setup
   int nmax;
   double **lost;                 // force that bonds broken in this step no longer exert
   std::vector<int> lost_list;    // owned and ghost particles with an entry in it

@@ -84,11 +84,16 @@ std::vector<Components::Link> Components::find_links() const
   std::vector<Link> links;
 
   auto unique = [&links]() {
-    auto key = [](const Link &l) { return std::make_tuple(l.own.id, l.far.id); };
-    std::sort(links.begin(), links.end(),
-              [&](const Link &a, const Link &b) { return key(a) < key(b); });
+    auto key = [](const Link &l) {
+      return std::make_tuple(l.own.id, l.far.id);
+    };
+    std::sort(links.begin(), links.end(), [&](const Link &a, const Link &b) {
+      return key(a) < key(b);
+    });
     links.erase(std::unique(links.begin(), links.end(),
-                            [&](const Link &a, const Link &b) { return key(a) == key(b); }),
+                            [&](const Link &a, const Link &b) {
+                              return key(a) == key(b);
+                            }),
                 links.end());
   };
 
@@ -143,10 +148,14 @@ std::vector<Components::Node> Components::merge(std::vector<Link> links, int spa
     name.push_back(l.own);
     name.push_back(l.label);
   }
-  auto lower = [](const Node &a, const Node &b) { return a.id < b.id; };
+  auto lower = [](const Node &a, const Node &b) {
+    return a.id < b.id;
+  };
   std::sort(name.begin(), name.end(), lower);
   name.erase(std::unique(name.begin(), name.end(),
-                         [](const Node &a, const Node &b) { return a.id == b.id; }),
+                         [](const Node &a, const Node &b) {
+                           return a.id == b.id;
+                         }),
              name.end());
   auto index = [&](const Node &wanted) {
     const auto it = std::lower_bound(name.begin(), name.end(), wanted, lower);
@@ -191,8 +200,7 @@ std::vector<Components::Node> Components::merge(std::vector<Link> links, int spa
 
   std::vector<Node> label(links.size() + 1);
   for (size_t n = 0; n < links.size(); n++) label[n] = name[group.find(own[n])];
-  if (paired)
-    MPI_Send(&label[nmine], links.size() - nmine, node_type, second, LABELS, world);
+  if (paired) MPI_Send(&label[nmine], links.size() - nmine, node_type, second, LABELS, world);
   label.resize(nmine);
   return label;
 }

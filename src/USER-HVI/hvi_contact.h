@@ -25,9 +25,9 @@ namespace HVI {
 ------------------------------------------------------------------------- */
 
 struct Contact {
-  double cutsq;       // r_eq^2
-  double f12, f6;     // 12 F eps s^12, 6 F eps s^6
-  double s6, depth;   // s^6, F eps
+  double cutsq;        // r_eq^2
+  double f12, f6;      // 12 F eps s^12, 6 F eps s^6
+  double s6, depth;    // s^6, F eps
 
   static double r_eq(double sigma) { return std::pow(2.0, 1.0 / 6.0) * sigma; }
 

@@ -216,8 +216,7 @@ double HVILeavers::tear_bonds(bigint &nrecords)
     const auto other = leaver.find(b.partner);
     const auto it = stayer.find(b.partner);
     if (other != leaver.end()) {
-      if (comm->me == 0)
-        energy += share * spring(b.type, other->second->x, other->second->v, l);
+      if (comm->me == 0) energy += share * spring(b.type, other->second->x, other->second->v, l);
     } else if (it != stayer.end())
       energy += share * spring(b.type, atom->x[it->second], atom->v[it->second], l);
   }

@@ -32,7 +32,7 @@ class HVILeavers : protected Pointers {
 
   HVILeavers(class LAMMPS *lmp) : Pointers(lmp), dt(0.0) {}
 
-  bigint pick();                                 // how many, on all ranks
+  bigint pick();    // how many, on all ranks
   Account take_out(double dt, int clampbit);
 
  private:
@@ -48,8 +48,8 @@ class HVILeavers : protected Pointers {
 
   double dt;
   std::vector<int> leaving;    // owned particles that leave
-  std::vector<int> near;       // owned particles that stay, but may be in touch with one that leaves
-  std::vector<Leaver> out;     // leavers of all ranks
+  std::vector<int> near;      // owned particles that stay, but may be in touch with one that leaves
+  std::vector<Leaver> out;    // leavers of all ranks
 
   double torn(double, double, const double *, const double *, const Leaver &) const;
   double contact(int, const double *, const double *, const Leaver &) const;

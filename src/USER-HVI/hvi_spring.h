@@ -38,10 +38,7 @@ struct Spring {
   // force divided by distance, <= 0: attracts, or nothing while the spring is slack
   // (Watson & Steinhauser eq 9)
 
-  double force(double rsq) const
-  {
-    return kappa * std::min(r_eq / std::sqrt(rsq) - 1.0, 0.0);
-  }
+  double force(double rsq) const { return kappa * std::min(r_eq / std::sqrt(rsq) - 1.0, 0.0); }
 
   double energy(double rsq) const
   {

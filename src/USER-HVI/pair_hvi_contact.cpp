@@ -189,8 +189,8 @@ void PairHVIContact::tighten(HVI::TimeStepBounds &bounds)
       const double dely = x[i][1] - x[j][1];
       const double delz = x[i][2] - x[j][2];
       const double rsq = delx * delx + dely * dely + delz * delz;
-      const double rdotv = delx * (v[i][0] - v[j][0]) + dely * (v[i][1] - v[j][1]) +
-          delz * (v[i][2] - v[j][2]);
+      const double rdotv =
+          delx * (v[i][0] - v[j][0]) + dely * (v[i][1] - v[j][1]) + delz * (v[i][2] - v[j][2]);
 
       const HVI::Contact &c = law[itype][jtype];
       Worst &w = worst[itype * np1 + jtype];
@@ -251,7 +251,8 @@ void PairHVIContact::settings(int narg, char **arg)
   int iarg = 0;
   while (iarg < narg) {
     if (strcmp(arg[iarg], "prefactor") == 0) {
-      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_style hvi/contact prefactor", error);
+      if (iarg + 2 > narg)
+        utils::missing_cmd_args(FLERR, "pair_style hvi/contact prefactor", error);
       prefactor = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
       if (!(prefactor > 0.0) || !std::isfinite(prefactor))
         error->all(FLERR, "Pair_style hvi/contact prefactor must be > 0, not {}", arg[iarg + 1]);
