@@ -6,6 +6,8 @@
 # HVI_MIRROR  Debian mirror to use instead of those in this machine's apt settings
 set -uo pipefail
 
+# read as a whole before it runs: the file may be changed meanwhile
+{
 say() { echo "lammps-hvi: $*" >&2; }
 stop() { say "$*"; exit 1; }
 
@@ -50,6 +52,16 @@ mirrors() {
     sed -nE 's/^URIs:[[:space:]]*//p' | tr -s ' \t' '\n' | grep -i debian | sed 's,/*$,,'
 }
 
+# cloud images name a file with a list of mirrors
+expand() {
+  while read -r m; do
+    case $m in
+      mirror+file:*) sed -nE 's,^[[:space:]]*([a-z]+://[^[:space:]]+).*,\1,p' "/${m#mirror+file:}" 2>/dev/null | sed 's,/*$,,' ;;
+      http* | file:* | ftp:* | tor+http*) echo "$m" ;;
+    esac
+  done | grep -v -- '-security$' | awk '!seen[$0]++'
+}
+
 # $1 = address; leaves the file in $store under its own name; the part that an interrupted run left is continued
 download() {
   local part=$store/$file.part
@@ -80,7 +92,7 @@ fi
 bad=
 if [ -z "$got" ]; then
   tried=
-  for m in $(mirrors | grep -v -- '-security$' | awk '!seen[$0]++'); do
+  for m in $(mirrors | expand); do
     say "fetching LAMMPS $name ($size) from $m"
     tried="$tried $m"
     download "$m/pool/main/l/lammps/$pool" || continue
@@ -120,3 +132,5 @@ touch "$work/.complete"
 rm -rf "$dest"
 mv "$work" "$dest" || stop "cannot write to $dest: set HVI_CACHE to a folder you can write to"
 echo "$dest"
+exit 0
+}

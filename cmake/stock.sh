@@ -3,6 +3,8 @@
 #   stock.sh configure DEST SOURCE [cmake options]    -> DEST/styles, DEST/flags.cmake
 #   stock.sh build DEST keep|drop                     -> DEST/liblammps.a; drop: remove the object files afterwards
 set -uo pipefail
+# read as a whole before it runs: the file may be changed meanwhile
+{
 stop() { echo "lammps-hvi: $*" >&2; exit 1; }
 
 what=$1 dest=$2
@@ -18,7 +20,7 @@ case $what in
     rm -rf "$dest/build" "$dest/styles"
     { cmake -S "$src/cmake" -B "$dest/build" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "$@" &&
       env -u MAKEFLAGS -u MAKELEVEL -u MFLAGS cmake --build "$dest/build" --target gitversion; } \
-      >"$dest/configure.log" 2>&1 9>&- ||
+      >"$dest/configure.log" 2>&1 ||
       stop "LAMMPS's own cmake failed on $src ($(grep -A2 -m1 'CMake Error' "$dest/configure.log" | tail -n +2 | tr -s ' \n' ' ')): see $dest/configure.log"
     # the compiler's definitions and include folders are those of LAMMPS's own lammps.cpp
     line=$(grep '"command"' "$dest/build/compile_commands.json" | grep -m1 '/src/lammps\.cpp"')
@@ -45,7 +47,7 @@ case $what in
     touch "$dest/running"
     [ -e "$dest/liblammps.a" ] || echo "lammps-hvi: compiling LAMMPS into $dest (once; minutes)" >&2
     # the variables of an outer make would make the inner one wait for the outer one's job slots
-    env -u MAKEFLAGS -u MAKELEVEL -u MFLAGS cmake --build "$dest/build" --target lammps --parallel "$jobs" 2>&1 9>&- |
+    env -u MAKEFLAGS -u MAKELEVEL -u MFLAGS cmake --build "$dest/build" --target lammps --parallel "$jobs" 2>&1 |
       tee "$dest/build.log" | awk '/^\[ *[0-9]*0%\]/ && !seen[$1 $2]++ { sub(/%.*/, "%]"); print "lammps-hvi: LAMMPS " $0; fflush() }'
     [ "${PIPESTATUS[0]}" = 0 ] ||
       stop "LAMMPS does not compile ($(grep -m1 -i 'error' "$dest/build.log")): see $dest/build.log"
@@ -58,3 +60,4 @@ case $what in
     ;;
 esac
 exit 0
+}

@@ -106,6 +106,12 @@ def plugin():
     return _built("HVI_PLUGIN", "hviplugin.so")
 
 
+@pytest.fixture(autouse=True)
+def own_folder(tmp_path, monkeypatch):
+    """every test runs in its own folder"""
+    monkeypatch.chdir(tmp_path)
+
+
 @pytest.fixture
 def lmp(tmp_path, lmp_exe):
     """Runs LAMMPS on an input text (or the Path of an input file) and returns a Result.

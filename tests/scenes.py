@@ -5,6 +5,7 @@ Reduced units (lj): sigma = mass = epsilon = 1 unless said otherwise; springs wi
 
 import dataclasses
 import itertools
+import pathlib
 
 import numpy as np
 
@@ -29,12 +30,14 @@ class State:
     periodic: bool = False
     types: np.ndarray = None
     masses: tuple = (1.0,)
+    bond_types: np.ndarray = None
 
     def __post_init__(self):
         self.x, self.box = np.array(self.x, dtype=float), np.array(self.box, dtype=float)
         self.v = np.zeros_like(self.x) + self.v
         self.bonds = np.array(self.bonds, dtype=int).reshape(-1, 2)
         self.types = np.ones(len(self.x), dtype=int) if self.types is None else np.array(self.types)
+        self.bond_types = np.ones(len(self.bonds), dtype=int) if self.bond_types is None else np.array(self.bond_types)
 
     def separation(self, i, j):
         d = self.x[i] - self.x[j]
@@ -44,16 +47,17 @@ class State:
         return d
 
     def write(self, path):
-        n = len(self.x)
+        """a data file; every number is read back to the last bit"""
+        n, nb = len(self.x), max(self.bond_types, default=1)
         lines = ["a state of the tests", "", f"{n} atoms", f"{len(self.bonds)} bonds",
-                 f"{len(self.masses)} atom types", "1 bond types", "2 extra bond per atom", ""]
+                 f"{len(self.masses)} atom types", f"{nb} bond types", "2 extra bond per atom", ""]
         lines += [f"{lo!r} {hi!r} {c}lo {c}hi" for (lo, hi), c in zip(self.box.tolist(), "xyz")]
         lines += ["", "Masses", ""] + [f"{t + 1} {m!r}" for t, m in enumerate(self.masses)]
         lines += ["", "Atoms # bond", ""]
         lines += [f"{i + 1} 1 {t} {x!r} {y!r} {z!r}" for i, (t, (x, y, z)) in enumerate(zip(self.types, self.x.tolist()))]
         lines += ["", "Velocities", ""] + [f"{i + 1} {x!r} {y!r} {z!r}" for i, (x, y, z) in enumerate(self.v.tolist())]
         if len(self.bonds):
-            lines += ["", "Bonds", ""] + [f"{k + 1} 1 {i + 1} {j + 1}" for k, (i, j) in enumerate(self.bonds)]
+            lines += ["", "Bonds", ""] + [f"{k + 1} {t} {i + 1} {j + 1}" for k, (t, (i, j)) in enumerate(zip(self.bond_types, self.bonds))]
         path.write_text("\n".join(lines) + "\n")
 
 
@@ -78,7 +82,7 @@ def cube(n=6, jitter=0.04, speed=0.5, cut=0.0, periodic=False, seed=1, margin=6.
     return State(x, v - v.mean(axis=0), bonds, box, periodic, kinds, tuple(1.0 + 0.5 * t for t in range(types)))
 
 
-def collision(n=5, speed=8.0, periodic=False, seed=3):
+def collision(n=5, speed=15.8, periodic=False, seed=3):
     """two bonded blocks that smash each other; margin enough for a short run"""
     a, b = cube(n, 0.01, 0.1, seed=seed), cube(n, 0.01, 0.1, seed=seed + 1)
     shift = np.array([n * R_EQ + 0.2, 0.37, 0.23])
@@ -142,6 +146,7 @@ def header(boundary="f f f", newton="on", comm="brick", processors="* * *", unit
 
 def scene(state, path, pair=PAIR, bond=BOND, skin=0.3, **how):
     """input that reads a state, ready to run; how: see header()"""
+    path = pathlib.Path(path)
     state.write(path)
     how.setdefault("boundary", "p p p" if state.periodic else "f f f")
     text = header(**how) + f"read_data {path.name}\n"
@@ -191,3 +196,54 @@ def read_bonds(path):
     pairs = [tuple(sorted(int(w) for w in line.split()[-2:])) for line in text.splitlines()[1:] if line.strip()]
     assert len(set(pairs)) == len(pairs)
     return set(pairs)
+
+
+def impact(n=4000, tD=0.425, rp=20.0, v0=6700.0, newton="on", comm="tiled", sort="sort 500 0.0", tstop=2.0, data=None):
+    """the debris cloud of examples/debris-cloud (Watson & Steinhauser) with n particles, to tstop microseconds
+
+    data: a file of write_data to start from, for the same IDs on any number of ranks; else all is created
+    """
+    d = 9.53
+    volume = np.pi * d**3 / 6 + np.pi * rp**2 * tD * d
+    a, a0 = (volume * 1e-9 / n) ** (1 / 3), 2.738e-4  # spacing, and that of the paper's main case
+    sigma, s = a / R_EQ, a / a0
+    rs, t, half = 0.5e-3 * d, 1e-3 * tD * d, 2.5e-3 * rp
+    styles = f"""pair_style hvi/contact
+bond_style hvi/spring
+"""
+    coeffs = f"""pair_coeff * * {0.01 * s**3} {sigma}
+bond_coeff 1 {4.56e6 * s} {a} {1.5 * sigma}
+neighbor {0.3 * a} bin
+"""
+    create = f"""lattice sc {a} origin 0.25 0.25 0.25
+region box block -{half} {half} -{half} {half} {-2e-3 * rp} {t + 1.3e-6 * max(tstop, 2.0) * v0} units box
+create_box 2 box bond/types 1 extra/bond/per/atom 12 extra/special/per/atom 12
+region ball sphere 0 0 {-(rs + 1.2 * a)} {rs} units box
+region plate cylinder z 0 0 {1e-3 * rp} 0 {t} units box
+create_atoms 1 region ball
+create_atoms 2 region plate
+mass * {2700 * a**3}
+group ball type 1
+group plate type 2
+{styles}{coeffs}
+special_bonds lj/coul 0 1 1
+create_bonds many ball ball 1 0.0 {1.1 * a}
+create_bonds many plate plate 1 0.0 {1.1 * a}
+special_bonds lj/coul 1 1 1
+velocity all create 300 4711 loop geom mom yes rot yes
+velocity ball set NULL NULL {v0} sum yes units box
+"""
+    return f"""units si
+boundary f f f
+newton {newton}
+atom_style bond
+atom_modify map array {sort}
+comm_style {comm}
+{f"{styles}special_bonds lj/coul 1 1 1{chr(10)}read_data {data}{chr(10)}{coeffs}" if data else create}
+{"balance 1.0 rcb" if comm == "tiled" else ""}
+compute B all property/local batom1 batom2
+fix move all nve
+fix step all hvi/dt 0.1
+variable us equal 1e6*f_step[2]
+fix stop all halt 5 v_us >= {tstop} error continue message no
+"""

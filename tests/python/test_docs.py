@@ -1,0 +1,52 @@
+"""The documentation keeps up with the code: a page per style, links that lead somewhere, inputs that run."""
+
+import re
+import sys
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def markdown(root):
+    return [p for p in sorted(root.glob("*.md")) + sorted(root.glob("examples/*/README.md"))]
+
+
+def test_every_style_has_its_page(root):
+    sys.path.insert(0, str(root / "doc" / "ext"))
+    import stylepages
+
+    assert list(stylepages.problems(root / "doc" / "src", root / "src" / "USER-HVI")) == []
+
+
+def test_links_lead_somewhere(markdown):
+    lost = [f"{p.name}: {link}" for p in markdown for link in re.findall(r"\]\(([^)#]+)\)", p.read_text())
+            if "://" not in link and not (p.parent / link).exists()]
+    assert lost == []
+
+
+def test_plain_ascii(root, markdown):
+    for p in [*markdown, root / "CITATION.cff"]:
+        assert p.read_bytes().isascii(), p
+
+
+def inputs(path, start, end):
+    """texts between two marks, taken back to the margin"""
+    found = re.findall(start + r"(.*?)" + end, path.read_text(), re.S)
+    return [re.sub(r"^   ", "", text, flags=re.M) for text in found]
+
+
+@pytest.mark.parametrize("file, start, end", [
+    ("README.md", r"```\n(?=# a ball)", r"```"),
+    ("doc/src/Howto_dem.rst", r"(?=   # a ball)", r"\n(?=\S)"),
+])
+def test_input_runs(lmp, root, file, start, end):
+    (text,) = inputs(root / file, start, end)
+    thermo = lmp(text).thermo
+    assert thermo["Bonds"][-1] < 0.9 * thermo["Bonds"][0]  # it breaks
+    assert abs(thermo["c_book[9]"] - 1).max() < 1e-4  # and the books are kept
+
+
+def test_version_is_the_same_everywhere(root):
+    version = re.search(r'HVI_VERSION\[\] = "([^"]+)"', (root / "src" / "USER-HVI" / "hvi_version.h").read_text()).group(1)
+    assert f"\nversion: {version}\n" in (root / "CITATION.cff").read_text()
+    assert f"## [{version}]" in (root / "CHANGELOG.md").read_text()

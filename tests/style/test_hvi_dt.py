@@ -1,0 +1,164 @@
+"""fix hvi/dt: C sqrt(m/k) of the stiffest pair, m its reduced mass, now or where it will turn back; what limits it."""
+
+import numpy as np
+import pytest
+from scenes import KAPPA, PAIR, R_EQ, State, collision, cube, scene
+
+MAXIMUM, CONTACT, SPRING, APPROACH, GROWING = range(5)
+BOX = [[-8.0, 8.0]] * 3
+SHOW = "fix nve all nve\nthermo 1\nthermo_style custom step time dt f_step[*] f_step\nthermo_modify norm no format float %.16e\n"
+C = 0.1
+
+
+def stiffness(r, eps=1.0, sigma=1.0, F=1.0):
+    q = (sigma / r) ** 6
+    return F * eps * (156 * q * q - 42 * q) / r**2
+
+
+def turning(e, eps=1.0, sigma=1.0, F=1.0):
+    """where a pair of energy e turns back"""
+    return sigma * (0.5 + np.sqrt(e / (F * eps))) ** (-1 / 6)
+
+
+def first(lmp, s, args=f"{C} max 1.0", nranks=1, **how):
+    row = lmp(scene(s, "s.data", **how) + f"fix step all hvi/dt {args}\n" + SHOW + "run 0\n", nranks=nranks).thermo
+    assert row["f_step[1]"][0] == row["f_step"][0] == row["Dt"][0]
+    return row["Dt"][0], row["f_step[3]"][0]
+
+
+def pair(r, v=0.0, bonded=False, frame=(0.0, 0.0, 0.0)):
+    """masses 1 and 3, closing at speed v"""
+    n = np.array([1.0, 2.0, -2.0]) / 3.0
+    return State([[0, 0, 0], r * n], np.array([v * n, 0 * n]) + frame, [(0, 1)] if bonded else [], BOX, types=[1, 2], masses=(1.0, 3.0))
+
+
+M = 0.75  # reduced mass
+
+
+@pytest.mark.parametrize("F", [1.0, 4.0])
+@pytest.mark.parametrize("r", [0.8, 0.95, 1.1])
+def test_contact_at_rest(lmp, r, F):
+    """limited by the stiffness of a pair in touch"""
+    dt, why = first(lmp, pair(r), pair=PAIR.replace("contact", f"contact prefactor {F}"))
+    assert dt == pytest.approx(C * np.sqrt(M / stiffness(r, F=F)), rel=1e-12) and why == CONTACT
+
+
+def test_spring_at_rest(lmp):
+    """limited by an intact bond, stretched or slack"""
+    for r in (R_EQ + 1e-3, 1.4):
+        dt, why = first(lmp, pair(r, bonded=True))
+        assert dt == pytest.approx(C * np.sqrt(M / KAPPA), rel=1e-12) and why == SPRING
+
+
+def test_broken_bond_is_no_limit(lmp):
+    """a bond that breaks at step 0 counts no more"""
+    assert first(lmp, pair(1.6, bonded=True)) == (1.0, MAXIMUM)
+
+
+@pytest.mark.parametrize("v", [1.0, 12.0])
+@pytest.mark.parametrize("r", [0.95, 1.13, 1.3])
+def test_approach(lmp, r, v):
+    """limited by the stiffness where an approaching pair turns back, before it is in touch and in touch"""
+    q = r**-6.0
+    e = 0.5 * M * v**2 + (q * q - q + 0.25 if r < R_EQ else 0.0)
+    dt, why = first(lmp, pair(r, v))
+    assert dt == pytest.approx(C * np.sqrt(M / stiffness(turning(e))), rel=1e-12) and why == APPROACH
+
+
+def test_receding_and_sliding_pairs_do_not_count(lmp):
+    """only the closing part of the velocity counts"""
+    assert first(lmp, pair(1.2, -2.0))[0] == pytest.approx(0.1 * R_EQ / 2.0, rel=1e-12)  # travel alone
+    s = pair(1.0)
+    s.v[0] = [2.0 / np.sqrt(5) * 0.3, -1.0 / np.sqrt(5) * 0.3, 0.0]
+    assert first(lmp, s)[0] == pytest.approx(C * np.sqrt(M / stiffness(1.0)), rel=1e-9)
+
+
+def test_distant_particles_do_not_meet_unseen(lmp):
+    """no pair may come closer by more than a tenth of r_eq in a step"""
+    dt, why = first(lmp, pair(6.0, 50.0))
+    v = 50.0 * np.array([1.0, 2.0, -2.0]) / 3.0
+    assert dt == pytest.approx(0.1 * R_EQ / np.linalg.norm(v), rel=1e-12) and why == APPROACH
+
+
+def test_frame_does_not_matter(lmp):
+    """a moving observer sees the same step: free flight costs nothing"""
+    a, b = first(lmp, pair(1.2, 3.0)), first(lmp, pair(1.2, 3.0, frame=(1e3, -2e3, 5e2)))
+    assert a[0] == pytest.approx(b[0], rel=1e-9) and a[1] == b[1]
+
+
+def test_max(lmp):
+    """never above max"""
+    assert first(lmp, pair(1.0), f"{C} max 1e-4") == (1e-4, MAXIMUM)
+    assert first(lmp, pair(3.0), f"{C} max 0.02") == (0.02, MAXIMUM)
+
+
+@pytest.mark.parametrize("newton, nranks, comm", [("off", 1, "brick"), ("on", 2, "brick"), ("off", 2, "tiled"), ("on", 3, "tiled")])
+def test_same_on_any_layout(lmp, newton, nranks, comm):
+    """the stiffest pair may lie across ranks"""
+    s = collision(4)
+    s.x[:64, 0] += 0.1
+    one, other = first(lmp, s), first(lmp, s, newton=newton, comm=comm, nranks=nranks)
+    assert one[0] == pytest.approx(other[0], rel=1e-13) and one[1] == other[1] == APPROACH
+    s = cube(4, 0.1, 0.0)
+    one, other = first(lmp, s), first(lmp, s, newton=newton, comm=comm, nranks=nranks)
+    assert one[0] == pytest.approx(other[0], rel=1e-13) and one[1] == other[1] == CONTACT
+
+
+def test_shrinks_at_once_and_grows_slowly(lmp):
+    """a bounce: the step follows the stiffness down, comes back bit by bit (limiter 4), reaches max again"""
+    s = pair(1.5, 6.0)
+    s.box *= 10.0
+    t = lmp(scene(s, "s.data") + f"fix step all hvi/dt {C} max 0.02 every 1\n" + SHOW + "run 2000\n").thermo
+    dt, why = t["Dt"], t["f_step[3]"]
+    growth = dt[1:] / dt[:-1]
+    assert growth.max() <= 1.05 and growth[why[1:] == GROWING].min() > 1.0
+    assert np.ptp(growth[why[1:] == GROWING]) < 1e-9
+    assert {APPROACH, GROWING} <= set(why)
+    stiff = C * np.sqrt(M / stiffness(turning(0.5 * M * 36)))
+    assert dt.min() == pytest.approx(stiff, rel=0.1) and dt[-1] > 1.3 * dt.min()
+    # time is the sum of the steps; step n was made with the dt chosen at its start
+    assert t["f_step[2]"] == pytest.approx(np.concatenate([[0], np.cumsum(dt[:-1])]), rel=1e-10)
+    assert t["Time"] == pytest.approx(t["f_step[2]"], rel=1e-12)
+
+
+def test_empty_box(lmp):
+    """when everybody has left there is nothing to resolve but max"""
+    s = State([[7.5, 0, 0]], [[10.0, 0, 0]], [], BOX)
+    t = lmp(scene(s, "s.data") + f"fix step all hvi/dt {C} max 0.02\n" + SHOW + "thermo_modify lost ignore\nrun 50\n").thermo
+    assert t["Dt"].min() > 0.005
+
+
+def test_every(lmp):
+    """chosen every N steps, and whenever lists are rebuilt"""
+    s = cube(3, 0.05, 0.3)
+    t = lmp(scene(s, "s.data", skin=1.0) + f"fix step all hvi/dt {C} every 7\n" + SHOW + "run 50\n").thermo
+    changed = np.flatnonzero(np.diff(t["Dt"]))  # row n+1 shows the dt chosen at the end of step n+1
+    assert set((changed + 1) % 7) == {0} and len(changed) >= 5
+
+
+# one physical pair, m = 1e-6 kg, eps = 1e-3 J, sigma = 1 mm, and its time step in seconds
+EV, AMU, KCAL = 1.602176634e-19, 1.66053906660e-27, 4184.0 / 6.02214076e23
+UNITS = {  # kg, J, m, s in units of ...
+    "si": (1.0, 1.0, 1.0, 1.0), "cgs": (1e3, 1e7, 1e2, 1.0), "micro": (1e18 / 1e3, 1e15, 1e6, 1e6),
+    "metal": (1 / AMU, 1 / EV, 1e10, 1e12), "real": (1 / AMU, 1 / KCAL, 1e10, 1e15), "lj": (1e6, 1e3, 1e3, 1e3 * 1e-6**0.5 * 1e3**0.5),
+}
+
+
+@pytest.mark.parametrize("units", UNITS)
+@pytest.mark.parametrize("kind", [CONTACT, SPRING, APPROACH])
+def test_units(lmp, units, kind):
+    """the same physical time step in all units"""
+    kg, joule, metre, second = UNITS[units]
+    if units == "lj":  # m, eps, sigma = 1: the unit of time is sigma sqrt(m/eps)
+        second = 1.0 / (1e-3 * np.sqrt(1e-6 / 1e-3))
+    r, v = {CONTACT: (1.0, 0.0), SPRING: (1.3, 0.0), APPROACH: (1.3, 400.0)}[kind]
+    s = State([[0, 0, 0], [1e-3 * metre * r, 0, 0]], [[v * metre / second, 0, 0], [0, 0, 0]], [(0, 1)] if kind == SPRING else [],
+              np.array(BOX) * 1e-3 * metre, masses=(1e-6 * kg,))
+    kappa = 2e4
+    dt, why = first(lmp, s, f"{C} max {1.0 * second}", units=units, skin=0.3e-3 * metre,
+                    pair=f"pair_style hvi/contact\npair_coeff * * {1e-3 * joule!r} {1e-3 * metre!r}\n",
+                    bond=f"bond_style hvi/spring\nbond_coeff 1 {kappa * joule / metre**2!r} {R_EQ * 1e-3 * metre!r} {1.5e-3 * metre!r}\n")
+    m, eps, sigma = 0.5e-6, 1e-3, 1e-3
+    want = {CONTACT: stiffness(1e-3, eps, sigma), SPRING: kappa,
+            APPROACH: stiffness(turning(0.5 * m * v**2, eps, sigma), eps, sigma)}[kind]
+    assert dt / second == pytest.approx(C * np.sqrt(m / want), rel=1e-6) and why == kind

@@ -1,0 +1,125 @@
+"""Particles that leave through a fixed face take energy, momentum and mass with them, all booked."""
+
+import numpy as np
+import pytest
+from scenes import R_EQ, State, books, contact, cube, ledger, momentum_error, scene, spring
+
+LOST = "thermo_modify lost ignore format float %.16e\n"
+
+
+def fly(s, steps, dt=0.001, newton="on", every=10, rebuild="every 1 check yes", **how):
+    return (scene(s, "s.data", newton=newton, **how) + f"neigh_modify {rebuild}\nfix nve all nve\n" + ledger(every=every) + LOST
+            + f"timestep {dt}\nrun {steps}\n")
+
+
+def check(book, s, tolerance):
+    """energy closes, nothing of momentum and mass is missing"""
+    assert np.abs(book["ratio"] - 1).max() <= tolerance
+    assert momentum_error(book, s) <= 1e-12
+    mass = np.array(s.masses)[s.types - 1].sum()
+    assert book["mass"] + book["left_mass"] == pytest.approx(np.full(len(book["mass"]), mass), rel=1e-13)
+
+
+@pytest.mark.parametrize("newton, nranks, comm", [("on", 1, "brick"), ("off", 1, "brick"), ("on", 2, "tiled"), ("off", 2, "brick"),
+                                                  ("on", 3, "brick"), ("off", 3, "tiled")])
+def test_block_torn_at_the_face(lmp, newton, nranks, comm):
+    """a bonded, vibrating, compressed block flies through a corner: springs and contacts reach across all the time"""
+    s = cube(4, 0.08, 0.6, cut=0.1, seed=4, types=2)
+    s.x *= 0.97
+    s.v += [8.0, 5.0, 3.0]
+    s.box = np.array([[-5.0, 5.2], [-5.0, 5.4], [-4.0, 8.0]])
+    result = lmp(fly(s, 600, newton=newton, comm=comm), nranks=nranks)
+    book, thermo = books(result.thermo), result.thermo
+    check(book, s, 1e-5)
+    left = book["left_count"]
+    assert left[0] == 0 and left[-1] > 40 and len(set(left)) > 10  # one by one
+    assert np.array_equal(64 - thermo["Atoms"], left)
+    assert np.array_equal(len(s.bonds) - thermo["Bonds"], book["bonds_broken"] + book["bonds_left"])
+    assert book["bonds_left"][-1] > 50
+
+
+@pytest.mark.parametrize("newton", ["on", "off"])
+@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("kind", ["bonded", "contact", "both leave", "apart"])
+def test_one_pair_by_hand(lmp, kind, newton, nranks):
+    """what is booked is kinetic energy and what the pair still had, to the order of a step"""
+    r = 1.35 if kind == "bonded" else 2.5 if kind == "apart" else 0.95
+    bonded = kind in ("bonded", "both leave")
+    direction = [0.0, 1.0, 0.0] if kind == "both leave" else [1.0, 0.0, 0.0]
+    v, dt = np.array([3.0, 0.0, 0.0]), 1e-5
+    s = State([np.array([4.9991, 0.0, 0.0]), np.array([4.9991, 0.0, 0.0]) - r * np.array(direction)], [v, v], [(0, 1)] if bonded else [],
+              [[-5.0, 5.0]] * 3, types=[1, 2], masses=(1.0, 3.0))
+    book = books(lmp(fly(s, 60, dt, newton=newton, every=5, processors="* 1 1", rebuild="every 1 check no"), nranks=nranks).thermo)
+    two = kind == "both leave"
+    assert book["left_count"][-1] == (2 if two else 1)
+    kinetic = 0.5 * 9.0 * (4.0 if two else 1.0)
+    inner = float(contact(r)[0]) + (float(spring(r)[0]) if bonded else 0.0)
+    assert book["left"][-1] == pytest.approx(kinetic + inner, rel=2e-2 if inner else 1e-12)
+    assert np.abs(book["ratio"] - 1).max() <= 1e-8
+    assert momentum_error(book, s) <= 1e-13
+    assert book["left_mass"][-1] == (4.0 if two else 1.0)
+    assert book["bonds_left"][-1] == bonded and book["bonds_broken"][-1] == 0
+
+
+@pytest.mark.parametrize("boundary", ["p f f", "f f p", "s f f", "m f s"])
+def test_other_faces(lmp, boundary):
+    """nobody leaves through periodic and shrink-wrapped faces; a pair that reaches across the one is torn at a fixed one"""
+    x = np.array([[4.7, 0, 0], [-4.2 if boundary[0] == "p" else 3.6, 0, 0], [-3, 0, 0], [0, 0, 3.0], [2, 2, -3.0]])
+    v = np.array([[0, 8.0, 0], [0, 0, 0.5], [-6, 0, 0], [0, 0, 6.0], [0, 0, -6.0]])
+    s = State(x, v, [(0, 1)], [[-5.0, 5.0]] * 3)
+    book = books(lmp(fly(s, 1800, 0.0005, boundary=boundary)).thermo)
+    assert book["left_count"][-1] == 1 + sum(boundary[i] == "f" for i in (0, 4, 4))
+    assert book["bonds_broken"][-1] + book["bonds_left"][-1] == 1
+    check(book, s, 1e-5)
+
+
+def test_at_the_start(lmp):
+    """particles moved out between runs leave at setup, with their bonds"""
+    s = cube(3, 0.02, 0.1, margin=2.0)
+    text = scene(s, "s.data") + "fix nve all nve\n" + ledger() + LOST + "run 0\n"
+    text += "group g id 19:27\nset group g vx 1.0\ndisplace_atoms g move 0.3 0 0 units box\nrun 0\n"
+    text += f"change_box all x final -2.0 {2.4 + R_EQ / 2} boundary f f f\nrun 0\nrun 10\n"
+    runs = [books(t) for t in lmp(text).runs]
+    before, after = runs[1], runs[2]
+    assert after["left_count"][0] == 9 and after["left_mass"][0] == 9.0
+    assert after["total"][0] == pytest.approx(before["total"][0], rel=1e-12)
+    assert after["bonds_left"][0] == 9 + 12  # to the next plane and within its own
+    assert runs[3]["total"][-1] == pytest.approx(after["total"][0], rel=1e-5)
+
+
+def test_lost_atoms_stop_by_default(lmp):
+    """with thermo_modify lost error LAMMPS's own message ends the run"""
+    s = State([[4.9, 0, 0], [3.7, 0, 0]], [[5.0, 0, 0]] * 2, [(0, 1)], [[-5.0, 5.0]] * 3)
+    result = lmp(fly(s, 500).replace(LOST, ""), expect_fail=True)
+    assert "Lost atoms" in result.error or "bond atoms" in result.error.lower()
+
+
+def test_warned_once_per_time(lmp):
+    """thermo_modify lost warn says how many left and when"""
+    s = State([[4.9, 0, 0], [0, 0, 0]], [[5.0, 0, 0], [0, 0, 0]], [], [[-5.0, 5.0]] * 3)
+    result = lmp(fly(s, 200).replace("lost ignore", "lost warn"), nranks=2)
+    assert sum("1 particles left the box" in w for w in result.warnings) == 1
+
+
+@pytest.mark.parametrize("newton", ["on", "off"])
+def test_clamped_particles_may_leave(lmp, newton):
+    """what clamps gave to a particle that is gone stays booked"""
+    s = cube(3, 0.02, 0.2, seed=8, margin=1.0)
+    text = scene(s, "s.data", newton=newton) + "group held id 10:18\n" + ledger("clamps held") + LOST
+    text += "fix nve all nve\nfix a held addforce 9.0 0 0\ntimestep 0.0005\nrun 2500\n"
+    book = books(lmp(text).thermo)
+    assert book["left_count"][-1] >= 9 and book["jx"][-1] > 50
+    p = book["px"] + book["left_px"] - book["jx"]
+    assert np.abs(p - p[0]).max() <= 1e-11 * np.abs(book["jx"]).max()
+    assert np.abs(book["total"] - book["total"][0]).max() <= 2e-5 * np.abs(book["clamps"]).max()
+
+
+def test_pair_style_alone(lmp):
+    """without bonds the leaving contacts are booked too"""
+    s = cube(3, 0.05, 0.3, margin=1.0)
+    s.bonds = s.bonds[:0]
+    s.x *= 0.95
+    s.v += [4.0, 0.0, 0.0]
+    book = books(lmp(fly(s, 1200, bond="bond_style none\n")).thermo)
+    check(book, s, 1e-5)
+    assert book["left_count"][-1] > 20
