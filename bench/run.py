@@ -116,6 +116,7 @@ def figure(data, file):
     for r in rows:
         plt.annotate("C = %g" % r["C"], (r["wall"], r["largest"]), textcoords="offset points", xytext=(6, 4))
     plt.axhline(1e-5, color="0.7", lw=1)
+    plt.margins(x=0.2, y=0.1)
     plt.xlabel("wall time (s)")
     plt.ylabel("|drift of total energy|")
     plt.title("debris cloud: speed against error")
