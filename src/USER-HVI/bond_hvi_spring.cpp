@@ -22,6 +22,7 @@
 #include "hvi_compat.h"
 #include "memory.h"
 #include "neighbor.h"
+#include "special.h"
 #include "update.h"
 
 #include <cmath>
@@ -130,7 +131,8 @@ template <int EVFLAG, int NEWTON_BOND, int EXACT> void BondHVISpring::eval()
 
     if (s.broken(rsq)) {
       bondlist[n][2] = 0;
-      break_bond(i1, i2, NEWTON_BOND, s.energy(rsq), delx * fbond, dely * fbond, delz * fbond);
+      break_bond(i1, i2, type, NEWTON_BOND, s.energy(rsq), delx * fbond, dely * fbond,
+                 delz * fbond);
       continue;
     }
 
@@ -154,12 +156,12 @@ template <int EVFLAG, int NEWTON_BOND, int EXACT> void BondHVISpring::eval()
    and the half kick it no longer gives into the ledger
 ------------------------------------------------------------------------- */
 
-void BondHVISpring::break_bond(int i1, int i2, int newton_bond, double energy, double fx, double fy,
-                               double fz)
+void BondHVISpring::break_bond(int i1, int i2, int type, int newton_bond, double energy, double fx,
+                               double fy, double fz)
 {
   const int nlocal = atom->nlocal;
-  int nerased = erase_record(i1, atom->tag[i2]);
-  if (i2 < nlocal) nerased += erase_record(i2, atom->tag[i1]);
+  int nerased = erase_record(i1, atom->tag[i2], type);
+  if (i2 < nlocal) nerased += erase_record(i2, atom->tag[i1], type);
 
   // newton_bond off: a bond between ranks is broken, and half of it booked, on both
 
@@ -171,14 +173,14 @@ void BondHVISpring::break_bond(int i1, int i2, int newton_bond, double energy, d
 
 /* ---------------------------------------------------------------------- */
 
-int BondHVISpring::erase_record(int i, tagint partner)
+int BondHVISpring::erase_record(int i, tagint partner, int type)
 {
   const int n = atom->num_bond[i];
   tagint *const bond_atom = atom->bond_atom[i];
   int *const bond_type = atom->bond_type[i];
 
   for (int m = 0; m < n; m++)
-    if (bond_atom[m] == partner) {
+    if (bond_atom[m] == partner && bond_type[m] == type) {
       bond_atom[m] = bond_atom[n - 1];
       bond_type[m] = bond_type[n - 1];
       atom->num_bond[i]--;
@@ -275,9 +277,8 @@ void BondHVISpring::init_style()
       rmax = MAX(rmax, r_cut[i]);
     }
 
-  // a rebuild must find both ends of every intact bond: by then a bond may
-  // have stretched beyond r_cut by one step's motion, which the neighbor
-  // list's own criterion keeps below half the skin
+  // a rebuild must find both ends of every intact bond: by then a bond may have
+  // stretched beyond r_cut by one step's motion, for which half the skin is ample
 
   const double cutneed = rmax + 0.5 * neighbor->skin;
   if (comm->cutghostuser < cutneed) comm->cutghostuser = cutneed;
@@ -298,7 +299,8 @@ void BondHVISpring::init_style()
                    "Bond style hvi/spring requires special_bonds lj/coul 1 1 1 for a run: contact "
                    "acts between bonded particles too");
     drop_special();
-  }
+  } else
+    restore_special();
 }
 
 /* ----------------------------------------------------------------------
@@ -318,6 +320,24 @@ void BondHVISpring::drop_special()
     memory->create(atom->special, atom->nmax, atom->maxspecial, "atom:special");
     atom->avec->grow_pointers();
   }
+}
+
+/* ----------------------------------------------------------------------
+   commands between runs that set weights for bonded pairs, as create_bonds
+   wants, find the lists that drop_special() freed in place again
+------------------------------------------------------------------------- */
+
+void BondHVISpring::restore_special()
+{
+  if (force->special_lj[1] == 1.0 && force->special_coul[1] == 1.0) return;
+
+  bigint mine[2] = {0, 0}, all[2];
+  for (int i = 0; i < atom->nlocal; i++) {
+    mine[0] += atom->num_bond[i];
+    mine[1] += atom->nspecial[i][0];
+  }
+  MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all[0] && all[1] == 0) Special(lmp).build();
 }
 
 /* ----------------------------------------------------------------------

@@ -52,8 +52,9 @@ class BondHVISpring : public Bond, public HVI::TimeStepSource {
 
   void allocate();
   void drop_special();
-  void break_bond(int, int, int, double, double, double, double);
-  int erase_record(int, tagint);
+  void restore_special();
+  void break_bond(int, int, int, int, double, double, double, double);
+  int erase_record(int, tagint, int);
   template <int EVFLAG, int NEWTON_BOND, int EXACT> void eval();
 };
 

@@ -19,6 +19,7 @@
 #include "fix_hvi_ledger.h"
 #include "force.h"
 #include "group.h"
+#include "modify.h"
 #include "pair.h"
 #include "update.h"
 
@@ -40,7 +41,7 @@ enum {
 /* ---------------------------------------------------------------------- */
 
 ComputeHVIEnergy::ComputeHVIEnergy(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), ledger(nullptr)
+    Compute(lmp, narg, arg), ledger(nullptr), clampbit(0)
 {
   if (igroup != 0)
     error->all(FLERR, "Compute hvi/energy is the ledger of the whole system: group must be all");
@@ -60,7 +61,7 @@ ComputeHVIEnergy::ComputeHVIEnergy(LAMMPS *lmp, int narg, char **arg) :
       const int jgroup = group->find(arg[iarg + 1]);
       if (jgroup == -1)
         error->all(FLERR, "Could not find compute hvi/energy clamps group ID {}", arg[iarg + 1]);
-      ledger->clamp(group->bitmask[jgroup]);
+      clampbit |= group->bitmask[jgroup];
       iarg += 2;
     } else
       error->all(FLERR, "Unknown compute hvi/energy keyword: {}", arg[iarg]);
@@ -81,6 +82,10 @@ ComputeHVIEnergy::~ComputeHVIEnergy()
 void ComputeHVIEnergy::init()
 {
   ledger = FixHVILedger::instance(lmp);
+  int bits = 0;
+  for (auto &icompute : modify->get_compute_by_style("^hvi/energy$"))
+    bits |= dynamic_cast<ComputeHVIEnergy *>(icompute)->clampbit;
+  ledger->clamp(bits);
 
   if (atom->molecular != Atom::ATOMIC && (force->angle || force->dihedral || force->improper))
     error->all(FLERR, "Compute hvi/energy does not book angle, dihedral and improper energies");

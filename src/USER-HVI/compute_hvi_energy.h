@@ -30,6 +30,7 @@ class ComputeHVIEnergy : public Compute {
 
  private:
   class FixHVILedger *ledger;
+  int clampbit;    // groups named by clamps
 };
 
 }    // namespace LAMMPS_NS

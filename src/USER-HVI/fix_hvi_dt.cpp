@@ -48,7 +48,7 @@ enum { MAXIMUM, CONTACT, SPRING, APPROACH, GROWING, NLIMITER };
 
 FixHVIDt::FixHVIDt(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtmin(0.0), dtmax(BIG), every(10), limiter(MAXIMUM), restored(0),
-    laststep(0), reach(0.0)
+    chosen(0), laststep(0), reach(0.0)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix hvi/dt", error);
 
@@ -105,8 +105,13 @@ void FixHVIDt::init()
     error->all(FLERR, "More than one fix hvi/dt");
 
   sources.clear();
-  auto *contact = dynamic_cast<HVI::TimeStepSource *>(force->pair_match("^hvi/contact$", 0));
-  if (contact) sources.push_back(contact);
+  // hybrid may hold several
+
+  const bool hybrid = utils::strmatch(force->pair_style, "^hybrid");
+  for (int nsub = hybrid ? 1 : 0; Pair *pair = force->pair_match("hvi/contact", 1, nsub); nsub++) {
+    sources.push_back(dynamic_cast<HVI::TimeStepSource *>(pair));
+    if (!hybrid) break;
+  }
   auto *spring = dynamic_cast<HVI::TimeStepSource *>(force->bond_match("hvi/spring"));
   if (spring) sources.push_back(spring);
   if (sources.empty())
@@ -122,15 +127,20 @@ void FixHVIDt::init()
 }
 
 /* ----------------------------------------------------------------------
-   a continued run keeps the step it was interrupted with
+   a run from a restart file keeps the step it was interrupted with, one after
+   another run goes on from its step
 ------------------------------------------------------------------------- */
 
 void FixHVIDt::setup(int /*vflag*/)
 {
+  // reset_timestep may have turned back the clock
+
+  if (laststep > update->ntimestep) laststep = update->ntimestep;
   if (restored)
     restored = 0;
   else
-    apply(choose(BIG));
+    apply(choose(chosen ? grown() : BIG));
+  chosen = 1;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -140,12 +150,19 @@ void FixHVIDt::end_of_step()
   // a pair that is new in the list has not been looked at yet
 
   if (update->ntimestep % every && neighbor->lastcall != update->ntimestep) return;
-  apply(choose(std::pow(GROWTH, update->ntimestep - laststep) * update->dt));
+  apply(choose(grown()));
 }
 
 /* ---------------------------------------------------------------------- */
 
-double FixHVIDt::choose(double grown)
+double FixHVIDt::grown() const
+{
+  return std::pow(GROWTH, update->ntimestep - laststep) * update->dt;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixHVIDt::choose(double limit)
 {
   laststep = update->ntimestep;
   comm->forward_comm(this);
@@ -178,7 +195,7 @@ double FixHVIDt::choose(double grown)
   if (spread > 0.0) travel = TRAVEL * reach / std::sqrt(spread);
 
   const double bound[NLIMITER] = {dtmax, factor * all[0], factor * all[1],
-                                  MIN(factor * all[2], travel), grown};
+                                  MIN(factor * all[2], travel), limit};
   limiter = MAXIMUM;
   for (int n = 0; n < NLIMITER; n++)
     if (bound[n] < bound[limiter]) limiter = n;

@@ -40,11 +40,12 @@ class FixHVIDt : public Fix {
   double factor, dtmin, dtmax;
   int every;
   int limiter;
-  int restored;
-  bigint laststep;    // that chose dt
-  double reach;       // shortest cutoff of the pair style
+  int restored, chosen;    // dt is from a restart file, from an earlier run
+  bigint laststep;         // that chose dt
+  double reach;            // shortest cutoff of the pair style
   std::vector<HVI::TimeStepSource *> sources;
 
+  double grown() const;
   double choose(double);
   void apply(double);
 };

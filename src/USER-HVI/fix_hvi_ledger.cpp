@@ -23,6 +23,7 @@
 #include "thermo.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -186,6 +187,11 @@ void FixHVILedger::book_forces()
       grow_lost();
       if (force->newton_bond) comm->reverse_comm(this);
     }
+
+    // forces that cancelled for a moment have put a particle on the list twice
+
+    std::sort(lost_list.begin(), lost_list.end());
+    lost_list.erase(std::unique(lost_list.begin(), lost_list.end()), lost_list.end());
     for (const int i : lost_list)
       if (i < atom->nlocal) entry[BROKEN] += 0.25 * dt_step * dot(lost[i], atom->v[i]);
   }
@@ -223,9 +229,9 @@ void FixHVILedger::end_of_step()
    serves whoever moves the particles, fix move as well as fix nve.
 ------------------------------------------------------------------------- */
 
-void FixHVILedger::clamp(int bit)
+void FixHVILedger::clamp(int bits)
 {
-  clampbit |= bit;
+  clampbit = bits;
   grow_arrays(atom->nmax);
 }
 

@@ -71,8 +71,8 @@ class FixHVILedger : public Fix {
 
   // for compute hvi/energy
 
-  void clamp(int groupbit);    // particles moved by more than pairs and bonds
-  void totals(double *sum);    // the NENTRY entries, summed over ranks
+  void clamp(int groupbits);    // particles moved by more than pairs and bonds
+  void totals(double *sum);     // the NENTRY entries, summed over ranks
   enum { START_ENERGY, START_PX, START_PY, START_PZ, START_MASS, NSTART };
   const double *first(const double *now);    // the first totals ever seen, also across restarts
 

@@ -39,36 +39,45 @@ bigint HVILeavers::pick()
     }
   if (!any) return 0;
 
+  // beyond a face, or within depth of it
+
+  auto beyond = [&](int i, const double *depth) {
+    double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
+    double lo[3] = {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]};
+    double hi[3] = {domain->boxhi[0], domain->boxhi[1], domain->boxhi[2]};
+    if (domain->triclinic) {
+      domain->x2lamda(atom->x[i], x);
+      lo[0] = lo[1] = lo[2] = 0.0;
+      hi[0] = hi[1] = hi[2] = 1.0;
+    }
+    for (int k = 0; k < 3; k++)
+      if ((fixed[k][0] && x[k] < lo[k] + depth[k]) || (fixed[k][1] && x[k] >= hi[k] - depth[k]))
+        return true;
+    return false;
+  };
+
+  const double zero[3] = {0.0, 0.0, 0.0};
+  for (int i = 0; i < atom->nlocal; i++)
+    if (beyond(i, zero)) leaving.push_back(i);
+
+  bigint mine = leaving.size(), all;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all == 0) return 0;
+
   const double reach = MAX(neighbor->cutneighmax, comm->cutghostuser);
-  double depth[3] = {reach, reach, reach}, lo[3], hi[3];
-  for (int k = 0; k < 3; k++) {
-    lo[k] = domain->triclinic ? 0.0 : domain->boxlo[k];
-    hi[k] = domain->triclinic ? 1.0 : domain->boxhi[k];
-  }
+  double depth[3] = {reach, reach, reach};
   if (domain->triclinic) {
     const double *const h = domain->h_inv;
     depth[0] = reach * std::sqrt(h[0] * h[0] + h[5] * h[5] + h[4] * h[4]);
     depth[1] = reach * std::sqrt(h[1] * h[1] + h[3] * h[3]);
     depth[2] = reach * h[2];
   }
-
-  for (int i = 0; i < atom->nlocal; i++) {
-    double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
-    if (domain->triclinic) domain->x2lamda(atom->x[i], x);
-    bool outside = false, close = false;
-    for (int k = 0; k < 3; k++) {
-      outside = outside || (fixed[k][0] && x[k] < lo[k]) || (fixed[k][1] && x[k] >= hi[k]);
-      close = close || (fixed[k][0] && x[k] < lo[k] + depth[k]) ||
-          (fixed[k][1] && x[k] >= hi[k] - depth[k]);
-    }
-    if (outside)
-      leaving.push_back(i);
-    else if (close)
+  size_t next = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (next < leaving.size() && leaving[next] == i)
+      next++;
+    else if (beyond(i, depth))
       near.push_back(i);
-  }
-
-  bigint mine = leaving.size(), all;
-  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   return all;
 }
 

@@ -15,7 +15,7 @@ namespace HVI {
    What a style tells fix hvi/dt about the present state of its own pairs on
    this rank: the shortest time sqrt(m/k) it must resolve, m the reduced mass
    and k the stiffness d2phi/dr2 of a pair, for each reason that may limit it.
-   Velocities of ghost particles are up to date when bounds() is called.
+   Velocities of ghost particles are up to date when tighten() is called.
 ------------------------------------------------------------------------- */
 
 struct TimeStepBounds {

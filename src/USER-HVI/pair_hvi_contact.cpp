@@ -127,6 +127,10 @@ template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void PairHVIContact::eval()
 
       for (int n = 0; n < ntouch; n++) {
         const Touch &t = touch[n];
+        if (t.rsq == 0.0)
+          error->one(FLERR,
+                     "Pair hvi/contact: particles {} and {} are at the same place at step {}",
+                     atom->tag[i], atom->tag[t.j], update->ntimestep);
         const HVI::Contact &c = UNIFORM ? same : ilaw[type[t.j]];
         const double fpair = c.force(t.rsq);    // Watson & Steinhauser eq 2
         fxtmp += t.delx * fpair;

@@ -78,7 +78,7 @@ def test_at_the_start(lmp):
     s = cube(3, 0.02, 0.1, margin=2.0)
     text = scene(s, "s.data") + "fix nve all nve\n" + ledger() + LOST + "run 0\n"
     text += "group g id 19:27\nset group g vx 1.0\ndisplace_atoms g move 0.3 0 0 units box\nrun 0\n"
-    text += f"change_box all x final -2.0 {2.4 + R_EQ / 2} boundary f f f\nrun 0\nrun 10\n"
+    text += f"variable shifted atom x+xhi-{2.4 + R_EQ / 2}\nset group all x v_shifted\nrun 0\nrun 10\n"
     runs = [books(t) for t in lmp(text).runs]
     before, after = runs[1], runs[2]
     assert after["left_count"][0] == 9 and after["left_mass"][0] == 9.0
