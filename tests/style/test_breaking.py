@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from scenes import BOND, KAPPA, R_CUT, R_EQ, State, books, chain, collision, header, ledger, read_bonds, scene
+from scenes import BOND, KAPPA, R_CUT, R_EQ, State, books, chain, collision, header, ledger, read_bonds, read_dump, scene
 
 N = 12
 BONDS2 = f"bond_style hvi/spring\nbond_coeff 1 {KAPPA} {R_EQ!r} {R_CUT}\nbond_coeff 2 5.0 {R_EQ!r} 1.3\n"
@@ -104,6 +104,26 @@ def test_too_long_from_the_start(lmp, tmp_path, newton, nranks):
     want = 0.5 * KAPPA * ((1.7 - R_EQ) ** 2 + (1.8 - R_EQ) ** 2)
     assert book["broken"] == pytest.approx([want, want], rel=1e-12)
     assert list(result.thermo["Bonds"]) == [2, 2] and list(book["bonds_broken"]) == [2, 2]
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_owners_agree_to_the_last_digit(lmp, tmp_path, nranks):
+    """newton off: both owners of a bond across the box break it or neither, though its ghosts' positions are rounded"""
+    rng = np.random.default_rng(5)
+    spots = np.array(list(itertools.product(range(20), range(20)))) * 3.1
+    n = np.column_stack([np.ones(400), rng.uniform(-0.5, 0.5, (400, 2))])
+    n *= (R_CUT / np.linalg.norm(n, axis=1))[:, None]  # to a few of the last bits, which break it or do not
+    second = np.column_stack([-3.3 + n[:, 0] * rng.uniform(0.1, 0.9, 400), spots + 0.1])
+    first = second + [10.1, 0, 0] - n
+    box = np.array([[-3.3, 6.8], [-1.3, 61.0], [-1.3, 61.0]])
+    s = State(np.vstack([first, second]), 0.0, [(i, i + 400) for i in range(400)], box, periodic=True)
+    text = scene(s, "s.data", newton="off") + "compute n all nbond/atom\nfix nve all nve\n" + ledger() + "run 0\n"
+    text += "write_dump all custom n id c_n modify sort id\n"
+    result = lmp(text, nranks=nranks)
+    count = read_dump(tmp_path / "n")["c_n"]
+    assert np.array_equal(count[:400], count[400:])
+    assert 40 < count[:400].sum() < 360 and result.thermo["Bonds"][0] == count[:400].sum()
+    assert books(result.thermo)["bonds_broken"][0] == 400 - count[:400].sum()
 
 
 def test_bonds_are_counted(lmp, tmp_path):
