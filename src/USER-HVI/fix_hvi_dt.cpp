@@ -33,7 +33,7 @@ static constexpr double BIG = 1.0e100;
 
 // The step may shrink at once but grows by no more than this in one step: velocity Verlet keeps
 // energy only while its step changes slowly.  Where a whole plate is struck at once and rebounds,
-// 0.2 % in place of 0.05 % costs 100 times the drift.
+// 0.2 % in place of 0.05 % costs 40 times the drift (examples/dem-scaling, 6 layers at 2 km/s).
 
 static constexpr double GROWTH = 1.0005;
 
