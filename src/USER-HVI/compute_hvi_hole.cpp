@@ -1,0 +1,353 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+#include "compute_hvi_hole.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+// the global vector, in this order
+
+// clang-format off
+enum {
+  DIAMETER, SMALLEST, LARGEST, CENTER, AREA = CENTER + 2, SHARE, LAYER, REFERENCE, SPACING, NVALUES
+};
+// clang-format on
+
+static constexpr int PER_OCTAVE = 64, OCTAVES = 40;    // bins for distances from the plane
+static constexpr int NBINS = 4096;                     // bins for coordinates across the axis
+static constexpr double TAIL = 0.01;                   // share of the particles in each tail
+static constexpr double MARGIN = 0.1;                  // what is added there, in plate widths
+static constexpr double FINEST = 0.75;                 // map, in spacings of the particles
+static constexpr double ONE_SIDED = 0.01;              // a plate with less on one side is mirrored
+
+/* ---------------------------------------------------------------------- */
+
+ComputeHVIHole::ComputeHVIHole(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg), axis(-1), sectors(36), center{NAN, NAN}, plane(NAN), thickness(0.0),
+    dr(0.0), fill(0.5), reference(0.0), warned_open(false), warned_coarse(false), warned_dr(false)
+{
+  if (domain->dimension != 3)
+    error->all(FLERR, "Compute hvi/hole needs a three-dimensional simulation");
+
+  vector_flag = 1;
+  size_vector = NVALUES;
+  extvector = 0;
+
+  int iarg = 3;
+  auto number = [&](int i) {
+    return utils::numeric(FLERR, arg[i], false, lmp);
+  };
+  auto positive = [&](int i) {
+    const double value = number(i);
+    if (!(value > 0.0))
+      error->all(FLERR, "Compute hvi/hole {} must be > 0, not {}", arg[iarg], arg[i]);
+    return value;
+  };
+  while (iarg < narg) {
+    const bool two = strcmp(arg[iarg], "centre") == 0 || strcmp(arg[iarg], "center") == 0;
+    if (iarg + (two ? 3 : 2) > narg)
+      utils::missing_cmd_args(FLERR, fmt::format("compute hvi/hole {}", arg[iarg]), error);
+    const char *const value = arg[iarg + 1];
+    if (two) {
+      center[0] = number(iarg + 1);
+      center[1] = number(iarg + 2);
+      iarg++;
+    } else if (strcmp(arg[iarg], "axis") == 0) {
+      if (strlen(value) != 1 || value[0] < 'x' || value[0] > 'z')
+        error->all(FLERR, "Compute hvi/hole axis must be x, y or z, not {}", value);
+      axis = value[0] - 'x';
+    } else if (strcmp(arg[iarg], "plane") == 0) {
+      plane = number(iarg + 1);
+    } else if (strcmp(arg[iarg], "thickness") == 0) {
+      thickness = positive(iarg + 1);
+    } else if (strcmp(arg[iarg], "dr") == 0) {
+      dr = positive(iarg + 1);
+    } else if (strcmp(arg[iarg], "reference") == 0) {
+      reference = positive(iarg + 1);
+    } else if (strcmp(arg[iarg], "fill") == 0) {
+      fill = number(iarg + 1);
+      if (!(fill > 0.0 && fill < 1.0))
+        error->all(FLERR, "Compute hvi/hole fill must be > 0 and < 1, not {}", value);
+    } else if (strcmp(arg[iarg], "sectors") == 0) {
+      sectors = utils::inumeric(FLERR, value, false, lmp);
+      if (sectors < 8 || sectors > 3600 || sectors % 2)
+        error->all(FLERR, "Compute hvi/hole sectors must be even, from 8 to 3600, not {}", value);
+    } else
+      error->all(FLERR, "Unknown compute hvi/hole keyword: {}", arg[iarg]);
+    iarg += 2;
+  }
+  if (axis < 0) utils::missing_cmd_args(FLERR, "compute hvi/hole axis", error);
+  if (std::isnan(center[0])) utils::missing_cmd_args(FLERR, "compute hvi/hole centre", error);
+  if (std::isnan(plane)) utils::missing_cmd_args(FLERR, "compute hvi/hole plane", error);
+  across[0] = (axis == 0) ? 1 : 0;
+  across[1] = (axis == 2) ? 1 : 2;
+
+  vector = new double[size_vector];
+}
+
+/* ---------------------------------------------------------------------- */
+
+ComputeHVIHole::~ComputeHVIHole()
+{
+  delete[] vector;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIHole::init()
+{
+  warned_open = warned_coarse = warned_dr = false;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIHole::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+  std::fill(vector, vector + NVALUES, 0.0);
+
+  find_layer();
+  if (!find_extent()) return;
+
+  // a map with a spacing from the layer's volume tells the spacing of the plate's particles
+
+  const double area = (hi[0] - lo[0]) * (hi[1] - lo[1]) * vector[SHARE] / count;
+  make_map(std::max(std::cbrt(2.0 * std::min(half, farthest) * area), std::sqrt(area)));
+  const double spacing = find_spacing();
+  if (dr > 0.0 && dr < FINEST * spacing) {
+    if (comm->me == 0 && !warned_dr)
+      error->warning(FLERR, "Compute hvi/hole dr {} is too small for particles {} apart, using {}",
+                     dr, spacing, FINEST * spacing);
+    warned_dr = true;
+  }
+  make_map((dr > 0.0) ? std::max(dr, FINEST * spacing) : spacing);
+  if (reference > 0.0) map.intact = reference;
+  vector[LAYER] = 2.0 * half;
+  vector[REFERENCE] = map.intact;
+  vector[SPACING] = map.h;
+
+  const HVI::Plate::Found found = map.find_hole(fill, mirrored[0] || mirrored[1]);
+  if (found == HVI::Plate::OPEN && comm->me == 0 && !warned_open) {
+    error->warning(FLERR, "Compute hvi/hole: no plate around the centre, the hole is taken as 0");
+    warned_open = true;
+  }
+  if (found != HVI::Plate::HOLE) return;
+
+  const HVI::Plate::Hole hole = map.measure(sectors);
+  vector[DIAMETER] = hole.diameter;
+  vector[SMALLEST] = hole.smallest;
+  vector[LARGEST] = hole.largest;
+  vector[AREA] = hole.area;
+  for (int k = 0; k < 2; k++) vector[CENTER + k] = center[k] + hole.center[k];
+}
+
+/* ----------------------------------------------------------------------
+   Particles of the group near the plane.  How near is told by a fixed point: half
+   the layer is 4 times the median distance of its own particles from the plane,
+   that is the thickness of an even plate with the plane in its middle.
+------------------------------------------------------------------------- */
+
+void ComputeHVIHole::find_layer()
+{
+  layer.clear();
+  double mine[2] = {0.0, 0.0}, most[2];
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    double x[3];
+    domain->unmap(atom->x[i], atom->image[i], x);
+    const Particle p = {atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]],
+                        x[axis] - plane,
+                        {x[across[0]] - center[0], x[across[1]] - center[1]}};
+    if (!std::isfinite(p.s + p.y[0] + p.y[1])) continue;
+    mine[0] = std::max(mine[0], std::fabs(p.s));
+    mine[1] = std::max(mine[1], p.mass);
+    layer.push_back(p);
+  }
+  MPI_Allreduce(mine, most, 2, MPI_DOUBLE, MPI_MAX, world);
+  farthest = most[0];
+  if (most[1] == 0.0) return;
+  unit = std::ldexp(1.0, 57 - std::ilogb(most[1]) - std::ilogb((double) atom->natoms + 1.0));
+
+  half = 0.5 * thickness;
+  if (half == 0.0 && farthest > 0.0) {
+    const int nbins = OCTAVES * PER_OCTAVE;
+    std::vector<int64_t> number(nbins, 0);
+    for (const Particle &p : layer) {
+      const double octave = OCTAVES + std::log2(std::fabs(p.s) / farthest);
+      number[(int) std::clamp(octave * PER_OCTAVE, 0.0, nbins - 1.0)]++;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, number.data(), nbins, MPI_INT64_T, MPI_SUM, world);
+    for (int b = 1; b < nbins; b++) number[b] += number[b - 1];
+
+    auto quantile = [&](double q, int last) {
+      const double wanted = q * number[std::min(last, nbins - 1)];
+      int b = 0;
+      while (number[b] < wanted) b++;
+      return b;
+    };
+    int last = quantile(0.35, nbins) + 3 * PER_OCTAVE;
+    for (;;) {
+      const int next = quantile(0.5, last) + 2 * PER_OCTAVE;
+      if (next >= last) break;
+      last = next;
+    }
+    half = farthest * std::exp2((last + 1.0) / PER_OCTAVE - OCTAVES);
+  }
+  layer.erase(std::remove_if(layer.begin(), layer.end(),
+                             [this](const Particle &p) {
+                               return std::fabs(p.s) > half;
+                             }),
+              layer.end());
+}
+
+/* ----------------------------------------------------------------------
+   Where the plate is, but for strays, and whether it is a half or a quarter of one,
+   cut at the center: then it is mirrored there.
+------------------------------------------------------------------------- */
+
+bool ComputeHVIHole::find_extent()
+{
+  double mine[5], ends[5];    // minus the lowest, and the highest; farthest from the plane
+  std::fill(mine, mine + 5, -HUGE_VAL);
+  for (const Particle &p : layer) {
+    for (int k = 0; k < 2; k++) {
+      mine[k] = std::max(mine[k], -p.y[k]);
+      mine[2 + k] = std::max(mine[2 + k], p.y[k]);
+    }
+    mine[4] = std::max(mine[4], std::fabs(p.s));
+  }
+  MPI_Allreduce(mine, ends, 5, MPI_DOUBLE, MPI_MAX, world);
+  farthest = ends[4];
+  if (!(-ends[0] < ends[2] && -ends[1] < ends[3])) return false;
+
+  std::vector<int64_t> number(2 * NBINS + 2, 0);
+  for (const Particle &p : layer) {
+    for (int k = 0; k < 2; k++) {
+      const int b = (int) (NBINS * (p.y[k] + ends[k]) / (ends[2 + k] + ends[k]));
+      number[k * NBINS + std::min(b, NBINS - 1)]++;
+    }
+    number[2 * NBINS]++;
+    number[2 * NBINS + 1] += std::llround(unit * p.mass);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, number.data(), number.size(), MPI_INT64_T, MPI_SUM, world);
+  count = number[2 * NBINS];
+  mean_mass = number[2 * NBINS + 1] / unit / count;
+
+  vector[SHARE] = 1.0;
+  for (int k = 0; k < 2; k++) {
+    const double width = (ends[2 + k] + ends[k]) / NBINS;
+    int first = k * NBINS, last = (k + 1) * NBINS - 1;
+    for (int64_t sum = number[first]; sum < TAIL * count; sum += number[first]) first++;
+    for (int64_t sum = number[last]; sum < TAIL * count; sum += number[last]) last--;
+    lo[k] = (first - k * NBINS) * width - ends[k];
+    hi[k] = (last + 1 - k * NBINS) * width - ends[k];
+
+    const double slack = ONE_SIDED * (hi[k] - lo[k]);
+    const double margin = MARGIN * (hi[k] - lo[k]);
+    mirrored[k] = lo[k] > -slack || hi[k] < slack;
+    lo[k] -= margin;
+    hi[k] += margin;
+    if (mirrored[k]) {
+      hi[k] = std::max(hi[k], -lo[k]);
+      lo[k] = -hi[k];
+      vector[SHARE] *= 0.5;
+    }
+  }
+  return true;
+}
+
+/* ----------------------------------------------------------------------
+   Each particle is spread by a cubic B-spline, which leaves no ripples of a lattice
+   with about this spacing.
+------------------------------------------------------------------------- */
+
+void ComputeHVIHole::make_map(double spacing)
+{
+  const bool as_wanted = map.lay_out(lo, hi, spacing);
+  if (!as_wanted && comm->me == 0 && !warned_coarse) {
+    error->warning(FLERR, "Compute hvi/hole: a map with spacing {} would be too large, it is {}",
+                   spacing, map.h);
+    warned_coarse = true;
+  }
+
+  mass.assign(map.areal.size(), 0);
+  for (const Particle &p : layer)
+    for (int sx = mirrored[0] ? -1 : 1; sx <= 1; sx += 2)
+      for (int sy = mirrored[1] ? -1 : 1; sy <= 1; sy += 2) {
+        const double u[2] = {map.node(0, sx * p.y[0]), map.node(1, sy * p.y[1])};
+        if (u[0] < 1.0 || u[0] >= map.n[0] - 2 || u[1] < 1.0 || u[1] >= map.n[1] - 2) continue;
+        const int i[2] = {(int) u[0], (int) u[1]};
+        double w[2][4];
+        for (int k = 0; k < 2; k++) {
+          const double f = u[k] - i[k], g = 1.0 - f;
+          w[k][0] = g * g * g / 6.0;
+          w[k][1] = 2.0 / 3.0 - f * f * (1.0 - 0.5 * f);
+          w[k][2] = 2.0 / 3.0 - g * g * (1.0 - 0.5 * g);
+          w[k][3] = f * f * f / 6.0;
+        }
+        for (int a = 0; a < 4; a++)
+          for (int b = 0; b < 4; b++)
+            mass[map.index(i[0] + a - 1, i[1] + b - 1)] +=
+                std::llround(unit * p.mass * w[0][a] * w[1][b]);
+      }
+  MPI_Allreduce(MPI_IN_PLACE, mass.data(), mass.size(), MPI_INT64_T, MPI_SUM, world);
+  for (size_t k = 0; k < mass.size(); k++) map.areal[k] = mass[k] / (unit * map.h * map.h);
+
+  map.find_intact();
+}
+
+/* ----------------------------------------------------------------------
+   Cube root of the volume per particle in the intact plate, whose thickness t is
+   that of L even layers with this spacing a: t^2 = (L a)^2 = 12 <(s - <s>)^2> + a^2.
+   Sums of integers do not depend on the number of ranks.
+------------------------------------------------------------------------- */
+
+double ComputeHVIHole::find_spacing()
+{
+  const double scale = 1 << 30;
+  int64_t mine[3] = {0, 0, 0}, sum[3];
+  for (const Particle &p : layer) {
+    if (farthest == 0.0 || std::hypot(p.y[0], p.y[1]) < map.far * map.h) continue;
+    const double s = p.s / farthest;
+    mine[0]++;
+    mine[1] += std::llround(scale * s);
+    mine[2] += std::llround(scale * s * s);
+  }
+  MPI_Allreduce(mine, sum, 3, MPI_INT64_T, MPI_SUM, world);
+  double variance = 0.0;
+  if (sum[0] > 0) {
+    const double mean = sum[1] / scale / sum[0];
+    variance = farthest * farthest * std::max(sum[2] / scale / sum[0] - mean * mean, 0.0);
+  }
+
+  const double density = map.intact / mean_mass;
+  double a = 1.0 / std::sqrt(density);
+  for (int i = 0; i < 50; i++) a = std::cbrt(std::sqrt(12.0 * variance + a * a) / density);
+  return a;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeHVIHole::memory_usage()
+{
+  return (double) layer.capacity() * sizeof(Particle) + (double) mass.capacity() * sizeof(int64_t) +
+      map.memory_usage();
+}

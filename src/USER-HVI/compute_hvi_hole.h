@@ -1,0 +1,80 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifdef COMPUTE_CLASS
+// clang-format off
+ComputeStyle(hvi/hole,ComputeHVIHole);
+// clang-format on
+#else
+
+#ifndef LMP_COMPUTE_HVI_HOLE_H
+#define LMP_COMPUTE_HVI_HOLE_H
+
+#include "compute.h"
+#include "hvi_plate.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/* ----------------------------------------------------------------------
+   The hole in a plate, seen along the axis.  The mass of a layer around the plate
+   is spread onto a map across the axis; the hole is found there.  The definition is
+   in compute_hvi_hole.rst.
+
+   Global vector:
+      1 equal-area diameter    2 smallest diameter    3 largest diameter
+      4, 5 center of the hole  6 area
+      7 share of the plate that is there: 1, 1/2 or 1/4
+      8 thickness of the layer
+      9 mass per area of the intact plate
+     10 spacing of the map
+   1 to 6 are 0 if there is no hole, all if there is no plate.
+------------------------------------------------------------------------- */
+
+class ComputeHVIHole : public Compute {
+ public:
+  ComputeHVIHole(class LAMMPS *, int, char **);
+  ~ComputeHVIHole() override;
+  void init() override;
+  void compute_vector() override;
+  double memory_usage() override;
+
+ private:
+  struct Particle {
+    double mass, s, y[2];    // s from the plane, y from the center
+  };
+
+  // settings; 0 means: find it out
+
+  int axis, across[2], sectors;
+  double center[2], plane, thickness, dr, fill, reference;
+  bool warned_open, warned_coarse, warned_dr;
+
+  // the plate's layer; all but the particles is the same on all ranks
+
+  std::vector<Particle> layer;    // of this rank
+  double half, farthest;          // thickness of the layer / 2, largest |s|
+  int64_t count;                  // of its particles
+  double mean_mass, unit;         // masses are added up as integers: mass * unit
+  bool mirrored[2];
+  double lo[2], hi[2];    // where the plate is
+  std::vector<int64_t> mass;
+  HVI::Plate map;
+
+  void find_layer();
+  bool find_extent();
+  void make_map(double);
+  double find_spacing();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
