@@ -1,0 +1,223 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""python3 -m hvi: the command line. options() holds what commands share; each command is a function in commands.py."""
+
+import argparse
+import os
+import sys
+import warnings
+
+from . import commands
+from .errors import HVIError, HVIWarning
+from .units import MVV2E
+from .version import version
+
+DESCRIPTION = """Looks at what LAMMPS has written of an impact: debris clouds, fragments, velocity maps, side views."""
+
+EXAMPLES = {
+    "info": "  python3 -m hvi info debris.dump",
+    "cloud": """  python3 -m hvi cloud debris.dump --data debris.data --axis z --plane 4.05e-3
+  python3 -m hvi cloud debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 --interval 3e-6 \\
+      --out cloud.csv --figure cloud""",
+    "fragments": """  python3 -m hvi fragments debris.dump --data debris.data --bonds bonds.dump --axis z --plane 4.05e-3 \\
+      --fit both --figure masses --out fragments.csv
+  python3 -m hvi fragments debris.dump --data debris.data --bonds bonds.dump --axis z --plane 4.05e-3 --all --out f.csv
+  python3 -m hvi fragments sph.dump --column c_frag --frame 3
+  python3 -m hvi fragments sph.dump --distance 0.45 --units lj --mass 1=1""",
+    "map": """  python3 -m hvi map debris.dump --data debris.data --axis z --figure phase
+  python3 -m hvi map debris.dump --data debris.data --axis z --kind field --figure field.png""",
+    "view": """  python3 -m hvi view debris.dump --data debris.data --axis z --thickness 8e-3 --figure side
+  python3 -m hvi view debris.dump --data debris.data --axis z --plane 4.05e-3 \\
+      --color fragment --bonds bonds.dump --figure pieces""",
+    "compare": """  python3 -m hvi compare run1/result.yaml run2/result.yaml
+  python3 -m hvi compare run1 run2 --rtol 0.05 --keys length_ratio fragmentation
+  python3 -m hvi compare run1/debris.dump run2/debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 \\
+      --bonds run1/bonds.dump run2/bonds.dump""",
+}
+
+
+def mass(text):
+    """(type, mass) of TYPE=VALUE"""
+    kind, found, value = text.partition("=")
+    try:
+        kind, value = int(kind), float(value)
+    except ValueError:
+        found = ""
+    if not found or not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not TYPE=MASS, like 1=2.5e-7")
+    return kind, value
+
+
+def positive(text):
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not a number > 0")
+    return value
+
+
+def _files(parser):
+    parser.add_argument("files", nargs="+", metavar="FILE", help="dump file, or several of one run (plain or .gz)")
+
+
+def _reading(parser, several=False):
+    group = parser.add_argument_group("what the dump does not say")
+    group.add_argument("--data", metavar="FILE", nargs=2 if several else None, help="data file (write_data): masses, bonds")
+    group.add_argument("--mass", action="append", type=mass, metavar="TYPE=MASS",
+                       help="mass of the particles of a type; repeat")
+    group.add_argument("--units", choices=sorted(MVV2E),
+                       help="LAMMPS units (default: the dump's or the data file's, else si)")
+    group.add_argument("--dt", type=positive, metavar="T", help="time per step, for dumps without time")
+    group.add_argument("--interval", type=positive, metavar="T", help="time between frames (dump_modify every/time)")
+
+
+def _cloud(parser, needed, plane=True):
+    group = parser.add_argument_group("the cloud: all particles beyond a plane")
+    group.add_argument("--axis", choices="xyz", required=needed, default=None if needed else "z",
+                       help="direction of the impact" + ("" if needed else " (default: z)"))
+    if plane:
+        group.add_argument("--plane", type=float, metavar="X", required=needed,
+                           help="coordinate of the plane" + ("" if needed else " (default: all particles)"))
+
+
+def _rules(parser, several=False):
+    group = parser.add_argument_group("what is a fragment (one of)")
+    group.add_argument("--column", metavar="NAME", help="column with fragment IDs (compute hvi/fragment/atom)")
+    group.add_argument("--bonds", metavar="FILE", nargs=2 if several else None,
+                       help="dump local with batom1 batom2 of every frame, or a data file")
+    group.add_argument("--distance", type=positive, metavar="R", help="particles closer than R hang together")
+    group.add_argument("--bond-columns", nargs=2, metavar="NAME",
+                       help="columns with the two atom IDs (default: the last two)")
+
+
+def _frame(parser):
+    parser.add_argument("--frame", type=int, default=-1, metavar="K",
+                        help="which frame, from 0; negative from the end (default: -1)")
+
+
+def _output(parser, figure, required=False, out=True):
+    if out:
+        parser.add_argument("--out", metavar="FILE.csv", help="write the table with all digits")
+    parser.add_argument("--figure", metavar="NAME", required=required,
+                        help=f"draw {figure}: NAME.png and NAME.pdf, or only the one that NAME ends in")
+
+
+def options():
+    """The parser of the command line."""
+    parser = argparse.ArgumentParser(prog="python3 -m hvi", description=DESCRIPTION,
+                                     epilog="python3 -m hvi COMMAND --help says more, with examples.")
+    parser.add_argument("--version", action="version", version=f"lammps-hvi {version()}")
+    several = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+
+    def command(name, text):
+        sub = several.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".",
+                                 epilog="examples:\n" + EXAMPLES[name],
+                                 formatter_class=argparse.RawDescriptionHelpFormatter)
+        sub.set_defaults(run=getattr(commands, name))
+        return sub
+
+    sub = command("info", "frames and columns of a dump")
+    _files(sub)
+
+    sub = command("cloud", "size and velocity of the debris cloud in every frame, as compute hvi/cloud measures it")
+    _files(sub)
+    _cloud(sub, needed=True)
+    sub.add_argument("--quantile", type=float, default=0.99, metavar="Q",
+                     help="share of the mass inside an edge (default: 0.99)")
+    sub.add_argument("--frame", type=int, action="append", metavar="K", help="only this frame; repeat (default: all)")
+    _reading(sub)
+    _output(sub, "the measures over time")
+
+    sub = command("fragments", "table of the fragments of a frame, as compute hvi/fragment makes it, and N(>m)")
+    _files(sub)
+    _rules(sub)
+    _frame(sub)
+    _cloud(sub, needed=False)
+    sub.add_argument("--all", action="store_true", help="the summary of every frame instead of the table of one")
+    sub.add_argument("--top", type=int, default=10, metavar="N", help="rows to print (default: 10)")
+    sub.add_argument("--fit", choices=("power", "exponential", "both"), help="fit N(>m): A m^-b, N0 exp(-m/mu)")
+    sub.add_argument("--mmin", type=positive, metavar="M",
+                     help="fit from this mass on (default: where the law fits best)")
+    sub.add_argument("--mmax", type=positive, default=float("inf"), metavar="M", help="and up to this one")
+    _reading(sub)
+    _output(sub, "N(>m)")
+
+    sub = command("map", "axial velocity against position, as a map of mass (phase) or of its mean (field)")
+    _files(sub)
+    _frame(sub)
+    _cloud(sub, needed=False)
+    sub.add_argument("--kind", choices=("phase", "field"), default="phase",
+                     help="phase: mass over position and velocity; field: mean velocity over position and radius "
+                     "(default: phase)")
+    sub.add_argument("--bins", type=int, nargs=2, metavar="N", help="bins to the right and upwards")
+    _reading(sub)
+    _output(sub, "the map", required=True, out=False)
+
+    sub = command("view", "particles from the side, colored by type, fragment, velocity or any column")
+    _files(sub)
+    _frame(sub)
+    _cloud(sub, needed=False)
+    sub.add_argument("--up", choices="xyz", help="direction that points up (default: the next after the axis)")
+    sub.add_argument("--color", default="type", metavar="WHAT",
+                     help="type, velocity, axial, fragment or a column (default: type)")
+    sub.add_argument("--thickness", type=positive, metavar="D",
+                     help="only a slice through the center of mass (default: all)")
+    sub.add_argument("--diameter", type=positive, metavar="D", help="of the dots (default: the spacing of the particles)")
+    _rules(sub)
+    _reading(sub)
+    _output(sub, "the view", required=True, out=False)
+
+    sub = command("compare", "two runs side by side: result.yaml (or its folder), or the same measures of two dumps")
+    for name in "AB":
+        sub.add_argument(name.lower(), metavar=name, help="result.yaml, folder with one, or dump")
+    sub.add_argument("--keys", nargs="+", metavar="KEY", help="only these (default: all)")
+    sub.add_argument("--rtol", type=float, metavar="T", help="exit status 1 if a relative difference is larger than T")
+    sub.add_argument("--out", metavar="FILE.csv", help="write the table with all digits")
+    _frame(sub)
+    _cloud(sub, needed=False)
+    sub.add_argument("--quantile", type=float, default=0.99, metavar="Q",
+                     help="share of the mass inside an edge (default: 0.99)")
+    _rules(sub, several=True)
+    _reading(sub, several=True)
+    return parser
+
+
+def join_negative(arguments):
+    """--plane -1e-3 as --plane=-1e-3: argparse takes the number for an option"""
+    joined = []
+    for word in arguments:
+        try:
+            negative = word.startswith("-") and float(word) <= 0.0
+        except ValueError:
+            negative = False
+        if negative and joined and joined[-1].startswith("--") and "=" not in joined[-1]:
+            joined[-1] += "=" + word
+        else:
+            joined.append(word)
+    return joined
+
+
+def main(arguments=None):
+    """Runs a command; returns the exit status: 0; 1 for wrong input, with one line on stderr; 130 when interrupted."""
+    args = options().parse_args(join_negative(sys.argv[1:] if arguments is None else arguments))
+    with warnings.catch_warnings():
+        warnings.showwarning = lambda message, kind, *_: (
+            print(f"hvi: warning: {message}", file=sys.stderr) if issubclass(kind, HVIWarning) else None)
+        try:
+            status = args.run(args) or 0
+            sys.stdout.flush()
+            return status
+        except HVIError as error:
+            print(f"hvi: {error}", file=sys.stderr)
+        except ImportError as error:
+            print(f"hvi: {error}: see Howto_python for what is needed", file=sys.stderr)
+        except MemoryError:
+            print("hvi: not enough memory for this frame", file=sys.stderr)
+        except BrokenPipeError:  # as in  python3 -m hvi ... | head: nobody reads the rest
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        except OSError as error:
+            print(f"hvi: {error}", file=sys.stderr)
+        except KeyboardInterrupt:
+            return 130
+    return 1

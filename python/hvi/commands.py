@@ -1,0 +1,197 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""The commands of python3 -m hvi; each takes the parsed options, prints, and returns the exit status or None for 0."""
+
+import os
+
+import numpy as np
+
+from . import bonds as bond_sources
+from . import cloud as clouds
+from . import compare as comparison
+from . import distribution, fragments as pieces, progress, tables
+from .dump import Dump
+from .errors import HVIError
+from .scan import open_binary
+
+
+def _open(args, paths=None, data=None):
+    return Dump(paths or args.files, data=data or args.data, masses=dict(args.mass or ()), units=args.units, dt=args.dt,
+                interval=args.interval, progress=progress.bar)
+
+
+def _moment(frame):
+    return f"frame {frame.number}, step {frame.step}" + ("" if frame.time is None else f", time {frame.time:.6g}")
+
+
+def _save(figure, name):
+    from .figures import save
+
+    for path in save(figure, name):
+        print(f"figure: {path}")
+
+
+def _has_rule(args):
+    return any(rule is not None for rule in (args.column, args.bonds, args.distance))
+
+
+def _rule(args, bonds=None):
+    """What is a fragment, as the options say: keywords of fragments.find()"""
+    if not _has_rule(args):
+        raise HVIError("what is a fragment? give --column, --bonds or --distance")
+    bonds = bond_sources.source(bonds or args.bonds, args.bond_columns, progress.bar)
+    where = {} if args.plane is None else {"axis": args.axis, "plane": args.plane}
+    return {"column": args.column, "bonds": bonds, "distance": args.distance, **where}
+
+
+def _time(frame):
+    return float("nan") if frame.time is None else frame.time
+
+
+def info(args):
+    dump = Dump(args.files, progress=progress.bar)
+    first = dump.headers[0]
+    print(f"{len(dump)} frames, {first.n} {(first.label or '').lower()} in the first, units {first.units or 'not said'}")
+    print(f"columns: {' '.join(dump.columns)}")
+    rows = [(k, h.step, "-" if h.time is None else h.time, h.n) for k, h in enumerate(dump.headers)]
+    print(tables.text(("frame", "step", "time", "rows"), rows))
+
+
+def cloud(args):
+    dump = _open(args)
+    numbers = range(len(dump)) if args.frame is None else [dump.number(k) for k in args.frame]
+    with progress.bar(len(numbers), "cloud") as bar:
+        rows = []
+        for row in clouds.series((dump[k] for k in numbers), args.axis, args.plane, args.quantile):
+            rows.append(row)
+            bar.update()
+    table = clouds.table(rows)
+    names = [name for name in table.dtype.names if args.out or name not in ("time", "front_displacement_velocity")
+             or np.isfinite(table[name]).any()]
+    print(tables.text(names, table[names].tolist(), dict(clouds.SERIES), dump.units))
+    if args.out:
+        tables.write_csv(args.out, names, table[names].tolist())
+    if args.figure:
+        from . import figures
+
+        _save(figures.cloud(table, dump.units), args.figure)
+
+
+def fragments(args):
+    dump = _open(args)
+    rule = _rule(args)
+    if args.all:
+        return _all_fragments(args, dump, rule)
+    frame = dump[args.frame]
+    found = pieces.find(frame, **rule)
+    print(_moment(frame))
+    for name, value in found.summary.items():
+        print(f"{name}: {tables.number(value)}")
+    names = found.table.dtype.names
+    if args.top > 0 and len(found.table):
+        print()
+        print(tables.text(names, found.table[:args.top].tolist(), pieces.COLUMN_QUANTITIES, dump.units))
+    fits = _fits(args, found)
+    if fits:
+        print()
+    for fit in fits:
+        print(fit)
+    if args.out:
+        tables.write_csv(args.out, names, found.table.tolist())
+    if args.figure:
+        from . import figures
+
+        _save(figures.distribution(found.table["mass"], fits, dump.units), args.figure)
+
+
+def _all_fragments(args, dump, rule):
+    """One row per frame: when, and the summary"""
+    if args.fit or args.figure:
+        raise HVIError("--all makes a table; for a fit or a figure choose one frame with --frame")
+    rows = []
+    with progress.bar(len(dump), "fragments") as bar:
+        for frame in dump:
+            summary = pieces.find(frame, **rule).summary
+            rows.append({"frame": frame.number, "step": frame.step, "time": _time(frame), **summary})
+            bar.update()
+    names, rows = list(rows[0]), [tuple(row.values()) for row in rows]
+    quantities = {"time": "time", "mass": "mass", "single_particles_mass": "mass"}
+    print(tables.text(names, rows, quantities, dump.units))
+    if args.out:
+        tables.write_csv(args.out, names, rows)
+
+
+def _fits(args, found):
+    """Both laws on the same range, so that their likelihoods can be compared"""
+    laws = {None: (), "both": distribution.LAWS}.get(args.fit, (args.fit,))
+    fits, start = [], args.mmin
+    for law in laws:
+        fits.append(distribution.fit(found.table["mass"], law, start, args.mmax, found.unit))
+        start = fits[0].m_min
+    return fits
+
+
+def map(args):
+    from . import figures
+
+    draw = {"phase": figures.phase, "field": figures.field}[args.kind]
+    bins = {"bins": tuple(args.bins)} if args.bins else {}
+    _save(draw(_open(args)[args.frame], args.axis, args.plane, **bins), args.figure)
+
+
+def view(args):
+    from . import figures
+
+    frame = _open(args)[args.frame]
+    found = None
+    if args.color == "fragment":
+        found = pieces.find(frame, **_rule(args))
+    elif args.plane is not None:
+        frame = frame.select(clouds.beyond(frame, args.axis, args.plane))
+    _save(figures.side(frame, args.axis, args.up, args.color, args.thickness, found, args.diameter), args.figure)
+
+
+def _is_dump(path):
+    if os.path.isdir(path):
+        return False
+    with open_binary(path) as stream:
+        return stream.read(5) == b"ITEM:"
+
+
+def compare(args):
+    runs = args.a, args.b
+    kinds = [_is_dump(path) for path in runs]
+    if kinds[0] != kinds[1]:
+        raise HVIError(f"cannot compare a dump with a result.yaml: {runs[0]} and {runs[1]}")
+    if kinds[0]:
+        if args.plane is None:
+            raise HVIError("to compare two dumps give --plane, and --axis if it is not z")
+        both = [_measures(args, path, k) for k, path in enumerate(runs)]
+    else:
+        both = [comparison.read_result(path) for path in runs]
+    if args.keys:
+        unknown = [key for key in args.keys if not any(key in result for result in both)]
+        if unknown:
+            raise HVIError(f"there is no {' '.join(unknown)}; there are: {' '.join(both[0])}")
+        both = [{key: result[key] for key in args.keys if key in result} for result in both]
+    table = comparison.rows(*both)
+    names = ("", "A", "B", "B - A", "relative")
+    print(tables.text(names, table))
+    if args.out:
+        tables.write_csv(args.out, ("key", *names[1:]), table)
+    if args.rtol is not None and not comparison.largest(table) <= args.rtol:
+        print(f"larger than {args.rtol:g}: {', '.join(row[0] for row in table if comparison.largest([row]) > args.rtol)}")
+        return 1
+    return 0
+
+
+def _measures(args, path, which):
+    """Cloud and, if there is a rule for them, fragments of the cloud in one of two dumps"""
+    frame = _open(args, path, args.data and args.data[which])[args.frame]
+    result = {"step": frame.step}
+    if frame.time is not None:
+        result["time"] = frame.time
+    result.update(clouds.measure(frame, args.axis, args.plane, args.quantile))
+    if _has_rule(args):
+        summary = pieces.find(frame, **_rule(args, args.bonds and args.bonds[which])).summary
+        result.update({name: value for name, value in summary.items() if name not in ("mass", "particles")})
+    return result

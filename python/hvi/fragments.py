@@ -1,0 +1,160 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""Fragments: which particles hang together, and a table of the pieces, as compute hvi/fragment makes it."""
+
+import dataclasses
+
+import numpy as np
+
+from . import bonds as bond_sources
+from .cloud import beyond
+from .errors import HVIError
+from .frame import as_frame
+
+# a row: the columns of compute hvi/fragment, in units of the dump
+ROW = np.dtype([("id", np.int64), ("count", np.int64), ("mass", float), ("x", float), ("y", float), ("z", float),
+                ("vx", float), ("vy", float), ("vz", float), ("ke", float), ("size", float)])
+COLUMN_QUANTITIES = {"mass": "mass", "x": "distance", "y": "distance", "z": "distance", "vx": "velocity",
+                     "vy": "velocity", "vz": "velocity", "ke": "energy", "size": "distance"}
+
+
+@dataclasses.dataclass
+class Fragments:
+    """What find() returns.
+
+    frame: the Frame of the particles that count, n of them
+    label: fragment ID of each of them, (n,) of int64
+    table: one row per fragment, dtype ROW, largest mass first, equal masses in order of ID; pandas.DataFrame(table)
+    unit: mass of a particle if all have the same, else None
+    """
+
+    frame: object
+    label: np.ndarray
+    table: np.ndarray
+    unit: float
+
+    @property
+    def summary(self):
+        """The vector of compute hvi/fragment and the mass: a dict; all 0 if there are no particles."""
+        t, n = self.table, len(self.label)
+        mass = t["mass"].sum()
+        singles = t["mass"][t["count"] == 1].sum()
+        return {"fragments": len(t), "particles": n, "fragmentation": len(t) / n if n else 0.0,
+                "largest_fragment_mass_fraction": t["mass"][0] / mass if n else 0.0,
+                "single_particles_mass": singles, "single_particles_mass_fraction": singles / mass if n else 0.0,
+                "mass": mass}
+
+    @property
+    def row(self):
+        """Row in the table of each particle's fragment, (n,)."""
+        order = np.argsort(self.table["id"])
+        return order[np.searchsorted(self.table["id"], self.label, sorter=order)]
+
+    def dataframe(self):
+        """The table as a pandas.DataFrame, indexed by fragment ID."""
+        import pandas
+
+        return pandas.DataFrame(self.table).set_index("id")
+
+
+def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, where=None):
+    """Fragments of a frame, by one of three rules; only particles that count connect others.
+
+    source: a Frame, or a Universe or AtomGroup of hvi.open()
+    column: name of a column with fragment IDs, as compute hvi/fragment/atom writes it (0: does not count)
+    bonds: see hvi.bonds.source(); only those of the frame's time step count; default for a Universe: its bonds
+    distance: particles closer than this hang together, also across periodic boundaries
+    axis, plane: only particles beyond the plane (coordinate > plane), the debris cloud
+    where: mask of particles that count, (n,) of bool, instead of axis and plane
+
+    With a column, pieces that hang together only through particles that do not count are still one fragment: the column
+    does not tell.
+    """
+    frame = as_frame(source)
+    if column is None and bonds is None and distance is None:
+        bonds = getattr(getattr(getattr(source, "universe", None), "trajectory", None), "bonds", None)
+    if sum(rule is not None for rule in (column, bonds, distance)) != 1:
+        raise HVIError("fragments are found by a column, by bonds or by distance: give one of them")
+    if where is not None and (axis is not None or plane is not None):
+        raise HVIError("give a mask or an axis and a plane, not both")
+    if axis is not None or plane is not None:
+        where = beyond(frame, axis, plane)
+    if where is not None:
+        frame = frame.select(where)
+    if column is not None:
+        frame = frame.select(frame[column] != 0)
+        label = _whole_ids(frame, column)
+    else:
+        pairs = _close_pairs(frame, distance) if bonds is None else _bonded_pairs(frame, bonds)
+        label = components(frame.ids, pairs)
+    mass = frame.m
+    same = len(mass) and mass.min() == mass.max()
+    return Fragments(frame, label, tabulate(frame, label), float(mass[0]) if same else None)
+
+
+def components(ids, pairs):
+    """Lowest ID of the component of each particle.
+
+    ids: (n,), rising; pairs: rows of particles that hang together, (k, 2). Returns (n,) of int64.
+    """
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    n = len(ids)
+    if n == 0:
+        return np.zeros(0, dtype=np.int64)
+    graph = coo_matrix((np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
+    number, component = connected_components(graph, directed=False)
+    lowest = np.empty(number, dtype=np.int64)
+    lowest[component[::-1]] = ids[::-1]  # the last one written is the lowest
+    return lowest[component]
+
+
+def _bonded_pairs(frame, bonds):
+    return bond_sources.rows_of(bond_sources.source(bonds).at(frame.step), frame.ids)
+
+
+def _close_pairs(frame, distance):
+    from scipy.spatial import cKDTree
+
+    if not (distance > 0.0 and np.isfinite(distance)):
+        raise HVIError(f"distance must be > 0, not {distance}")
+    if not len(frame):
+        return np.zeros((0, 2), dtype=np.int64)
+    x, owner = frame.box.images(frame.box.wrap(frame.x), distance) if frame.box else (frame.x, np.arange(len(frame)))
+    pairs = cKDTree(x).query_pairs(distance, output_type="ndarray")
+    near = np.sum((x[pairs[:, 0]] - x[pairs[:, 1]]) ** 2, axis=1) < distance**2
+    return owner[pairs[near]]
+
+
+def _whole_ids(frame, column):
+    label = frame[column].astype(np.int64)
+    if not np.array_equal(label, frame[column]):
+        raise HVIError(f"{frame.where}: column {column} has no fragment IDs: it is not whole numbers")
+    return label
+
+
+def tabulate(frame, label):
+    """Table of the fragments, dtype ROW.
+
+    frame: n particles; label: fragment of each, (n,)
+    size = 2 sqrt(5/3) R_g: the diameter of a uniform sphere with the same radius of gyration; ke: of all its particles.
+    """
+    ids, first, place, count = np.unique(label, return_index=True, return_inverse=True, return_counts=True)
+    m, x, v = frame.m, frame.x, frame.v
+
+    def total(values):
+        return np.bincount(place, values, minlength=len(ids))
+
+    table = np.zeros(len(ids), dtype=ROW)
+    table["id"], table["count"], table["mass"] = ids, count, total(m)
+    table["ke"] = 0.5 * frame.mvv2e * total(m * np.einsum("ij,ij->i", v, v))
+    spread = np.zeros(len(m))
+    for k, name in enumerate("xyz"):
+        start = x[first, k]  # counted from one of its particles: no difference of large numbers
+        shift = x[:, k] - start[place]
+        center = total(m * shift) / table["mass"]
+        table[name] = start + center
+        table["v" + name] = total(m * v[:, k]) / table["mass"]
+        spread += (shift - center[place]) ** 2
+    table["size"] = 2.0 * np.sqrt(5.0 / 3.0 * total(m * spread) / table["mass"])
+    return table[np.lexsort((table["id"], -table["mass"]))]

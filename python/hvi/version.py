@@ -1,0 +1,17 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""The version of the package, which is written in src/USER-HVI/hvi_version.h and nowhere else."""
+
+import pathlib
+import re
+
+HEADER = pathlib.Path(__file__).resolve().parents[2] / "src" / "USER-HVI" / "hvi_version.h"
+
+
+def version():
+    """From the source tree this file is in; from the installed package where there is no tree."""
+    try:
+        return re.search(r'HVI_VERSION\[\] = "([^"]+)"', HEADER.read_text()).group(1)
+    except FileNotFoundError:
+        from importlib import metadata
+
+        return metadata.version("lammps-hvi")
