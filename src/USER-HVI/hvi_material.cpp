@@ -1,0 +1,334 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#include "hvi_material.h"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace HVI {
+
+namespace {
+
+  // ---------------------------------------------------------------- laws beside the equation of state
+
+  // Johnson & Cook, Proc. 7th Int. Symp. Ballistics (1983):
+  // Y = (A + B eps^n)(1 + C ln(epsdot/epsdot0))(1 - T*^m), T* = (T - Tref)/(Tm - Tref)
+
+  constexpr Parameter STRENGTH_JOHNSON_COOK[] = {
+      {"G", PRESSURE, POSITIVE, REQUIRED},     {"A", PRESSURE, POSITIVE, REQUIRED},
+      {"B", PRESSURE, NOT_NEGATIVE, REQUIRED}, {"n", NUMBER, NOT_NEGATIVE, REQUIRED},
+      {"C", NUMBER, NOT_NEGATIVE, REQUIRED},   {"m", NUMBER, POSITIVE, REQUIRED},
+      {"epsdot0", RATE, POSITIVE, 1.0},        {"Tref", TEMPERATURE, POSITIVE, REQUIRED},
+      {"Tm", TEMPERATURE, POSITIVE, REQUIRED},
+  };
+
+  // Steinberg, Cochran & Guinan, J. Appl. Phys. 51 (1980) 1498:
+  // G = G0 [1 + A p/eta^(1/3) - B (T - 300)], Y = min(Y0 (1 + beta eps)^n, Ymax) G/G0,
+  // Tm = Tm0 exp[2 a (1 - 1/eta)] eta^(2 (g0 - a - 1/3)), eta = rho/rho0
+
+  constexpr Parameter STRENGTH_STEINBERG_GUINAN[] = {
+      {"G0", PRESSURE, POSITIVE, REQUIRED},           {"Y0", PRESSURE, POSITIVE, REQUIRED},
+      {"Ymax", PRESSURE, POSITIVE, REQUIRED},         {"beta", NUMBER, NOT_NEGATIVE, REQUIRED},
+      {"n", NUMBER, NOT_NEGATIVE, REQUIRED},          {"A", PER_PRESSURE, NOT_NEGATIVE, REQUIRED},
+      {"B", PER_TEMPERATURE, NOT_NEGATIVE, REQUIRED}, {"Tm0", TEMPERATURE, POSITIVE, REQUIRED},
+      {"a", NUMBER, NOT_NEGATIVE, REQUIRED},
+  };
+
+  // Johnson & Cook, Eng. Fract. Mech. 21 (1985) 31, s* positive in tension:
+  // eps_f = [D1 + D2 exp(D3 s*)][1 + D4 ln(epsdot/epsdot0)][1 + D5 T*]
+
+  constexpr Parameter DAMAGE_JOHNSON_COOK[] = {
+      {"D1", NUMBER, ANY, REQUIRED}, {"D2", NUMBER, ANY, REQUIRED},
+      {"D3", NUMBER, ANY, REQUIRED}, {"D4", NUMBER, ANY, REQUIRED},
+      {"D5", NUMBER, ANY, REQUIRED}, {"epsdot0", RATE, POSITIVE, 1.0},
+  };
+
+  // the tension, of pressure or of the largest principal stress, that the material bears
+
+  constexpr Parameter SPALL_LIMIT[] = {{"sigma_p", PRESSURE, POSITIVE, REQUIRED}};
+
+  // fraction of the plastic work that heats (Taylor & Quinney)
+
+  constexpr Parameter THERMAL_WORK[] = {{"chi", NUMBER, FRACTION, REQUIRED}};
+
+  struct Law {
+    const char *kind, *law;
+    int n;
+    const Parameter *params;
+  };
+
+  template <int N>
+  constexpr Law law(const char *kind, const char *name, const Parameter (&params)[N])
+  {
+    return {kind, name, N, params};
+  }
+
+  // the only list of laws beside those of hvi_eos.cpp
+
+  constexpr Law LAWS[] = {
+      law("strength", "johnson-cook", STRENGTH_JOHNSON_COOK),
+      law("strength", "steinberg-guinan", STRENGTH_STEINBERG_GUINAN),
+      law("damage", "johnson-cook", DAMAGE_JOHNSON_COOK),
+      law("spall", "limit", SPALL_LIMIT),
+      law("thermal", "work", THERMAL_WORK),
+  };
+
+  const char *KINDS[] = {"eos", "strength", "damage", "spall", "thermal"};
+
+  bool is_kind(const std::string &word)
+  {
+    for (const char *kind : KINDS)
+      if (word == kind) return true;
+    return false;
+  }
+
+  std::string kinds()
+  {
+    std::string names;
+    for (const char *kind : KINDS) names += (names.empty() ? "" : ", ") + std::string(kind);
+    return names;
+  }
+
+  std::string laws_of(const std::string &kind)
+  {
+    if (kind == "eos") return eos_names();
+    std::string names;
+    for (const Law &l : LAWS)
+      if (kind == l.kind) names += (names.empty() ? "" : ", ") + std::string(l.law);
+    return names;
+  }
+
+  const Parameter *find_params(const std::string &kind, const std::string &name, int &n)
+  {
+    if (kind == "eos") return eos_params(name, n);
+    for (const Law &l : LAWS)
+      if (kind == l.kind && name == l.law) {
+        n = l.n;
+        return l.params;
+      }
+    return nullptr;
+  }
+
+  // ---------------------------------------------------------------- text
+
+  std::vector<std::string> split(const std::string &text)
+  {
+    static const char *blank = " \t\r\f\v";
+    std::vector<std::string> words;
+    size_t from = text.find_first_not_of(blank);
+    while (from != std::string::npos) {
+      const size_t to = text.find_first_of(blank, from);
+      words.push_back(text.substr(from, to - from));
+      from = text.find_first_not_of(blank, to);
+    }
+    return words;
+  }
+
+  // decimal numbers only: no hexadecimal ones, no inf or nan by name
+
+  bool number(const std::string &word, double &x)
+  {
+    if (word.find_first_not_of("0123456789+-.eE") != std::string::npos) return false;
+    char *end = nullptr;
+    x = std::strtod(word.c_str(), &end);
+    return end != word.c_str() && *end == '\0';
+  }
+
+  // powers of ten of the units of mass, length and time in kg, m, s
+
+  bool decades(const std::string &units, int &mass, int &length, int &time)
+  {
+    mass = length = time = 0;
+    if (units == "si") return true;
+    if (units == "cgs") {
+      mass = -3;
+      length = -2;
+      return true;
+    }
+    if (units == "micro") {    // picogram, micrometer, microsecond
+      mass = -15;
+      length = time = -6;
+      return true;
+    }
+    return false;
+  }
+
+  // a section while it is read
+
+  struct Open {
+    std::string kind, law;
+    int line = 0, n = 0;
+    const Parameter *params = nullptr;
+    std::vector<double> values;
+    std::vector<int> lines;    // where a value was given; 0: not yet
+
+    std::string label() const { return kind + " " + law; }
+  };
+
+  // fills in presets and converts; says what is missing
+
+  std::string finish(Open &open, const std::string &units, const std::string &run_units)
+  {
+    for (int i = 0; i < open.n; i++) {
+      const Parameter &par = open.params[i];
+      if (open.lines[i]) {
+        open.values[i] = convert(open.values[i], par.dim, units, run_units);
+        if (!std::isfinite(open.values[i]))
+          return std::string(par.key) + " is out of range in units " + run_units;
+      } else if (std::isnan(par.preset))
+        return "missing key " + std::string(par.key);
+      else if (convertible("si", run_units))
+        open.values[i] = convert(par.preset, par.dim, "si", run_units);
+      else if (par.preset == 0.0 || par.dim.none())
+        open.values[i] = par.preset;
+      else
+        return "missing key " + std::string(par.key) + ", which has no default in units " +
+            run_units;
+    }
+    return "";
+  }
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+bool convertible(const std::string &from, const std::string &to)
+{
+  int m, l, t;
+  return (from == "lj" && to == "lj") || (decades(from, m, l, t) && decades(to, m, l, t));
+}
+
+// all factors are powers of ten, so one division or multiplication by an exact number will do
+
+double convert(double x, const Dimension &dim, const std::string &from, const std::string &to)
+{
+  if (from == to) return x;
+  int m0, l0, t0, m1, l1, t1;
+  decades(from, m0, l0, t0);
+  decades(to, m1, l1, t1);
+  const int n = dim.mass * (m0 - m1) + dim.length * (l0 - l1) + dim.time * (t0 - t1);
+  return n < 0 ? x / std::pow(10.0, -n) : x * std::pow(10.0, n);
+}
+
+const Section *Material::section(const std::string &kind, const std::string &law) const
+{
+  for (const Section &s : sections)
+    if (s.kind == kind && s.law == law) return &s;
+  return nullptr;
+}
+
+/* ----------------------------------------------------------------------
+   comments start with #; those before the first section hold UNITS: and DATE:
+   sections start with "kind law", their lines are "key value"
+------------------------------------------------------------------------- */
+
+std::string parse_material(const std::string &text, const std::string &filename,
+                           const std::string &run_units, Material &material)
+{
+  material = Material();
+  material.name = filename;
+  std::string units;
+  std::vector<Open> opened;
+  int line = 0;
+  auto at = [&](int where, const std::string &what) {
+    return filename + ":" + std::to_string(where) + ": " + what;
+  };
+
+  for (size_t from = 0; from < text.size();) {
+    size_t to = text.find('\n', from);
+    if (to == std::string::npos) to = text.size();
+    const std::string whole = text.substr(from, to - from);
+    from = to + 1;
+    line++;
+
+    const size_t hash = whole.find('#');
+    if (hash != std::string::npos && opened.empty()) {
+      const std::vector<std::string> words = split(whole.substr(hash + 1));
+      for (size_t i = 0; i + 1 < words.size(); i++) {
+        if (words[i] == "DATE:") material.date = words[i + 1];
+        if (words[i] != "UNITS:") continue;
+        if (!units.empty()) return at(line, "UNITS: given twice");
+        units = words[i + 1];
+        if (!convertible(units, units))
+          return at(line, "unknown UNITS: " + units + "; known are si, cgs, micro, lj");
+        if (!convertible(units, run_units))
+          return at(line,
+                    "UNITS: " + units + " cannot be converted to units " + run_units +
+                        " of the run");
+      }
+    }
+
+    const std::vector<std::string> words = split(whole.substr(0, hash));
+    if (words.empty()) continue;
+    const std::string &key = words[0];
+
+    if (is_kind(key)) {
+      if (units.empty()) return at(line, "no UNITS: in the comments before the first section");
+      if (words.size() < 2)
+        return at(line, "section " + key + " names no law; known are " + laws_of(key));
+      Open open;
+      open.kind = key;
+      open.law = words[1];
+      open.line = line;
+      open.params = find_params(key, open.law, open.n);
+      if (!open.params)
+        return at(line, "unknown law " + open.label() + "; known are " + laws_of(key));
+      if (words.size() > 2) return at(line, open.label() + ": unexpected text " + words[2]);
+      for (const Open &old : opened)
+        if (old.kind == key && (key == "eos" || old.law == open.law))
+          return at(line,
+                    "second section " + (key == "eos" ? key : open.label()) +
+                        ", the first is in line " + std::to_string(old.line));
+      open.values.resize(open.n);
+      open.lines.resize(open.n);
+      opened.push_back(open);
+      continue;
+    }
+
+    if (opened.empty()) return at(line, "expected a section (" + kinds() + "), found " + key);
+    Open &open = opened.back();
+    const std::string label = open.label() + ": ";
+    int i = 0;
+    while (i < open.n && key != open.params[i].key) i++;
+    if (i == open.n) {
+      std::string known;
+      for (int k = 0; k < open.n; k++) known += " " + std::string(open.params[k].key);
+      return at(line, label + "unknown key " + key + "; known are" + known);
+    }
+    if (open.lines[i])
+      return at(line,
+                label + "key " + key + " given twice, first in line " +
+                    std::to_string(open.lines[i]));
+    if (words.size() < 2) return at(line, label + "key " + key + " has no value");
+    double x;
+    if (!number(words[1], x)) return at(line, label + key + ": " + words[1] + " is not a number");
+    if (words.size() > 2)
+      return at(line, label + key + ": unexpected text " + words[2] + " after the value");
+    const std::string problem = value_problem(open.params[i].key, x, open.params[i].range);
+    if (!problem.empty()) return at(line, label + problem);
+    open.values[i] = x;
+    open.lines[i] = line;
+  }
+
+  for (Open &open : opened) {
+    std::string problem = finish(open, units, run_units);
+    if (!problem.empty()) return at(open.line, open.label() + ": " + problem);
+    if (open.kind == "eos") {
+      material.eos = make_eos_full(open.law, open.values, problem);
+      if (!material.eos) return at(open.line, open.label() + ": " + problem);
+      continue;
+    }
+    Section section = {open.kind, open.law, {}};
+    for (int i = 0; i < open.n; i++) section.values[open.params[i].key] = open.values[i];
+    material.sections.push_back(section);
+  }
+  if (!material.eos) return filename + ": no section eos";
+  return "";
+}
+
+}    // namespace HVI

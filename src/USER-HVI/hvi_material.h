@@ -1,0 +1,67 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_HVI_MATERIAL_H
+#define LMP_HVI_MATERIAL_H
+
+#include "hvi_eos.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+
+namespace HVI {
+
+/* ----------------------------------------------------------------------
+   A material: an equation of state and, as plain numbers in the units of the
+   run, the parameters of the other laws its file describes.
+------------------------------------------------------------------------- */
+
+// a section of a file, as "strength johnson-cook": values of all keys of the law, given or preset
+
+struct Section {
+  std::string kind, law;
+  std::map<std::string, double> values;
+};
+
+class Material {
+ public:
+  std::string name;    // as the user typed it
+  std::string date;    // DATE: of the file, or empty
+  std::unique_ptr<Eos> eos;
+  std::vector<Section> sections;    // all but eos
+
+  // kind is strength, damage, spall or thermal; null if the file does not describe that law
+
+  const Section *section(const std::string &kind, const std::string &law) const;
+};
+
+// A material from the text of its file, with values converted to the units of the run.
+// Returns what is wrong as "file:line: ...", or nothing.
+
+std::string parse_material(const std::string &text, const std::string &filename,
+                           const std::string &run_units, Material &material);
+
+// Between LAMMPS's unit sets si, cgs and micro; all have Kelvin.  Same name in and out: unchanged.
+
+bool convertible(const std::string &from, const std::string &to);
+double convert(double x, const Dimension &dim, const std::string &from, const std::string &to);
+
+// Finds the file as LAMMPS finds potentials, reads it on rank 0 and parses it on all; stops with
+// LAMMPS's error if anything is wrong.
+
+Material read_material_file(LAMMPS_NS::LAMMPS *lmp, const std::string &filename);
+
+}    // namespace HVI
+
+#endif
