@@ -34,7 +34,7 @@ enum {
   KINETIC, INTERNAL, CONTACT, SPRING, BROKEN, LEFT, CLAMPS, TOTAL, RATIO,
   PX, PY, PZ, LEFT_PX, LEFT_PY, LEFT_PZ, JX, JY, JZ,
   MASS, LEFT_MASS, LEFT_COUNT, BONDS_BROKEN, BONDS_LEFT,
-  P0X, P0Y, P0Z, MASS0, NVALUES
+  P0X, P0Y, P0Z, MASS0, VISCOUS, NVALUES
 };
 // clang-format on
 
@@ -155,6 +155,7 @@ void ComputeHVIEnergy::compute_vector()
   vector[LEFT_COUNT] = booked[FixHVILedger::LEFT_COUNT];
   vector[BONDS_BROKEN] = booked[FixHVILedger::BONDS_BROKEN];
   vector[BONDS_LEFT] = booked[FixHVILedger::BONDS_LEFT];
+  vector[VISCOUS] = booked[FixHVILedger::VISCOUS];
 
   vector[TOTAL] = 0.0;
   for (int n = KINETIC; n < TOTAL; n++) vector[TOTAL] += vector[n];

@@ -21,6 +21,7 @@
 #include "neighbor.h"
 #include "output.h"
 #include "pair_hvi_contact.h"
+#include "pair_hvi_sph.h"
 #include "update.h"
 
 #include <cmath>
@@ -37,18 +38,22 @@ static constexpr double BIG = 1.0e100;
 
 static constexpr double GROWTH = 1.0005;
 
+// SPH dissipates where it shocks, and its sound speeds are smooth: there it may grow faster
+
+static constexpr double GROWTH_SPH = 1.01;
+
 // no two particles come closer by more than this part of a contact distance in one step, so
 // that a pair is seen on its approach before it is deep in contact
 
 static constexpr double TRAVEL = 0.1;
 
-enum { MAXIMUM, CONTACT, SPRING, APPROACH, GROWING, NLIMITER };
+enum { MAXIMUM, CONTACT, SPRING, APPROACH, GROWING, SIGNAL, NLIMITER };
 
 /* ---------------------------------------------------------------------- */
 
 FixHVIDt::FixHVIDt(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtmin(0.0), dtmax(BIG), every(10), limiter(MAXIMUM), restored(0),
-    chosen(0), laststep(0), reach(0.0)
+    Fix(lmp, narg, arg), dtmin(0.0), dtmax(BIG), every(10), limiter(MAXIMUM), elastic(0),
+    restored(0), chosen(0), laststep(0), reach(0.0)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix hvi/dt", error);
 
@@ -114,8 +119,12 @@ void FixHVIDt::init()
   }
   auto *spring = dynamic_cast<HVI::TimeStepSource *>(force->bond_match("hvi/spring"));
   if (spring) sources.push_back(spring);
+  elastic = !sources.empty();
+  if (PairHVISPH *sph = PairHVISPH::find(lmp)) sources.push_back(sph);
   if (sources.empty())
-    error->all(FLERR, "Fix hvi/dt needs pair style hvi/contact or bond style hvi/spring");
+    error->all(
+        FLERR,
+        "Fix hvi/dt needs pair style hvi/contact, bond style hvi/spring or pair style hvi/sph");
 
   // shortest distance over which pairs act
 
@@ -157,7 +166,7 @@ void FixHVIDt::end_of_step()
 
 double FixHVIDt::grown() const
 {
-  return std::pow(GROWTH, update->ntimestep - laststep) * update->dt;
+  return std::pow(elastic ? GROWTH : GROWTH_SPH, update->ntimestep - laststep) * update->dt;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -167,12 +176,13 @@ double FixHVIDt::choose(double limit)
   laststep = update->ntimestep;
   comm->forward_comm(this);
 
-  HVI::TimeStepBounds bounds = {BIG, BIG, BIG};
+  HVI::TimeStepBounds bounds = {BIG, BIG, BIG, BIG};
   for (auto &source : sources) source->tighten(bounds);
 
   // the same, with the extremes of velocity: min v and min -v in each direction
 
-  double mine[9] = {bounds.contact, bounds.spring, bounds.approach, BIG, BIG, BIG, BIG, BIG, BIG};
+  double mine[10] = {bounds.contact, bounds.spring, bounds.approach, BIG, BIG, BIG, BIG, BIG, BIG,
+                     bounds.signal};
   double sum = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
     for (int k = 0; k < 3; k++) {
@@ -184,18 +194,19 @@ double FixHVIDt::choose(double limit)
 
   // MPI_MIN may drop a NaN, so carry it as the smallest number of all
 
-  double all[9];
+  double all[10];
   for (int k = 0; k < 3; k++)
     if (std::isnan(mine[k]) || !std::isfinite(sum)) mine[k] = -1.0;
-  MPI_Allreduce(mine, all, 9, MPI_DOUBLE, MPI_MIN, world);
+  MPI_Allreduce(mine, all, 10, MPI_DOUBLE, MPI_MIN, world);
 
   double spread = 0.0, travel = BIG;
   if (atom->natoms > 0)
     for (int k = 3; k < 6; k++) spread += (all[k] + all[k + 3]) * (all[k] + all[k + 3]);
-  if (spread > 0.0) travel = TRAVEL * reach / std::sqrt(spread);
+  if (elastic && spread > 0.0) travel = TRAVEL * reach / std::sqrt(spread);
 
-  const double bound[NLIMITER] = {dtmax, factor * all[0], factor * all[1],
-                                  MIN(factor * all[2], travel), limit};
+  const double bound[NLIMITER] = {dtmax,           factor * all[0],
+                                  factor * all[1], MIN(factor * all[2], travel),
+                                  limit,           factor * all[9]};
   limiter = MAXIMUM;
   for (int n = 0; n < NLIMITER; n++)
     if (bound[n] < bound[limiter]) limiter = n;

@@ -40,6 +40,7 @@ class FixHVIDt : public Fix {
   double factor, dtmin, dtmax;
   int every;
   int limiter;
+  int elastic;             // pairs or bonds with a stiffness
   int restored, chosen;    // dt is from a restart file, from an earlier run
   bigint laststep;         // that chose dt
   double reach;            // shortest cutoff of the pair style

@@ -37,6 +37,7 @@ class FixHVILedger : public Fix {
     BONDS_BROKEN, BONDS_LEFT,               // their numbers
     CLAMP_WORK,                             // work of the clamps on the particles
     CLAMP_JX, CLAMP_JY, CLAMP_JZ,           // their impulse on the particles
+    VISCOUS,                                // heat from viscosity, a part of internal energy
     NENTRY
   };
   // clang-format on
@@ -68,6 +69,10 @@ class FixHVILedger : public Fix {
   void watch_breaking() { breaking = 1; }
   void book_break(int nerased, double energy);
   void book_lost_kick(int i, double fx, double fy, double fz);
+
+  // for fix hvi/sph
+
+  void book_viscous(double heat) { entry[VISCOUS] += heat; }
 
   // for compute hvi/energy
 

@@ -17,8 +17,10 @@
 #include "bond.h"
 #include "comm.h"
 #include "domain.h"
+#include "fix_hvi_sph.h"
 #include "force.h"
 #include "hvi_compat.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "pair.h"
 
@@ -90,6 +92,8 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
 {
   dt = dt_in;
   Account a = {};
+  const auto fixes = modify->get_fix_by_style("^hvi/sph$");
+  const auto *const sph = fixes.empty() ? nullptr : dynamic_cast<FixHVISPH *>(fixes[0]);
 
   for (const int i : leaving) {
     Leaver l;
@@ -107,6 +111,7 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
     const bool clamped = atom->mask[i] & clampbit;
     a.energy += ke;
     if (atom->esph_flag) a.energy += atom->esph[i];
+    if (sph) a.energy -= sph->energy_owed(i);    // esph is ahead of the half kicks
     if (clamped) a.clamped_energy += ke;
     for (int k = 0; k < 3; k++) {
       a.momentum[k] += m * l.v[k];

@@ -22,6 +22,7 @@ struct TimeStepBounds {
   double contact;     // stiffness of pairs in contact as they stand
   double spring;      // stiffness of intact bonds
   double approach;    // stiffness where approaching pairs will turn back
+  double signal;      // not of a pair's stiffness: a length over the speed of signals, SPH
 };
 
 class TimeStepSource {

@@ -46,6 +46,14 @@ def test_input_runs(lmp, root, file, start, end):
     assert abs(thermo["c_book[9]"] - 1).max() < 1e-4  # and the books are kept
 
 
+def test_sph_input_runs(lmp, root):
+    """two aluminum plates: u = V/2, Us = c0 + s u, p = rho0 Us u"""
+    (text,) = inputs(root / "doc/src/Howto_sph.rst", r"(?=   # two aluminum plates)", r"\n(?=\S)")
+    thermo = lmp(text).thermo
+    assert thermo["c_mean"][-1] == pytest.approx(2703 * (5240 + 1.4 * 1000) * 1000, rel=0.02)
+    assert abs(thermo["c_book[9]"] - 1).max() < 1e-4
+
+
 def test_version_is_the_same_everywhere(root):
     version = re.search(r'HVI_VERSION\[\] = "([^"]+)"', (root / "src" / "USER-HVI" / "hvi_version.h").read_text()).group(1)
     assert f"\nversion: {version}\n" in (root / "CITATION.cff").read_text()

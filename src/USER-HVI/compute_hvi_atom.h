@@ -1,0 +1,51 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifdef COMPUTE_CLASS
+// clang-format off
+ComputeStyle(hvi/atom,ComputeHVIAtom);
+// clang-format on
+#else
+
+#ifndef LMP_COMPUTE_HVI_ATOM_H
+#define LMP_COMPUTE_HVI_ATOM_H
+
+#include "compute.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class ComputeHVIAtom : public Compute {
+ public:
+  ComputeHVIAtom(class LAMMPS *, int, char **);
+  ~ComputeHVIAtom() override;
+  void init() override;
+  void compute_peratom() override;
+  int pack_reverse_comm(int, int, double *) override;
+  void unpack_reverse_comm(int, int *, double *) override;
+  double memory_usage() override;
+
+ private:
+  enum Value { PRESSURE, TEMPERATURE, SOUND, LENGTH, BONDS };
+
+  std::vector<Value> values;
+  int nmax;
+  double **table;
+  std::vector<double> nbonds;    // of owned and ghost particles
+  class PairHVISPH *pair;
+  class FixHVISPH *fix;
+
+  double value_of(Value, int) const;
+  void count_bonds();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

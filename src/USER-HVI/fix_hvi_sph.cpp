@@ -1,0 +1,335 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "fix_hvi_sph.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_hvi_ledger.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "pair_hvi_sph.h"
+#include "update.h"
+
+#include <cstring>
+#include <utility>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ---------------------------------------------------------------------- */
+
+FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), dtv(0.0), dtf(0.0),
+    power(0.0)
+{
+  if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
+    error->all(FLERR,
+               "Fix hvi/sph needs density, energy and velocity estimates of particles: use "
+               "atom_style sph");
+  if (narg != 3) error->all(FLERR, "Fix hvi/sph takes no arguments, but got {}", arg[3]);
+
+  time_integrate = 1;
+  restart_global = 1;
+  restart_peratom = 1;
+  comm_border = 1;
+  comm_forward = 1;
+  maxexchange = NEXTRA;
+  create_attribute = 1;
+
+  FixHVISPH::grow_arrays(atom->nmax);
+  for (int i = 0; i < atom->nlocal; i++) FixHVISPH::set_arrays(i);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+  atom->add_callback(Atom::BORDER);
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixHVISPH::~FixHVISPH()
+{
+  atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
+  atom->delete_callback(id, Atom::BORDER);
+  memory->sfree(extra);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixHVISPH::setmask()
+{
+  // setup_pre_force() is called for fixes with a pre_force() only
+
+  return INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVISPH::init()
+{
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix hvi/sph does not support run_style respa");
+  if (update->whichflag == 2) error->all(FLERR, "Fix hvi/sph does not support minimization");
+  if (modify->get_fix_by_style("^hvi/sph$").size() > 1)
+    error->all(FLERR, "More than one fix hvi/sph: it keeps the state of all SPH particles");
+  if (domain->deform_vremap)
+    error->all(FLERR, "Fix hvi/sph does not support fix deform with remap v");
+
+  pair = PairHVISPH::find(lmp);
+  if (!pair) error->all(FLERR, "Fix hvi/sph needs pair style hvi/sph");
+  if (!restored.empty() && restored != pair->description())
+    error->all(FLERR,
+               "Fix hvi/sph: the restart file was written with pair_style hvi/sph {}, this run "
+               "uses {}",
+               restored, pair->description());
+
+  ledger = FixHVILedger::instance(lmp);
+  reset_dt();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVISPH::reset_dt()
+{
+  dtv = update->dt;
+  dtf = 0.5 * update->dt;
+}
+
+/* ----------------------------------------------------------------------
+   Rates belong to extrapolated values of velocity, density and energy.  A run
+   that goes on where the last one or a restart file ended starts from the very
+   same rates; a particle that a command has changed in between starts anew.
+------------------------------------------------------------------------- */
+
+uint64_t FixHVISPH::fingerprint(int i) const
+{
+  const double list[5] = {atom->v[i][0], atom->v[i][1], atom->v[i][2], atom->rho[i], atom->esph[i]};
+  uint64_t mark = 0x9E3779B97F4A7C15ull;
+  for (const double value : list) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof(bits));
+    mark = (mark ^ bits) * 0xFF51AFD7ED558CCDull;
+    mark ^= mark >> 32;
+  }
+  return mark | 1;    // 0: never integrated
+}
+
+void FixHVISPH::setup_pre_force(int /*vflag*/)
+{
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int itype = atom->type[i];
+    if (!pair->material(itype)) continue;
+    Extra &e = extra[i];
+    if (e.hscale == 0.0) e.hscale = pair->hscale(itype, atom->rho[i]);
+    if (!(atom->mask[i] & groupbit)) continue;
+    if (pair->is_stock() || e.mark != fingerprint(i)) {
+      for (int k = 0; k < 3; k++) atom->vest[i][k] = atom->v[i][k];
+      e.rho = atom->rho[i];
+      e.esph = atom->esph[i];
+    }
+    std::swap(e.rho, atom->rho[i]);
+    std::swap(e.esph, atom->esph[i]);
+  }
+  comm->forward_comm();
+  if (pair->variable_h()) comm->forward_comm(this);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVISPH::setup(int /*vflag*/)
+{
+  // sph/rhosum has replaced the density in the meantime
+
+  const bool summed = force->pair_match("sph/rhosum", 1);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit && pair->material(atom->type[i])) {
+      if (!summed) std::swap(extra[i].rho, atom->rho[i]);
+      std::swap(extra[i].esph, atom->esph[i]);
+    }
+  power = pair->viscous_power();
+}
+
+/* ----------------------------------------------------------------------
+   Half a kick and a drift; then rho, esph and vest are extrapolated to the end
+   of the step, where rates are evaluated (Zisis et al. eq 18).  The package SPH
+   evaluates them with density and energy of the middle of the step.
+------------------------------------------------------------------------- */
+
+void FixHVISPH::initial_integrate(int /*vflag*/)
+{
+  double *const *const x = atom->x;
+  double *const *const v = atom->v;
+  double *const *const vest = atom->vest;
+  const double *const *const f = atom->f;
+  double *const rho = atom->rho;
+  double *const esph = atom->esph;
+  const double ahead = pair->is_stock() ? 0.0 : 1.0;
+
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
+    for (int k = 0; k < 3; k++) {
+      vest[i][k] = v[i][k] + 2.0 * dtfm * f[i][k];
+      v[i][k] += dtfm * f[i][k];
+      x[i][k] += dtv * v[i][k];
+    }
+    const double drho = dtf * atom->drho[i], de = dtf * atom->desph[i];
+    Extra &e = extra[i];
+    e.drho = ahead * drho;
+    e.de = ahead * de;
+    rho[i] += drho + e.drho;
+    esph[i] += de + e.de;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVISPH::final_integrate()
+{
+  double *const *const v = atom->v;
+  const double *const *const f = atom->f;
+  double *const rho = atom->rho;
+  double *const esph = atom->esph;
+
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
+    for (int k = 0; k < 3; k++) v[i][k] += dtfm * f[i][k];
+    Extra &e = extra[i];
+    e.rho = rho[i];
+    e.esph = esph[i];
+    rho[i] += dtf * atom->drho[i] - e.drho;
+    esph[i] += dtf * atom->desph[i] - e.de;
+    e.drho = e.de = 0.0;
+  }
+
+  const double now = pair->viscous_power();
+  ledger->book_viscous(dtf * (power + now));
+  power = now;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVISPH::post_run()
+{
+  for (int i = 0; i < atom->nlocal; i++) extra[i].mark = fingerprint(i);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVISPH::set_arrays(int i)
+{
+  extra[i] = Extra();
+}
+
+void FixHVISPH::grow_arrays(int n)
+{
+  extra = (Extra *) memory->srealloc(extra, n * sizeof(Extra), "hvi/sph:extra");
+}
+
+void FixHVISPH::copy_arrays(int i, int j, int /*delflag*/)
+{
+  extra[j] = extra[i];
+}
+
+int FixHVISPH::pack_exchange(int i, double *buf)
+{
+  memcpy(buf, &extra[i], sizeof(Extra));
+  return NEXTRA;
+}
+
+int FixHVISPH::unpack_exchange(int i, double *buf)
+{
+  memcpy(&extra[i], buf, sizeof(Extra));
+  return NEXTRA;
+}
+
+/* ----------------------------------------------------------------------
+   the constant of variable h goes to new ghosts
+------------------------------------------------------------------------- */
+
+int FixHVISPH::pack_border(int n, int *list, double *buf)
+{
+  for (int i = 0; i < n; i++) buf[i] = extra[list[i]].hscale;
+  return n;
+}
+
+int FixHVISPH::unpack_border(int n, int first, double *buf)
+{
+  for (int i = 0; i < n; i++) extra[first + i].hscale = buf[i];
+  return n;
+}
+
+int FixHVISPH::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+{
+  return pack_border(n, list, buf);
+}
+
+void FixHVISPH::unpack_forward_comm(int n, int first, double *buf)
+{
+  unpack_border(n, first, buf);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixHVISPH::pack_restart(int i, double *buf)
+{
+  Extra e = extra[i];
+  e.mark = fingerprint(i);
+  buf[0] = NEXTRA + 1;
+  memcpy(&buf[1], &e, sizeof(Extra));
+  return NEXTRA + 1;
+}
+
+void FixHVISPH::unpack_restart(int nlocal, int nth)
+{
+  double **stored = atom->extra;
+  int m = 0;
+  for (int i = 0; i < nth; i++) m += static_cast<int>(stored[nlocal][m]);
+  memcpy(&extra[nlocal], &stored[nlocal][m + 1], sizeof(Extra));
+}
+
+int FixHVISPH::maxsize_restart()
+{
+  return NEXTRA + 1;
+}
+
+int FixHVISPH::size_restart(int /*nlocal*/)
+{
+  return NEXTRA + 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVISPH::write_restart(FILE *fp)
+{
+  if (comm->me) return;
+  const std::string text = pair ? pair->description() : restored;
+  const int size = text.size() + 1;
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(text.c_str(), 1, size, fp);
+}
+
+void FixHVISPH::restart(char *buf)
+{
+  restored = buf;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixHVISPH::memory_usage()
+{
+  return (double) atom->nmax * sizeof(Extra);
+}

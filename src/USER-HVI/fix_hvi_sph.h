@@ -1,0 +1,82 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(hvi/sph,FixHVISPH);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_HVI_SPH_H
+#define LMP_FIX_HVI_SPH_H
+
+#include "fix.h"
+
+#include <cstdint>
+#include <string>
+
+namespace LAMMPS_NS {
+
+class FixHVISPH : public Fix {
+ public:
+  FixHVISPH(class LAMMPS *, int, char **);
+  ~FixHVISPH() override;
+  int setmask() override;
+  void init() override;
+  void setup_pre_force(int) override;
+  void pre_force(int) override {}
+  void setup(int) override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  void post_run() override;
+  void reset_dt() override;
+  void set_arrays(int) override;
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_border(int, int *, double *) override;
+  int unpack_border(int, int, double *) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int maxsize_restart() override;
+  int size_restart(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  double memory_usage() override;
+
+  double hscale(int i) const { return extra[i].hscale; }    // owned and ghost particles
+  double energy_owed(int i) const { return extra[i].de; }
+
+ private:
+  // of a particle, beyond what atom_style sph keeps
+
+  struct Extra {
+    double drho, de;     // second half of the step in progress, as extrapolated
+    double rho, esph;    // values the last rates belong to
+    uint64_t mark;       // fingerprint of the state at the end of the last run
+    double hscale;       // h rho^(1/dim), 0: not known yet
+  };
+  static constexpr int NEXTRA = sizeof(Extra) / sizeof(double);
+
+  Extra *extra;
+  class PairHVISPH *pair;
+  class FixHVILedger *ledger;
+  double dtv, dtf;
+  double power;            // viscous, of the last force evaluation
+  std::string restored;    // settings of the pair style in the restart file
+
+  uint64_t fingerprint(int) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

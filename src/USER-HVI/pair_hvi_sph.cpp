@@ -1,0 +1,431 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "pair_hvi_sph.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_hvi_ledger.h"
+#include "fix_hvi_sph.h"
+#include "force.h"
+#include "hvi_kernel.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+static constexpr double BIG = 1.0e100;
+
+/* ---------------------------------------------------------------------- */
+
+PairHVISPH::PairHVISPH(LAMMPS *lmp) :
+    Pair(lmp), support(0.0), laws(), variable(false), energy(true), density(false), hmin(0.5),
+    hmax(1.25), visc_a(nullptr), visc_b(nullptr), tension(nullptr), nmax(0), heating(0.0),
+    fix(nullptr), sweep(nullptr)
+{
+  if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
+    error->all(FLERR,
+               "Pair style hvi/sph needs density, energy and velocity estimates of particles: "
+               "use atom_style sph");
+  respa_enable = 0;
+  single_enable = 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairHVISPH::~PairHVISPH()
+{
+  if (copymode) return;
+  deallocate();
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairHVISPH *PairHVISPH::find(LAMMPS *lmp)
+{
+  return dynamic_cast<PairHVISPH *>(lmp->force->pair_match("^hvi/sph", 0));
+}
+
+/* ----------------------------------------------------------------------
+   Zisis et al. eq 20, dh/dt = -(1/D) (h/rho) drho/dt, integrates to
+   h rho^(1/D) = const: only the constant is stored, and sent with new ghosts
+------------------------------------------------------------------------- */
+
+double PairHVISPH::hscale(int itype, double rho) const
+{
+  return htype[itype] * std::pow(rho, 1.0 / laws.dim);
+}
+
+double PairHVISPH::smoothing_length(int itype, double rho, double scale) const
+{
+  if (!variable) return htype[itype];
+  const double root = laws.dim == 3 ? std::cbrt(rho) : (laws.dim == 2 ? std::sqrt(rho) : rho);
+  const double h = scale / root;
+  return MAX(hmin * htype[itype], MIN(h, hmax * htype[itype]));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag);
+
+  if (atom->nmax > nmax) {
+    nmax = atom->nmax;
+    place.reset(new HVI::SphPlace[nmax]);
+    state.reset(new HVI::SphState[nmax]);
+    rates.reset(new HVI::SphRates[nmax]);
+  }
+
+  gather();
+  (this->*sweep)();
+  scatter();
+
+  if (vflag_fdotr) virial_fdotr_compute();
+}
+
+/* ----------------------------------------------------------------------
+   owned and ghost particles: pressure and speed of sound of all that have a
+   material, whoever integrates them
+------------------------------------------------------------------------- */
+
+void PairHVISPH::gather()
+{
+  const double *const *const x = atom->x;
+  const double *const *const vest = atom->vest;
+  const double *const rho = atom->rho;
+  const double *const esph = atom->esph;
+  const double *const rmass = atom->rmass;
+  const int *const type = atom->type;
+  const int nall = atom->nlocal + atom->nghost;
+
+  for (int i = 0; i < nall; i++) {
+    const int itype = type[i];
+    if (!materials[itype]) continue;    // of another style in a hybrid
+    const double m = rmass ? rmass[i] : atom->mass[itype];
+    double p, csq;
+    if (!std::isfinite(esph[i]) || !materials[itype]->eos->evaluate(rho[i], esph[i] / m, p, csq))
+      error->one(FLERR,
+                 "Pair hvi/sph: equation of state {} of particle {} (type {}) has no answer at "
+                 "density {} and energy per mass {} at step {}",
+                 materials[itype]->eos->name(), atom->tag[i], itype, rho[i], esph[i] / m,
+                 update->ntimestep);
+
+    // the package SPH takes the speed of sound of liquids as constant, of gases as sqrt(p/rho)
+
+    if (laws.stock) {
+      const double c0 = materials[itype]->eos->c0();
+      csq = c0 > 0.0 ? c0 * c0 : p / rho[i];
+    }
+
+    place[i].x = x[i][0];
+    place[i].y = x[i][1];
+    place[i].z = x[i][2];
+    place[i].h = variable ? smoothing_length(itype, rho[i], fix->hscale(i)) : htype[itype];
+
+    HVI::SphState &s = state[i];
+    s.vx = vest[i][0];
+    s.vy = vest[i][1];
+    s.vz = vest[i][2];
+    s.rho = rho[i];
+    s.w = laws.symmetric ? m : m / rho[i];
+    s.p = laws.symmetric ? p / (rho[i] * rho[i]) : p;
+    s.c = std::sqrt(csq);
+    s.type = itype;
+  }
+  if (nall) memset((void *) rates.get(), 0, nall * sizeof(HVI::SphRates));
+}
+
+/* ----------------------------------------------------------------------
+   one sweep over the half list, in three passes over the neighbors of a
+   particle: squeeze out those beyond reach without a branch, work out the
+   pairs vectorized, add what happens to the neighbors
+------------------------------------------------------------------------- */
+
+template <class Kernel, int SCENE> void PairHVISPH::eval()
+{
+  const int nlocal = atom->nlocal;
+  const int newton_pair = force->newton_pair;
+  const int inum = list->inum;
+  const int *const ilist = list->ilist;
+  const int *const numneigh = list->numneigh;
+  const int *const *const firstneigh = list->firstneigh;
+  const HVI::SphPlace *const where = place.get();
+
+  HVI::SphLaws mine = laws;
+  HVI::SphNear near;
+  const double reachsq = Kernel::support * Kernel::support * laws.h * laws.h;
+
+  for (int ii = 0; ii < inum; ii++) {
+    const int i = ilist[ii];
+    const HVI::SphPlace pi = where[i];
+    const int *const jlist = firstneigh[i];
+    const int jnum = numneigh[i];
+    HVI::SphRates sum = {};
+
+    if (SCENE & HVI::SPH_BODIES) {
+      mine.row_a = visc_a[atom->type[i]];
+      mine.row_b = visc_b[atom->type[i]];
+      mine.row_tension = tension[atom->type[i]];
+    }
+
+    for (int jfirst = 0; jfirst < jnum; jfirst += HVI::SphNear::MAX) {
+      const int jlast = MIN(jfirst + HVI::SphNear::MAX, jnum);
+      int n = 0;
+      for (int jj = jfirst; jj < jlast; jj++) {
+        const int j = jlist[jj] & NEIGHMASK;
+        const double dx = pi.x - where[j].x;
+        const double dy = pi.y - where[j].y;
+        const double dz = pi.z - where[j].z;
+        const double rsq = dx * dx + dy * dy + dz * dz;
+        near.j[n] = j;
+        __builtin_prefetch(&state[j]);
+        __builtin_prefetch(&rates[j], 1);
+        near.dx[n] = dx;
+        near.dy[n] = dy;
+        near.dz[n] = dz;
+        near.rsq[n] = rsq;
+        if (SCENE & HVI::SPH_OWN_H) {
+          const double h = 0.5 * (pi.h + where[j].h);
+          near.h[n] = h;
+          n += rsq < Kernel::support * Kernel::support * h * h;
+        } else
+          n += rsq < reachsq;
+      }
+
+      const bool same =
+          HVI::sph_interact<Kernel, SCENE>(i, pi, state.get(), n, mine, near, rates.get(), sum);
+      if (same) report_overlap(i, n, near);
+
+      if (evflag)
+        for (int m = 0; m < n; m++)
+          ev_tally(i, near.j[m], nlocal, newton_pair, 0.0, 0.0, near.force[m], near.dx[m],
+                   near.dy[m], near.dz[m]);
+    }
+    *(HVI::Vec8 *) &rates[i] += *(HVI::Vec8 *) &sum;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::report_overlap(int i, int n, const HVI::SphNear &near)
+{
+  for (int m = 0; m < n; m++)
+    if (near.rsq[m] == 0.0)
+      error->one(FLERR, "Pair hvi/sph: particles {} and {} are at the same place at step {}",
+                 atom->tag[i], atom->tag[near.j[m]], update->ntimestep);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::scatter()
+{
+  double *const *const f = atom->f;
+  double *const drho = atom->drho;
+  double *const desph = atom->desph;
+  const int n = atom->nlocal + (force->newton_pair ? atom->nghost : 0);
+
+  heating = 0.0;
+  for (int i = 0; i < n; i++) {
+    f[i][0] += rates[i].fx;
+    f[i][1] += rates[i].fy;
+    f[i][2] += rates[i].fz;
+    drho[i] += rates[i].drho;
+    if (!energy) continue;
+    desph[i] += rates[i].de;
+    heating += rates[i].heat;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   shortest h/(c + approach + viscosity): Monaghan 1992 eq 4.5 with the speed at
+   which the pair approaches in place of |v|, which depends on the frame.  h is
+   taken as half of what the kernel reaches, for all kernels alike.
+------------------------------------------------------------------------- */
+
+void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
+{
+  const double scale = 0.5 * support;
+  double shortest = bounds.signal;
+
+  for (int i = 0; i < atom->nlocal; i++)
+    if (materials[atom->type[i]]) shortest = MIN(shortest, scale * place[i].h / state[i].c);
+
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const HVI::SphPlace &pi = place[i];
+    const HVI::SphState &si = state[i];
+    const double *const row_a = visc_a[atom->type[i]];
+    const double *const row_b = visc_b[atom->type[i]];
+    const int *const jlist = list->firstneigh[i];
+    const int jnum = list->numneigh[i];
+
+    for (int jj = 0; jj < jnum; jj++) {
+      const int j = jlist[jj] & NEIGHMASK;
+      const HVI::SphPlace &pj = place[j];
+      const HVI::SphState &sj = state[j];
+      const double dx = pi.x - pj.x;
+      const double dy = pi.y - pj.y;
+      const double dz = pi.z - pj.z;
+      const double rdotv = dx * (si.vx - sj.vx) + dy * (si.vy - sj.vy) + dz * (si.vz - sj.vz);
+      if (rdotv >= 0.0) continue;
+
+      // also pairs that are not yet within reach: they will be soon
+
+      const double rsq = dx * dx + dy * dy + dz * dz;
+      const double h = 0.5 * (pi.h + pj.h);
+      const double c = MAX(si.c, sj.c);
+      const double mu = -h * rdotv / (rsq + 0.01 * h * h);
+      const int jtype = atom->type[j];
+      const double signal =
+          c - rdotv / std::sqrt(rsq) + 0.6 * (row_a[jtype] * c + row_b[jtype] * mu);
+      if (scale * h < shortest * signal || std::isnan(signal)) shortest = scale * h / signal;
+    }
+  }
+  bounds.signal = shortest;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::init_style()
+{
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Pair style hvi/sph does not support run_style respa");
+  if (update->whichflag == 2)
+    error->all(FLERR, "Pair style hvi/sph does not support minimization: it has no energy");
+  if (force->mvv2e != 1.0 || force->ftm2v != 1.0)
+    error->all(FLERR,
+               "Pair style hvi/sph needs units in which force = mass * acceleration: "
+               "si, cgs, micro, nano or lj");
+  const bool hybrid = utils::strmatch(force->pair_style, "^hybrid");
+  if (hybrid && find(lmp) != this) error->all(FLERR, "More than one pair style hvi/sph");
+
+  FixHVILedger::instance(lmp);    // fix hvi/sph cannot make it: a fix must not add fixes
+  auto fixes = modify->get_fix_by_style("^hvi/sph$");
+  fix = fixes.empty() ? nullptr : dynamic_cast<FixHVISPH *>(fixes[0]);
+  if (variable && !fix)
+    error->all(FLERR, "Pair style hvi/sph h variable needs fix hvi/sph, which keeps h");
+  if (fixes.empty() && modify->get_fix_by_style("^sph").empty() &&
+      modify->get_fix_by_style("meso").empty() && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair style hvi/sph: no fix integrates density and energy and estimates "
+                   "velocities, as fix hvi/sph does");
+
+  for (int i = 1; i <= atom->ntypes; i++) {
+    if (!materials[i]) {
+      if (hybrid) continue;
+      error->all(FLERR, "Pair style hvi/sph: type {} has no material", i);
+    }
+    if (laws.stock) {
+      const std::string eos = materials[i]->eos->name();
+      if (eos != "tait" && eos != "idealgas")
+        error->all(FLERR, "Pair style hvi/sph stock yes knows eos tait and idealgas only, not {}",
+                   eos);
+    }
+  }
+
+  int scene = density ? HVI::SPH_DENSITY : 0;
+  int first = 0;
+  if (variable) scene |= HVI::SPH_OWN_H;
+  for (int i = 1; i <= atom->ntypes; i++) {
+    if (!materials[i]) continue;
+    if (!first) first = i;
+    if (htype[i] != htype[first]) scene |= HVI::SPH_OWN_H;
+    for (int j = 1; j <= atom->ntypes; j++)
+      if (materials[j] &&
+          (tension[i][j] == 0.0 || visc_a[i][j] != visc_a[first][first] ||
+           visc_b[i][j] != visc_b[first][first]))
+        scene |= HVI::SPH_BODIES;
+  }
+  if (first) {
+    laws.h = htype[first];
+    laws.a = visc_a[first][first];
+    laws.b = visc_b[first][first];
+  }
+  HVI::with_kernel(kernel, [&](auto k) {
+    choose_scene<decltype(k)>(scene);
+  });
+
+  neighbor->add_request(this);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class Kernel> void PairHVISPH::choose_scene(int scene)
+{
+  static constexpr decltype(sweep) table[HVI::SPH_NSCENES] = {
+      &PairHVISPH::eval<Kernel, 0>, &PairHVISPH::eval<Kernel, 1>, &PairHVISPH::eval<Kernel, 2>,
+      &PairHVISPH::eval<Kernel, 3>, &PairHVISPH::eval<Kernel, 4>, &PairHVISPH::eval<Kernel, 5>,
+      &PairHVISPH::eval<Kernel, 6>, &PairHVISPH::eval<Kernel, 7>};
+  sweep = table[scene];
+}
+
+/* ----------------------------------------------------------------------
+   the list reaches as far as the largest h, so that it stays valid while h changes
+------------------------------------------------------------------------- */
+
+double PairHVISPH::init_one(int i, int j)
+{
+  for (const int itype : {i, j})
+    if (!materials[itype]) error->all(FLERR, "Pair style hvi/sph: type {} has no material", itype);
+  return 0.5 * support * (variable ? hmax : 1.0) * (htype[i] + htype[j]);
+}
+
+/* ----------------------------------------------------------------------
+   a row of particles must not see its own images across it
+------------------------------------------------------------------------- */
+
+void PairHVISPH::setup()
+{
+  if (laws.dim == domain->dimension) return;
+
+  double mine[6], all[6];
+  for (int k = 0; k < 6; k++) mine[k] = -BIG;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++) {
+      mine[k] = MAX(mine[k], atom->x[i][k]);
+      mine[3 + k] = MAX(mine[3 + k], -atom->x[i][k]);
+    }
+  MPI_Allreduce(mine, all, 6, MPI_DOUBLE, MPI_MAX, world);
+
+  int extended = 0;
+  double cutmax = 0.0;
+  for (int i = 1; i <= atom->ntypes; i++)
+    if (materials[i]) cutmax = MAX(cutmax, sqrt(cutsq[i][i]));
+  for (int k = 0; k < domain->dimension; k++) {
+    if (all[k] + all[3 + k] > 1.0e-9 * cutmax)
+      extended++;
+    else if (domain->periodicity[k] && domain->prd[k] < cutmax)
+      error->all(FLERR,
+                 "Pair hvi/sph dim {}: the box is only {} long along {}, particles would interact "
+                 "with their images beyond the reach of {}",
+                 laws.dim, domain->prd[k], "xyz"[k], cutmax);
+  }
+  if (extended > laws.dim)
+    error->all(FLERR, "Pair hvi/sph dim {}: particles extend along {} directions", laws.dim,
+               extended);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairHVISPH::memory_usage()
+{
+  return (double) nmax * (sizeof(HVI::SphPlace) + sizeof(HVI::SphState) + sizeof(HVI::SphRates));
+}

@@ -1,0 +1,99 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifdef PAIR_CLASS
+// clang-format off
+PairStyle(hvi/sph,PairHVISPH);
+// clang-format on
+#else
+
+#ifndef LMP_PAIR_HVI_SPH_H
+#define LMP_PAIR_HVI_SPH_H
+
+#include "hvi_material.h"
+#include "hvi_sph.h"
+#include "hvi_timestep.h"
+#include "pair.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class PairHVISPH : public Pair, public HVI::TimeStepSource {
+ public:
+  PairHVISPH(class LAMMPS *);
+  ~PairHVISPH() override;
+
+  void compute(int, int) override;
+  void settings(int, char **) override;
+  void coeff(int, char **) override;
+  void init_style() override;
+  double init_one(int, int) override;
+  void setup() override;
+  void write_restart(FILE *) override;
+  void read_restart(FILE *) override;
+  void write_restart_settings(FILE *) override;
+  void read_restart_settings(FILE *) override;
+  void tighten(HVI::TimeStepBounds &) override;
+  double memory_usage() override;
+
+  // for fixes and computes
+
+  static PairHVISPH *find(class LAMMPS *);    // of this simulation, nullptr if there is none
+  const HVI::Material *material(int itype) const { return materials[itype].get(); }
+  double start_h(int itype) const { return htype[itype]; }
+  bool is_stock() const { return laws.stock; }
+  bool has_energy() const { return energy; }
+  bool variable_h() const { return variable; }
+  double smoothing_length(int itype, double rho, double hscale) const;
+  double hscale(int itype, double rho) const;         // h rho^(1/dim), which stays as it is
+  double viscous_power() const { return heating; }    // of owned particles
+  const std::string &description() const { return text; }
+
+ private:
+  // pair_style
+
+  std::string kernel, text;
+  double support;
+  HVI::SphLaws laws;
+  bool variable, energy, density;
+  double hmin, hmax;    // in units of the start value
+
+  // pair_coeff
+
+  std::vector<std::shared_ptr<const HVI::Material>> materials;
+  std::vector<std::string> specs;    // what made them, for restart files
+  std::vector<double> htype;
+  double **visc_a, **visc_b, **tension;    // NAN: as in pair_style; rows have ntypes+1 entries
+
+  // a step
+
+  int nmax;
+  std::unique_ptr<HVI::SphPlace[]> place;    // arrays of owned and ghost particles
+  std::unique_ptr<HVI::SphState[]> state;
+  std::unique_ptr<HVI::SphRates[]> rates;
+  double heating;
+  class FixHVISPH *fix;
+  void (PairHVISPH::*sweep)();
+
+  void allocate();
+  void deallocate();
+  void set_material(int ilo, int ihi, int jlo, int jhi, const std::vector<std::string> &);
+  void gather();
+  void scatter();
+  void report_overlap(int, int, const HVI::SphNear &);
+  template <class Kernel> void choose_scene(int);
+  template <class Kernel, int SCENE> void eval();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

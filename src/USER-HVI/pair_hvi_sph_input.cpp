@@ -1,0 +1,408 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+// what users type and restart files keep; the rest of the class is in pair_hvi_sph.cpp
+
+#include "pair_hvi_sph.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "hvi_kernel.h"
+#include "memory.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::allocate()
+{
+  allocated = 1;
+  const int np1 = atom->ntypes + 1;
+
+  memory->create(setflag, np1, np1, "pair:setflag");
+  memory->create(cutsq, np1, np1, "pair:cutsq");
+  memory->create(visc_a, np1, np1, "pair:visc_a");
+  memory->create(visc_b, np1, np1, "pair:visc_b");
+  memory->create(tension, np1, np1, "pair:tension");
+  for (int i = 0; i < np1; i++)
+    for (int j = 0; j < np1; j++) {
+      setflag[i][j] = 0;
+      visc_a[i][j] = laws.a;
+      visc_b[i][j] = laws.b;
+      tension[i][j] = (i == j || laws.stock) ? 1.0 : 0.0;
+    }
+  materials.assign(np1, nullptr);
+  specs.assign(np1, "");
+  htype.assign(np1, 0.0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::deallocate()
+{
+  if (!allocated) return;
+  memory->destroy(setflag);
+  memory->destroy(cutsq);
+  memory->destroy(visc_a);
+  memory->destroy(visc_b);
+  memory->destroy(tension);
+  allocated = 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::settings(int narg, char **arg)
+{
+  if (narg < 1) utils::missing_cmd_args(FLERR, "pair_style hvi/sph", error);
+  deallocate();    // new settings, for instance after read_restart, ask for new coefficients
+
+  laws = HVI::SphLaws();
+  laws.dim = domain->dimension;
+  laws.a = 1.0;
+  laws.b = 2.0;
+  variable = density = false;
+  energy = true;
+  hmin = 0.5;
+  hmax = 1.25;
+  int form_given = 0;
+
+  kernel = arg[0];
+  if (kernel == "gaussian") kernel = "gauss";    // pair style hybrid takes gauss for a pair style
+  if (!HVI::with_kernel(kernel, [this](auto k) {
+        support = decltype(k)::support;
+      }))
+    error->all(FLERR, "Unknown pair_style hvi/sph kernel {}: use one of {}", kernel,
+               HVI::KERNEL_NAMES);
+
+  int iarg = 1;
+  auto need = [&](int n) {
+    if (iarg + n >= narg)
+      utils::missing_cmd_args(FLERR, fmt::format("pair_style hvi/sph {}", arg[iarg]), error);
+  };
+  auto number = [&](int k, double lo) {
+    const double value = utils::numeric(FLERR, arg[iarg + k], false, lmp);
+    if (!(value >= lo) || !std::isfinite(value))
+      error->all(FLERR, "Pair_style hvi/sph {} must be >= {}, not {}", arg[iarg], lo,
+                 arg[iarg + k]);
+    return value;
+  };
+
+  while (iarg < narg) {
+    const std::string key = arg[iarg];
+    if (key == "dim") {
+      need(1);
+      laws.dim = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+      if (laws.dim < 1 || laws.dim > domain->dimension)
+        error->all(FLERR, "Pair_style hvi/sph dim must be 1 to {} in a box of dimension {}, not {}",
+                   domain->dimension, domain->dimension, arg[iarg + 1]);
+      iarg += 2;
+    } else if (key == "form") {
+      need(1);
+      const std::string form = arg[iarg + 1];
+      if (form != "sum" && form != "symmetric")
+        error->all(FLERR, "Pair_style hvi/sph form must be sum or symmetric, not {}", form);
+      laws.symmetric = form == "symmetric";
+      form_given = 1;
+      iarg += 2;
+    } else if (key == "viscosity") {
+      need(2);
+      laws.a = number(1, 0.0);
+      laws.b = number(2, 0.0);
+      iarg += 3;
+    } else if (key == "interface") {
+      need(1);
+      laws.automatic = strcmp(arg[iarg + 1], "auto") == 0;
+      laws.alpha = laws.automatic ? 0.0 : number(1, 0.0);
+      density = laws.automatic || laws.alpha > 0.0;
+      iarg += 2;
+    } else if (key == "h") {
+      need(1);
+      const std::string mode = arg[iarg + 1];
+      if (mode != "constant" && mode != "variable")
+        error->all(FLERR, "Pair_style hvi/sph h must be constant or variable, not {}", mode);
+      variable = mode == "variable";
+      iarg += 2;
+      if (variable && iarg < narg && utils::is_double(arg[iarg])) {
+        iarg -= 2;
+        need(3);
+        hmin = number(2, 0.0);
+        hmax = number(3, 0.0);
+        if (!(hmin > 0.0 && hmin <= 1.0 && hmax >= 1.0))
+          error->all(FLERR, "Pair_style hvi/sph h variable needs 0 < hmin <= 1 <= hmax, not {} {}",
+                     arg[iarg + 2], arg[iarg + 3]);
+        iarg += 4;
+      }
+    } else if (key == "energy") {
+      need(1);
+      energy = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      iarg += 2;
+    } else if (key == "stock") {
+      need(1);
+      laws.stock = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      iarg += 2;
+    } else
+      error->all(FLERR, "Unknown pair_style hvi/sph keyword: {}", key);
+  }
+
+  if (laws.stock) {
+    if (kernel != "lucy" || variable || density || !energy || laws.dim != domain->dimension ||
+        laws.dim < 2 || (form_given && !laws.symmetric))
+      error->all(FLERR,
+                 "Pair_style hvi/sph stock yes does what the package SPH does: kernel lucy, form "
+                 "symmetric, dim of the box, constant h, energy yes, no interface dissipation");
+    laws.symmetric = 1;
+  }
+  HVI::with_kernel(kernel, [this](auto k) {
+    laws.norm = decltype(k)::norm(laws.dim);
+  });
+  text = fmt::format("{} dim {} form {} h {}{}", kernel, laws.dim,
+                     laws.symmetric ? "symmetric" : "sum", variable ? "variable" : "constant",
+                     laws.stock ? " stock yes" : "");
+}
+
+/* ----------------------------------------------------------------------
+   I J MATERIAL h H  |  I J tension yes|no viscosity a b
+------------------------------------------------------------------------- */
+
+void PairHVISPH::coeff(int narg, char **arg)
+{
+  if (narg < 3) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph", error);
+  if (!allocated) allocate();
+
+  int ilo, ihi, jlo, jhi;
+  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
+  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
+
+  const std::vector<std::string> words(arg + 2, arg + narg);
+  if (words[0] == "file" || words[0] == "eos") {
+    set_material(ilo, ihi, jlo, jhi, words);
+    return;
+  }
+
+  for (std::size_t n = 0; n < words.size();) {
+    const std::string &key = words[n];
+    const std::size_t nvalues = key == "tension" ? 1 : 2;
+    if (key != "tension" && key != "viscosity")
+      error->all(FLERR,
+                 "Unknown pair_coeff hvi/sph keyword: {} (use file NAME h H, eos STYLE ARGS h H, "
+                 "tension yes|no or viscosity a b)",
+                 key);
+    if (n + nvalues >= words.size())
+      utils::missing_cmd_args(FLERR, fmt::format("pair_coeff hvi/sph {}", key), error);
+
+    double value[2] = {0.0, 0.0};
+    if (key == "tension")
+      value[0] = utils::logical(FLERR, words[n + 1], false, lmp);
+    else
+      for (int k = 0; k < 2; k++) {
+        value[k] = utils::numeric(FLERR, words[n + 1 + k], false, lmp);
+        if (!(value[k] >= 0.0) || !std::isfinite(value[k]))
+          error->all(FLERR, "Pair_coeff hvi/sph viscosity must be >= 0, not {}", words[n + 1 + k]);
+      }
+
+    int count = 0;
+    for (int i = ilo; i <= ihi; i++)
+      for (int j = MAX(jlo, i); j <= jhi; j++) {
+        if (key == "tension") {
+          if (i == j) {
+            if (ilo == ihi && jlo == jhi)
+              error->all(FLERR, "Pair_coeff hvi/sph tension is for pairs of different types");
+            continue;
+          }
+          tension[i][j] = tension[j][i] = value[0];
+        } else {
+          visc_a[i][j] = visc_a[j][i] = value[0];
+          visc_b[i][j] = visc_b[j][i] = value[1];
+        }
+        if (i != j) setflag[i][j] = 1;
+        count++;
+      }
+    if (count == 0)
+      error->all(FLERR, "Incorrect args for pair coefficients: no type pair with I <= J in {} {}",
+                 arg[0], arg[1]);
+    n += 1 + nvalues;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
+                              const std::vector<std::string> &words)
+{
+  // the last two words are h and its value
+
+  const std::size_t nwords = words.size();
+  auto made = std::make_shared<HVI::Material>();
+  std::size_t used;
+  if (words[0] == "file") {
+    if (nwords < 2) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph file", error);
+    *made = HVI::read_material_file(lmp, words[1]);
+    used = 2;
+  } else {
+    if (nwords < 2) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph eos", error);
+    const int nargs = HVI::eos_nargs(words[1]);
+    if (nargs < 0)
+      error->all(FLERR, "Unknown equation of state {} in pair_coeff hvi/sph: use one of {}",
+                 words[1], HVI::eos_names());
+    std::vector<double> args;
+    for (int k = 2; k < 2 + nargs; k++) {
+      const std::string word = k < (int) nwords ? words[k] : "";
+      if (!utils::is_double(word))
+        error->all(FLERR, "Pair_coeff hvi/sph eos {} needs {}{}", words[1], HVI::eos_args(words[1]),
+                   word.empty() ? word : ", not " + word);
+      args.push_back(utils::numeric(FLERR, word, false, lmp));
+    }
+    std::string problem;
+    made->name = words[1];
+    made->eos = HVI::make_eos(words[1], args, problem);
+    if (!made->eos) error->all(FLERR, "Pair_coeff hvi/sph eos {}: {}", words[1], problem);
+    used = 2 + nargs;
+  }
+
+  if (used >= nwords || words[used] != "h")
+    error->all(FLERR, "Pair_coeff hvi/sph: after the material must come h and its value{}",
+               used < nwords ? ", not " + words[used] : std::string());
+  if (used + 2 > nwords) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph h", error);
+  if (used + 2 < nwords)
+    error->all(FLERR, "Pair_coeff hvi/sph: unexpected {} after h {}", words[used + 2],
+               words[used + 1]);
+  const double h = utils::numeric(FLERR, words[used + 1], false, lmp);
+  if (!(h > 0.0) || !std::isfinite(h))
+    error->all(FLERR, "Pair_coeff hvi/sph h must be > 0, not {}", words[used + 1]);
+
+  std::string spec = words[0];
+  for (std::size_t n = 1; n < nwords; n++) spec += " " + words[n];
+
+  int count = 0;
+  for (int i = ilo; i <= ihi; i++) {
+    if (i < jlo || i > jhi) continue;
+    materials[i] = made;
+    specs[i] = spec;
+    htype[i] = h;
+    count++;
+  }
+  if (count == 0)
+    error->all(FLERR,
+               "Pair_coeff hvi/sph: a material is given to types I I, not to pairs of types");
+  for (int i = ilo; i <= ihi; i++)
+    for (int j = MAX(jlo, i); j <= jhi; j++) setflag[i][j] = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+static void write_text(FILE *fp, const std::string &text)
+{
+  const int n = text.size();
+  fwrite(&n, sizeof(int), 1, fp);
+  fwrite(text.data(), 1, n, fp);
+}
+
+static std::string read_text(FILE *fp, int me, MPI_Comm world, Error *error)
+{
+  int n = 0;
+  if (me == 0) utils::sfread(FLERR, &n, sizeof(int), 1, fp, nullptr, error);
+  MPI_Bcast(&n, 1, MPI_INT, 0, world);
+  std::string text(n, ' ');
+  if (me == 0 && n) utils::sfread(FLERR, &text[0], 1, n, fp, nullptr, error);
+  MPI_Bcast(&text[0], n, MPI_CHAR, 0, world);
+  return text;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::write_restart(FILE *fp)
+{
+  write_restart_settings(fp);
+  const int np1 = atom->ntypes + 1;
+  for (int i = 1; i < np1; i++) {
+    write_text(fp, specs[i]);
+    fwrite(setflag[i], sizeof(int), np1, fp);
+    fwrite(visc_a[i], sizeof(double), np1, fp);
+    fwrite(visc_b[i], sizeof(double), np1, fp);
+    fwrite(tension[i], sizeof(double), np1, fp);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::read_restart(FILE *fp)
+{
+  read_restart_settings(fp);
+  allocate();
+
+  const int me = comm->me;
+  const int np1 = atom->ntypes + 1;
+  for (int i = 1; i < np1; i++) {
+    const std::string spec = read_text(fp, me, world, error);
+    if (!spec.empty()) set_material(i, i, i, i, utils::split_words(spec));
+    if (me == 0) {
+      utils::sfread(FLERR, setflag[i], sizeof(int), np1, fp, nullptr, error);
+      utils::sfread(FLERR, visc_a[i], sizeof(double), np1, fp, nullptr, error);
+      utils::sfread(FLERR, visc_b[i], sizeof(double), np1, fp, nullptr, error);
+      utils::sfread(FLERR, tension[i], sizeof(double), np1, fp, nullptr, error);
+    }
+    MPI_Bcast(setflag[i], np1, MPI_INT, 0, world);
+    MPI_Bcast(visc_a[i], np1, MPI_DOUBLE, 0, world);
+    MPI_Bcast(visc_b[i], np1, MPI_DOUBLE, 0, world);
+    MPI_Bcast(tension[i], np1, MPI_DOUBLE, 0, world);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::write_restart_settings(FILE *fp)
+{
+  write_text(fp, kernel);
+  write_text(fp, text);
+  const int flags[6] = {laws.dim, laws.symmetric, laws.stock, laws.automatic, variable, energy};
+  const double values[5] = {laws.a, laws.b, laws.alpha, hmin, hmax};
+  fwrite(flags, sizeof(int), 6, fp);
+  fwrite(values, sizeof(double), 5, fp);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::read_restart_settings(FILE *fp)
+{
+  kernel = read_text(fp, comm->me, world, error);
+  text = read_text(fp, comm->me, world, error);
+  int flags[6];
+  double values[5];
+  if (comm->me == 0) {
+    utils::sfread(FLERR, flags, sizeof(int), 6, fp, nullptr, error);
+    utils::sfread(FLERR, values, sizeof(double), 5, fp, nullptr, error);
+  }
+  MPI_Bcast(flags, 6, MPI_INT, 0, world);
+  MPI_Bcast(values, 5, MPI_DOUBLE, 0, world);
+
+  laws.dim = flags[0];
+  laws.symmetric = flags[1];
+  laws.stock = flags[2];
+  laws.automatic = flags[3];
+  variable = flags[4];
+  energy = flags[5];
+  laws.a = values[0];
+  laws.b = values[1];
+  laws.alpha = values[2];
+  density = laws.automatic || laws.alpha > 0.0;
+  hmin = values[3];
+  hmax = values[4];
+  HVI::with_kernel(kernel, [this](auto k) {
+    support = decltype(k)::support;
+    laws.norm = decltype(k)::norm(laws.dim);
+  });
+}

@@ -1,0 +1,144 @@
+"""Forces and rates of SPH on one state: those of the equations, on every layout, in every scene."""
+
+import itertools
+
+import numpy as np
+import pytest
+from sph_scenes import RATES, ideal_gas, linear, norm, random_fluid, rates, read_rates, scene, tait
+
+KERNELS = ("lucy", "quadratic", "cubic", "quartic", "quintic", "gauss", "wendland2", "wendland4")
+TAIT = {1: tait(1.0, 4.0), 2: tait(1.7, 3.0)}
+COEFF = "pair_coeff 1 1 eos tait 1.0 4.0 7 h {0[1]}\npair_coeff 2 2 eos tait 1.7 3.0 7 h {0[2]}\n"
+
+
+def close(got, want, tolerance=1e-12):
+    for name in ("f", "de", "drho"):
+        scale = np.abs(want[name]).max()
+        assert scale > 0
+        assert np.abs(got[name] - want[name]).max() <= tolerance * scale, name
+
+
+def one(lmp, tmp_path, state, pair, nranks=1, **kw):
+    lmp(scene(state, tmp_path / "s.data", pair, **kw) + RATES.format("f"), nranks=nranks)
+    return read_rates(tmp_path / "f")
+
+
+@pytest.mark.parametrize("kernel", KERNELS)
+@pytest.mark.parametrize("dim", [1, 2, 3])
+def test_kernels(lmp, tmp_path, kernel, dim):
+    """against all pairs in NumPy with the kernel's norm from quadrature"""
+    h = 2.6 if kernel == "lucy" else 1.1
+    state = random_fluid({1: 40, 2: 11, 3: 8}[dim], dim=dim, seed=3, h=h, jitter=0.2)
+    pair = f"pair_style hvi/sph {kernel} dim {dim}\n" + COEFF.format(state.h) + "pair_coeff 1 2 tension yes\n"
+    close(one(lmp, tmp_path, state, pair), rates(state, TAIT, kernel))
+
+
+SCENES = {
+    "plain": ("", "", dict()),
+    "symmetric": ("form symmetric", "", dict(form="symmetric")),
+    "density": ("interface 0.3", "", dict(alpha=0.3)),
+    "density-symmetric": ("interface 0.8 form symmetric", "", dict(alpha=0.8, form="symmetric")),
+    "auto": ("interface auto", "", dict(alpha="auto")),
+    "auto-bodies": ("interface auto form symmetric", "pair_coeff 1 2 tension no\n", dict(alpha="auto", form="symmetric", tension=False)),
+    "bodies": ("", "pair_coeff 1 2 tension no\n", dict(tension=False)),
+    "viscosity": ("viscosity 0.5 0.25", "", dict(visc=(0.5, 0.25))),
+    "all": ("interface 0.5 viscosity 2 3", "pair_coeff 1 2 tension no\n", dict(alpha=0.5, visc=(2, 3), tension=False)),
+    "all-symmetric": ("interface 0.5 form symmetric", "pair_coeff 1 2 tension no\n", dict(alpha=0.5, form="symmetric", tension=False)),
+}
+
+
+@pytest.mark.parametrize("h", ["same", "differs", "variable"])
+@pytest.mark.parametrize("name", SCENES)
+def test_scenes(lmp, tmp_path, name, h):
+    """what a scene adds, alone and together; h one, by type, by particle"""
+    words, coeff, terms = SCENES[name]
+    state = random_fluid(8, seed=5, h=[1.2, 1.0] if h == "differs" else 1.1)
+    state.rho[:40] *= 0.75  # some under tension
+    pair = f"pair_style hvi/sph cubic {words} {'h variable 0.7 1.1' if h == 'variable' else ''}\n"
+    pair += COEFF.format(state.h) + (coeff or "pair_coeff 1 2 tension yes\n")
+    text = scene(state, tmp_path / "s.data", pair)
+    hi = None
+    if h == "variable":
+        # the first run sets the scale of h; then density changes
+        start = np.array([state.h[t] for t in state.type])
+        factor = np.random.default_rng(8).uniform(0.6, 1.9, len(start))
+        hi = np.clip(start * (1 / factor) ** (1 / 3), 0.7 * start, 1.1 * start)
+        assert (hi == 1.1 * start).any() and ((hi > 0.7 * start) & (hi < 1.1 * start)).any()
+        new = state.rho * factor
+        (tmp_path / "rho").write_text("\n".join(f"{i + 1} {r:.17g}" for i, r in enumerate(new)))
+        text += "run 0\nvariable new atomfile rho\nset group all sph/rho v_new\n"
+        (tmp_path / "rho").write_text(f"{len(new)}\n" + (tmp_path / "rho").read_text() + "\n")
+        state.rho = new
+    lmp(text + RATES.format("f"))
+    want = rates(state, TAIT, "cubic", h=hi, **terms)
+    if not terms.get("tension", True):
+        welded = rates(state, TAIT, "cubic", h=hi, **{**terms, "tension": True})
+        assert np.abs(welded["f"] - want["f"]).max() > 0.01 * np.abs(want["f"]).max()
+    close(read_rates(tmp_path / "f"), want)
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+@pytest.mark.parametrize("nranks", [1, 2, 3, 4])
+def test_layouts(lmp, tmp_path, nranks, periodic):
+    """newton on and off, brick and tiled, periodic images: 1e-12; total force and the virial"""
+    state = random_fluid(7, seed=7, h=[1.1, 1.0], periodic=periodic)
+    pair = "pair_style hvi/sph cubic interface 0.3 h variable\n" + COEFF.format(state.h)
+    want = rates(state, TAIT, "cubic", alpha=0.3, tension=False)
+    cases = list(itertools.product(("on", "off"), ("brick", "tiled")))
+    text = ""
+    for k, (newton, comm) in enumerate(cases):
+        text += "clear\n" + scene(state, tmp_path / "s.data", pair, newton=newton, comm=comm)
+        text += "compute W all pressure NULL virial\ncompute S all stress/atom NULL virial\ncompute sum all reduce sum c_S[*]\n"
+        text += "thermo_style custom step vol c_W[*] c_sum[*]\nthermo_modify norm no format float %.16e\n" + RATES.format(f"f.{k}")
+    result = lmp(text, nranks=nranks)
+    assert len(result.runs) == len(cases)
+    w = want["virial"][[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    for k, case in enumerate(cases):
+        got = read_rates(tmp_path / f"f.{k}")
+        close(got, want)
+        assert np.abs(got["f"].sum(0)).max() <= 1e-12 * np.abs(got["f"]).max(), case
+        row = {name: column[0] for name, column in result.runs[k].items()}
+        assert np.abs([row[f"c_W[{a}]"] * row["Volume"] for a in range(1, 7)] - w).max() <= 1e-11 * np.abs(w).max(), case
+        assert np.abs([-row[f"c_sum[{a}]"] for a in range(1, 7)] - w).max() <= 1e-11 * np.abs(w).max(), case
+
+
+@pytest.mark.parametrize("form", ["sum", "symmetric"])
+def test_energy_of_pairs(lmp, tmp_path, form):
+    """internal energy gains what kinetic energy loses: sum of de/dt = - sum of f.v, momentum is kept"""
+    state = random_fluid(8, seed=9, h=1.2)
+    pair = f"pair_style hvi/sph quintic form {form} interface 0.5\n" + COEFF.format(state.h)
+    got = one(lmp, tmp_path, state, pair)
+    power = (got["f"] * state.v).sum()
+    assert got["de"].sum() == pytest.approx(-power, rel=1e-12)
+    assert abs(power) > 1.0
+
+
+def test_equations_of_state(lmp, tmp_path):
+    """two laws in one scene: an ideal gas and a linear solid"""
+    state = random_fluid(8, seed=13, h=1.2)
+    pair = "pair_style hvi/sph wendland4\npair_coeff 1 1 eos idealgas 1.4 h 1.2\npair_coeff 2 2 eos linear 1.7 9.0 h 1.2\n"
+    close(one(lmp, tmp_path, state, pair), rates(state, {1: ideal_gas(1.4), 2: linear(1.7, 9.0)}, "wendland4", tension=False))
+
+
+def test_energy_no(lmp, tmp_path):
+    """the energy equation can be left out"""
+    state = random_fluid(7, seed=15, h=1.2)
+    got = one(lmp, tmp_path, state, "pair_style hvi/sph cubic energy no\n" + COEFF.format(state.h))
+    assert np.abs(got["de"]).max() == 0.0
+    want = rates(state, TAIT, "cubic", tension=False)
+    assert np.abs(got["f"] - want["f"]).max() <= 1e-12 * np.abs(want["f"]).max()
+
+
+def test_many_neighbors(lmp, tmp_path):
+    """more neighbors than the vectorized loop takes at a time"""
+    state = random_fluid(10, seed=17, h=2.2)
+    want = rates(state, TAIT, "cubic", tension=False)
+    close(one(lmp, tmp_path, state, "pair_style hvi/sph cubic\n" + COEFF.format(state.h)), want)
+
+
+def test_norms_are_known():
+    """the reference itself: cubic spline 1/6, 5/(14 pi), 1/(4 pi); Lucy in 3D 105/(16 pi)"""
+    assert norm("cubic", 1) == pytest.approx(1 / 6, rel=1e-12)
+    assert norm("cubic", 2) == pytest.approx(5 / (14 * np.pi), rel=1e-12)
+    assert norm("cubic", 3) == pytest.approx(1 / (4 * np.pi), rel=1e-12)
+    assert norm("lucy", 3) == pytest.approx(105 / (16 * np.pi), rel=1e-12)

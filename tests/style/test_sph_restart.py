@@ -1,0 +1,71 @@
+"""A run that is interrupted in the middle of a shock goes on as if it had not been."""
+
+import numpy as np
+import pytest
+from sph_scenes import RATES, random_fluid, read_rates, scene
+
+MIDDLE, END = 60, 110  # at 120 the restart command would rebuild the list
+PAIR = "pair_style hvi/sph cubic interface 0.3 {0}\npair_coeff 1 1 eos tait 1.0 4.0 7 h 1.2\npair_coeff 2 2 eos idealgas 1.4 h 1.1\n"
+THERMO = "compute book all hvi/energy\nthermo 10\nthermo_style custom step dt time f_step[*] c_book[*]\nthermo_modify norm no format float %.17g\n"
+STATE = dict(seed=41, jitter=0.1, speed=0.8, periodic=True)
+
+
+def whole(tmp_path, h, newton, rest=f"restart {MIDDLE} half\nrun {END}\n"):
+    state = random_fluid(8, **STATE)
+    text = scene(state, tmp_path / "s.data", PAIR.format(h), newton=newton, sort=False)
+    return text + "fix step all hvi/dt 0.2\n" + THERMO + rest + RATES.format("whole")
+
+
+def continued(newton, more="", pair=""):
+    text = f"newton {newton}\nread_restart half.{MIDDLE}\n{pair}neighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\n"
+    return text + "fix sph all hvi/sph\nfix step all hvi/dt 0.2\n" + THERMO + more + f"run {END - MIDDLE}\n" + RATES.format("part")
+
+
+@pytest.mark.parametrize("h", ["h constant", "h variable"])
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (1, "off"), (2, "on")])
+def test_bit_exact_on_the_same_ranks(lmp, tmp_path, h, nranks, newton):
+    """positions, velocities, density, energy, rates, time step and every ledger entry: the same bits"""
+    a = lmp(whole(tmp_path, h, newton), nranks=nranks).runs[0]
+    b = lmp(continued(newton), nranks=nranks).runs[0]
+    one, two = read_rates(tmp_path / "whole"), read_rates(tmp_path / "part")
+    for name in one:
+        assert np.array_equal(one[name], two[name]), name
+    later = a["Step"] >= MIDDLE
+    assert np.array_equal(a["Step"][later], b["Step"])
+    for name in a:
+        assert np.array_equal(a[name][later], b[name]), name
+    assert a["Dt"].min() < a["Dt"].max() and a["c_book[28]"][-1] > 0.01 * a["c_book[1]"][0]  # it shocks
+
+
+def test_two_runs_are_one(lmp, tmp_path):
+    """run 60 and 50 more is run 110; a particle changed in between starts anew"""
+    one = lmp(whole(tmp_path, "h variable", "on", rest="unfix step\ntimestep 0.01\nthermo_style custom step\nrun 110\n"))
+    a = read_rates(tmp_path / "whole")
+    lmp(whole(tmp_path, "h variable", "on", rest="unfix step\ntimestep 0.01\nthermo_style custom step\nrun 60\nrun 50\n"))
+    b = read_rates(tmp_path / "whole")
+    assert one.runs
+    # a second list is built at step 60, in another order of pairs
+    for name in a:
+        assert np.abs(a[name] - b[name]).max() <= 1e-11 * np.abs(a[name]).max(), name
+    lmp(whole(tmp_path, "h variable", "on",
+              rest="unfix step\ntimestep 0.01\nthermo_style custom step\nrun 60\nvelocity all set 0 0 0\nrun 0\n"))
+    c = read_rates(tmp_path / "whole")
+    assert np.abs(c["v"]).max() == 0.0 and np.abs(c["de"]).max() == 0.0 < np.abs(a["de"]).max()
+
+
+@pytest.mark.parametrize("first, second", [(1, 2), (3, 1)])
+def test_other_ranks(lmp, tmp_path, first, second):
+    lmp(whole(tmp_path, "h variable", "on"), nranks=first)
+    lmp(continued("on"), nranks=second)
+    one, two = read_rates(tmp_path / "whole"), read_rates(tmp_path / "part")
+    for name in one:
+        assert np.abs(one[name] - two[name]).max() <= 1e-9 * np.abs(one[name]).max(), name
+
+
+def test_other_settings_are_refused(lmp, tmp_path):
+    """a restart goes on with the equations it was written with"""
+    lmp(whole(tmp_path, "h variable", "on"))
+    pair = "pair_style hvi/sph quintic\npair_coeff * * eos tait 1.0 4.0 7 h 1.2\n"
+    r = lmp(continued("on", pair=pair), expect_fail=True)
+    assert "restart file was written with pair_style hvi/sph cubic dim 3 form sum h variable" in r.error
+    lmp(continued("on", pair=PAIR.format("h variable")))
