@@ -1,0 +1,8 @@
+"""Reference solutions and prototypes for the tests: NumPy only, independent of the C++ sources.
+
+layers.py  layered bodies with p = K (rho/rho0 - 1), exact Riemann solver, second-order Lagrangian Godunov scheme
+fronts.py  the same problems by event-driven front tracking: exact but for the steps that stand for rarefaction fans
+sph1d.py   one-dimensional SPH, form "sum", with interface density dissipation: the equations as published
+measures.py  errors of particle runs against these
+rule.py    how rules for the dissipation do on random layers
+"""
