@@ -303,10 +303,11 @@ void ComputeHVIHole::make_map(double spacing)
           w[k][2] = 2.0 / 3.0 - g * g * (1.0 - 0.5 * g);
           w[k][3] = f * f * f / 6.0;
         }
-        for (int a = 0; a < 4; a++)
-          for (int b = 0; b < 4; b++)
-            mass[map.index(i[0] + a - 1, i[1] + b - 1)] +=
-                std::llround(unit * p.mass * w[0][a] * w[1][b]);
+        for (int a = 0; a < 4; a++) {
+          int64_t *const row = &mass[map.index(i[0] + a - 1, i[1] - 1)];
+          const double part = unit * p.mass * w[0][a];
+          for (int b = 0; b < 4; b++) row[b] += (int64_t) (part * w[1][b] + 0.5);
+        }
       }
   MPI_Allreduce(MPI_IN_PLACE, mass.data(), mass.size(), MPI_INT64_T, MPI_SUM, world);
   for (size_t k = 0; k < mass.size(); k++) map.areal[k] = mass[k] / (unit * map.h * map.h);

@@ -155,7 +155,7 @@ def test_other_shapes(lmp, tmp_path, kind):
 
 
 def test_what_is_no_plate_does_not_count(lmp, tmp_path):
-    """1 % strays in the hole, a fragment in its middle, debris that flies in front and behind, some beyond the rim, all at once"""
+    """1 % strays in the hole, a fragment in its middle, debris in front and behind, some beyond the rim, all at once"""
     rng = np.random.default_rng(3)
     names = ["none", "strays", "fragment", "debris", "rim", "all"]
     plates = []
