@@ -154,9 +154,9 @@ void PairHVISPH::gather()
 }
 
 /* ----------------------------------------------------------------------
-   one sweep over the half list, in three passes over the neighbors of a
-   particle: squeeze out those beyond reach without a branch, work out the
-   pairs vectorized, add what happens to the neighbors
+   one sweep over the half list, in two passes over the neighbors of a
+   particle: squeeze out those beyond reach without a branch, then work out the
+   pairs in vectors and add what happens to the neighbors
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE> void PairHVISPH::eval()
