@@ -195,7 +195,7 @@ double FixHVIDt::choose(double limit)
   // MPI_MIN may drop a NaN, so carry it as the smallest number of all
 
   double all[10];
-  for (int k = 0; k < 3; k++)
+  for (int k = 0; k < 10; k++)
     if (std::isnan(mine[k]) || !std::isfinite(sum)) mine[k] = -1.0;
   MPI_Allreduce(mine, all, 10, MPI_DOUBLE, MPI_MIN, world);
 

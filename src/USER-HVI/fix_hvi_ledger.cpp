@@ -392,11 +392,12 @@ const double *FixHVILedger::first(const double *now)
 
 void FixHVILedger::write_restart(FILE *fp)
 {
-  std::vector<double> list(2 + NSTART + NENTRY * comm->nprocs);
+  std::vector<double> list(3 + NSTART + NENTRY * comm->nprocs);
   list[0] = comm->nprocs;
   list[1] = start_set;
-  memcpy(&list[2], start, sizeof(start));
-  MPI_Gather(entry, NENTRY, MPI_DOUBLE, &list[2 + NSTART], NENTRY, MPI_DOUBLE, 0, world);
+  list[2] = NENTRY;
+  memcpy(&list[3], start, sizeof(start));
+  MPI_Gather(entry, NENTRY, MPI_DOUBLE, &list[3 + NSTART], NENTRY, MPI_DOUBLE, 0, world);
 
   if (comm->me == 0) {
     const int size = list.size() * sizeof(double);
@@ -412,8 +413,10 @@ void FixHVILedger::restart(char *buf)
   const double *list = (double *) buf;
   const int nprocs = static_cast<int>(list[0]);
   start_set = static_cast<int>(list[1]);
-  memcpy(start, &list[2], sizeof(start));
-  list += 2 + NSTART;
+  if (list[2] != NENTRY)
+    error->all(FLERR, "The restart file was written by another version of USER-HVI");
+  memcpy(start, &list[3], sizeof(start));
+  list += 3 + NSTART;
 
   for (int n = 0; n < NENTRY; n++) {
     entry[n] = 0.0;

@@ -33,7 +33,7 @@ using namespace FixConst;
 
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), dtv(0.0), dtf(0.0),
-    power(0.0)
+    power(0.0), stepping(0), follow(0)
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
@@ -72,7 +72,7 @@ int FixHVISPH::setmask()
 {
   // setup_pre_force() is called for fixes with a pre_force() only
 
-  return INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE;
+  return INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -95,7 +95,10 @@ void FixHVISPH::init()
                "uses {}",
                restored, pair->description());
 
+  restored.clear();    // later runs of this script may change the settings
+
   ledger = FixHVILedger::instance(lmp);
+  follow = igroup != 0 && !pair->is_stock() && modify->get_fix_by_style("^sph$").empty();
   reset_dt();
 }
 
@@ -126,21 +129,36 @@ uint64_t FixHVISPH::fingerprint(int i) const
   return mark | 1;    // 0: never integrated
 }
 
+bool FixHVISPH::mine(int i) const
+{
+  return (atom->mask[i] & groupbit) && pair->material(atom->type[i]);
+}
+
 void FixHVISPH::setup_pre_force(int /*vflag*/)
 {
   for (int i = 0; i < atom->nlocal; i++) {
     const int itype = atom->type[i];
     if (!pair->material(itype)) continue;
     Extra &e = extra[i];
-    if (e.hscale == 0.0) e.hscale = pair->hscale(itype, atom->rho[i]);
-    if (!(atom->mask[i] & groupbit)) continue;
-    if (pair->is_stock() || e.mark != fingerprint(i)) {
+    if (e.hscale == 0.0) {
+      if (pair->variable_h() && !(atom->rho[i] > 0.0))
+        error->one(FLERR,
+                   "Fix hvi/sph: h variable needs the density of particle {} at the start of its "
+                   "first run, not {}",
+                   atom->tag[i], atom->rho[i]);
+      e.hscale = pair->hscale(itype, atom->rho[i]);
+    }
+    const bool anew = pair->is_stock() || !mine(i) || e.mark != fingerprint(i);
+    if (anew && (mine(i) || follow))
       for (int k = 0; k < 3; k++) atom->vest[i][k] = atom->v[i][k];
+    if (!mine(i)) continue;
+    if (anew) {
       e.rho = atom->rho[i];
       e.esph = atom->esph[i];
     }
     std::swap(e.rho, atom->rho[i]);
     std::swap(e.esph, atom->esph[i]);
+    e.drho = atom->rho[i];
   }
   comm->forward_comm();
   if (pair->variable_h()) comm->forward_comm(this);
@@ -150,14 +168,20 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
 
 void FixHVISPH::setup(int /*vflag*/)
 {
-  // sph/rhosum has replaced the density in the meantime
+  stepping = 1;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!mine(i)) continue;
+    Extra &e = extra[i];
 
-  const bool summed = force->pair_match("sph/rhosum", 1);
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit && pair->material(atom->type[i])) {
-      if (!summed) std::swap(extra[i].rho, atom->rho[i]);
-      std::swap(extra[i].esph, atom->esph[i]);
-    }
+    // unless sph/rhosum has replaced the density in the meantime
+
+    if (atom->rho[i] == e.drho)
+      std::swap(e.rho, atom->rho[i]);
+    else
+      e.rho = atom->rho[i];
+    e.drho = 0.0;
+    std::swap(e.esph, atom->esph[i]);
+  }
   power = pair->viscous_power();
 }
 
@@ -169,6 +193,7 @@ void FixHVISPH::setup(int /*vflag*/)
 
 void FixHVISPH::initial_integrate(int /*vflag*/)
 {
+  stepping = 1;
   double *const *const x = atom->x;
   double *const *const v = atom->v;
   double *const *const vest = atom->vest;
@@ -192,6 +217,18 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
     rho[i] += drho + e.drho;
     esph[i] += de + e.de;
   }
+}
+
+/* ----------------------------------------------------------------------
+   a piston, say, is moved by a fix that does not know vest, which is what forces see
+------------------------------------------------------------------------- */
+
+void FixHVISPH::post_integrate()
+{
+  if (!follow) return;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!(atom->mask[i] & groupbit) && pair->material(atom->type[i]))
+      for (int k = 0; k < 3; k++) atom->vest[i][k] = atom->v[i][k];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -224,7 +261,8 @@ void FixHVISPH::final_integrate()
 
 void FixHVISPH::post_run()
 {
-  for (int i = 0; i < atom->nlocal; i++) extra[i].mark = fingerprint(i);
+  for (int i = 0; i < atom->nlocal; i++) extra[i].mark = mine(i) ? fingerprint(i) : 0;
+  stepping = 0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -287,7 +325,7 @@ void FixHVISPH::unpack_forward_comm(int n, int first, double *buf)
 int FixHVISPH::pack_restart(int i, double *buf)
 {
   Extra e = extra[i];
-  e.mark = fingerprint(i);
+  if (stepping) e.mark = mine(i) ? fingerprint(i) : 0;
   buf[0] = NEXTRA + 1;
   memcpy(&buf[1], &e, sizeof(Extra));
   return NEXTRA + 1;

@@ -30,6 +30,7 @@ class FixHVISPH : public Fix {
   void init() override;
   void setup_pre_force(int) override;
   void pre_force(int) override {}
+  void post_integrate() override;
   void setup(int) override;
   void initial_integrate(int) override;
   void final_integrate() override;
@@ -71,8 +72,11 @@ class FixHVISPH : public Fix {
   class FixHVILedger *ledger;
   double dtv, dtf;
   double power;            // viscous, of the last force evaluation
+  int stepping;            // in a run, so that the state is the one the last step left
+  int follow;              // particles outside the group are moved by fixes that do not know vest
   std::string restored;    // settings of the pair style in the restart file
 
+  bool mine(int) const;    // integrated here
   uint64_t fingerprint(int) const;
 };
 

@@ -86,24 +86,33 @@ static inline double sum8(const Vec8 &x)
   return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
 }
 
+// GCC has the other name since version 12
+
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ < 12
+typedef long long Index8 __attribute__((vector_size(64)));
+#define HVI_SHUFFLE(a, b, ...) __builtin_shuffle(a, b, Index8{__VA_ARGS__})
+#else
+#define HVI_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#endif
+
 // rows to columns, and back
 
 static inline void transpose8(Vec8 *r)
 {
   Vec8 t[8];
   for (int k = 0; k < 8; k += 2) {
-    t[k] = __builtin_shufflevector(r[k], r[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
-    t[k + 1] = __builtin_shufflevector(r[k], r[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    t[k] = HVI_SHUFFLE(r[k], r[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    t[k + 1] = HVI_SHUFFLE(r[k], r[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
   }
   Vec8 u[8];
   for (int k = 0; k < 8; k += 4)
     for (int n = 0; n < 2; n++) {
-      u[k + n] = __builtin_shufflevector(t[k + n], t[k + n + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-      u[k + n + 2] = __builtin_shufflevector(t[k + n], t[k + n + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+      u[k + n] = HVI_SHUFFLE(t[k + n], t[k + n + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+      u[k + n + 2] = HVI_SHUFFLE(t[k + n], t[k + n + 2], 2, 3, 10, 11, 6, 7, 14, 15);
     }
   for (int k = 0; k < 4; k++) {
-    r[k] = __builtin_shufflevector(u[k], u[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-    r[k + 4] = __builtin_shufflevector(u[k], u[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    r[k] = HVI_SHUFFLE(u[k], u[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    r[k + 4] = HVI_SHUFFLE(u[k], u[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
   }
 }
 

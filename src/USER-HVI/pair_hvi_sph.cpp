@@ -133,6 +133,9 @@ void PairHVISPH::gather()
     if (laws.stock) {
       const double c0 = materials[itype]->eos->c0();
       csq = c0 > 0.0 ? c0 * c0 : p / rho[i];
+      if (!(csq >= 0.0))
+        error->one(FLERR, "Pair hvi/sph: energy {} of particle {} is negative at step {}", esph[i],
+                   atom->tag[i], update->ntimestep);
     }
 
     place[i].x = x[i][0];
@@ -266,7 +269,8 @@ void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
   double shortest = bounds.signal;
 
   for (int i = 0; i < atom->nlocal; i++)
-    if (materials[atom->type[i]]) shortest = MIN(shortest, scale * place[i].h / state[i].c);
+    if (materials[atom->type[i]] && !(scale * place[i].h >= shortest * state[i].c))
+      shortest = scale * place[i].h / state[i].c;
 
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
@@ -310,6 +314,7 @@ void PairHVISPH::init_style()
     error->all(FLERR, "Pair style hvi/sph does not support run_style respa");
   if (update->whichflag == 2)
     error->all(FLERR, "Pair style hvi/sph does not support minimization: it has no energy");
+  if (!atom->tag_enable) error->all(FLERR, "Pair style hvi/sph needs particles with IDs");
   if (force->mvv2e != 1.0 || force->ftm2v != 1.0)
     error->all(FLERR,
                "Pair style hvi/sph needs units in which force = mass * acceleration: "
@@ -399,7 +404,7 @@ void PairHVISPH::setup()
   double mine[6], all[6];
   for (int k = 0; k < 6; k++) mine[k] = -BIG;
   for (int i = 0; i < atom->nlocal; i++)
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3 && materials[atom->type[i]]; k++) {
       mine[k] = MAX(mine[k], atom->x[i][k]);
       mine[3 + k] = MAX(mine[3 + k], -atom->x[i][k]);
     }

@@ -69,3 +69,48 @@ def test_other_settings_are_refused(lmp, tmp_path):
     r = lmp(continued("on", pair=pair), expect_fail=True)
     assert "restart file was written with pair_style hvi/sph cubic dim 3 form sum h variable" in r.error
     lmp(continued("on", pair=PAIR.format("h variable")))
+
+
+GAS = "pair_style hvi/sph cubic\npair_coeff * * eos idealgas 1.4 h 1.2\n"
+STEP = "timestep 0.01\nthermo 1\nthermo_style custom step ke\nthermo_modify norm no format float %.15g\n"
+
+
+def test_restart_files_written_outside_a_run(lmp, tmp_path):
+    """before the first run, and after a command has changed velocities: a particle starts from what the file holds"""
+    state = random_fluid(6, seed=43, jitter=0.1, types=1)
+    more = "read_restart {0}\n" + GAS + "neighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\nfix sph all hvi/sph\n" + STEP
+    text = scene(state, tmp_path / "s.data", GAS) + STEP
+    one = lmp(text + "write_restart r0\nrun 3\nvelocity all set 0.1 0 0 sum yes\nvelocity all scale 1.0\nwrite_restart r1\nrun 2\n").runs
+    start, later = lmp(more.format("r0") + "run 3\n").thermo, lmp(more.format("r1") + "run 2\n").thermo
+    assert start["KinEng"] == pytest.approx(one[0]["KinEng"], rel=1e-12)
+    assert later["KinEng"] == pytest.approx(one[1]["KinEng"], rel=1e-12)
+
+
+def test_joining_the_group(lmp, tmp_path):
+    """particles that join between runs start from their own state"""
+    state = random_fluid(6, seed=45, jitter=0.1, types=1)
+    text = scene(state, tmp_path / "s.data", GAS, fix="region half block INF 3 INF INF INF INF\ngroup flow region half\nfix sph flow hvi/sph\n")
+    text += STEP + "run 3\nregion rest block 3 INF INF INF INF INF\ngroup flow region rest\nrun 3\n" + RATES.format("f")
+    lmp(text)
+    got = read_rates(tmp_path / "f")
+    assert (got["rho"] > 0.5).all() and np.abs(got["esph"] - state.esph).min() > 0
+
+
+def test_a_piston_is_felt_at_its_speed(lmp, tmp_path):
+    """particles outside the group, moved by fix move: forces see their velocity, as if hvi/sph moved them"""
+    states = []
+    for name in ("move", "hvi/sph"):
+        state = random_fluid(6, seed=47, jitter=0.1, types=2)
+        state.v[state.type == 2] = [0.4, 0, 0]
+        fix = "group wall type 2\ngroup gas type 1\n"
+        if name == "move":
+            fix += "fix sph gas hvi/sph\nfix move wall move linear 0.4 0 0\n"
+        else:
+            fix += "fix sph all hvi/sph\nfix hold wall setforce 0 0 0\n"
+        pair = "pair_style hvi/sph cubic energy no\npair_coeff * * eos tait 1.0 4.0 7 h 1.2\npair_coeff 1 2 tension yes\n"
+        lmp(scene(state, tmp_path / "s.data", pair, fix=fix) + "timestep 0.01\nrun 2\n" + RATES.format("f"))
+        states.append(read_rates(tmp_path / "f"))
+    gas = state.type == 1
+    # densities of the wall differ after the first step, since only one of the two integrates them
+    assert np.abs(states[0]["rho"] - states[1]["rho"])[gas].max() < 0.01 * np.abs(states[1]["rho"] - state.rho)[gas].max()
+    assert np.abs(states[1]["drho"][gas]).max() > 0.1
