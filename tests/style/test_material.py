@@ -161,7 +161,7 @@ def test_units_that_do_not_convert(lmp, tmp_path, file_units, units):
 
 @pytest.mark.parametrize("coeff, says", [
     ("eos shock 1 2 h 1", "shock"),
-    ("eos gruneisen 2703 5240 1.4 1.97 0.48 h 1e-3", "'h'"),
+    ("eos gruneisen 2703 5240 1.4 1.97 0.48 h 1e-3", "not h"),
     ("eos gruneisen -2703 5240 1.4 1.97 0.48 885 h 1e-3", "rho0 = -2703 must be > 0"),
     ("eos mie-gruneisen 2703 5240 1.4 -1.97 885 h 1e-3", "g0 = -1.97 must be >= 0"),
     ("eos idealgas 1 h 1e-3", "gamma = 1 must be > 1"),
