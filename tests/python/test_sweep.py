@@ -1,0 +1,212 @@
+"""examples/debris-studies: sweep.py runs jobs, goes on where it stopped, survives failures; plot.py draws."""
+
+import csv
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+import yaml
+
+# some hundred particles; result.yaml as in the examples; mode: good, or a way to fail
+INPUT = """variable n index 5
+variable speed index 1.0
+variable mode index good
+variable resume index no
+if "${mode} == slow" then "shell sleep 60"
+atom_style bond
+lattice sc 1.0
+region box block 0 $n 0 $n 0 $n
+create_box 1 box bond/types 1 extra/bond/per/atom 6
+create_atoms 1 box
+mass * 1.0
+pair_style hvi/contact
+pair_coeff * * 0.1 0.890898718
+velocity all create ${speed} 4711
+fix move all nve
+if "${mode} == bad" then "pair_coeff * * nonsense"
+run 10
+if "${mode} == silent" then "quit 0"
+if "${mode} == cut" then "print 'particles: 125' file result.yaml" "quit 0"
+print 'particles: $(atoms:%.0f)' file result.yaml
+print 'resumed: from ${resume}' append result.yaml
+print 'package_version: 0.1.0' append result.yaml
+"""
+STUDY = {"input": "in.tiny", "variables": {"n": 5}, "grid": {"speed": [1.0, 2.0], "mode": ["good"]}}
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "in.tiny").write_text(INPUT)
+    return tmp_path
+
+
+@pytest.fixture
+def sweep(root, folder, lmp_exe):
+    """sweep(study, option, ...) -> finished process; the study is a mapping or a text"""
+    def run(study, *extra, wait=True):
+        (folder / "tiny.yaml").write_text(study if isinstance(study, str) else yaml.safe_dump(study, sort_keys=False))
+        command = [sys.executable, root / "examples/debris-studies/sweep.py", "tiny.yaml", "--lmp", lmp_exe, "--ranks", "1", *extra]
+        process = subprocess.Popen([str(c) for c in command], cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        if not wait:
+            return process
+        process.text = process.communicate(timeout=120)[0]
+        return process
+
+    return run
+
+
+def table(folder):
+    with open(folder / "runs/tiny.csv", newline="") as f:
+        return {row["job"]: row for row in csv.DictReader(f)}
+
+
+def log_times(folder):
+    return {p.parent.name: p.stat().st_mtime_ns for p in folder.glob("runs/tiny/*/log.lammps")}
+
+
+def test_failed_job_is_reported_and_others_finish(sweep, folder):
+    process = sweep({**STUDY, "grid": {"mode": ["bad", "silent", "cut", "good"], "speed": [1.0]}})
+    assert process.returncode == 1, process.text
+    assert "mode-bad_speed-1.0  FAILED" in process.text and "| ERROR: " in process.text and "nonsense" in process.text
+    assert "mode-silent_speed-1.0  FAILED: no complete result.yaml" in process.text
+    assert "mode-cut_speed-1.0  FAILED: no complete result.yaml" in process.text
+    assert "mode-good_speed-1.0  ok" in process.text
+    assert "1 of 4 jobs are done" in process.text
+    assert list(table(folder)) == ["mode-good_speed-1.0"]
+    assert table(folder)["mode-good_speed-1.0"]["particles"] == "125"
+
+
+def test_goes_on_where_it_stopped(sweep, folder):
+    """two jobs at a time; done jobs are left alone until a variable or the input changes"""
+    assert sweep(STUDY, "--jobs", "2").returncode == 0
+    first = log_times(folder)
+    assert sorted(first) == ["speed-1.0_mode-good", "speed-2.0_mode-good"]
+    assert "0 to run" in sweep(STUDY).text
+    assert log_times(folder) == first
+
+    # a result that was cut off, and one more point in the grid
+    (folder / "runs/tiny/speed-1.0_mode-good/result.yaml").write_text("particles: 125\nener")
+    more = {**STUDY, "grid": {"speed": [1.0, 2.0, 3.0], "mode": ["good"]}}
+    process = sweep(more)
+    assert process.returncode == 0 and "3 jobs, 1 done before, 2 to run" in process.text
+    second = log_times(folder)
+    assert second["speed-2.0_mode-good"] == first["speed-2.0_mode-good"]
+    assert second["speed-1.0_mode-good"] != first["speed-1.0_mode-good"]
+
+    process = sweep({**more, "variables": {"n": 6}})
+    assert "0 done before, 3 to run" in process.text
+    assert {row["particles"] for row in table(folder).values()} == {"216"}
+
+    (folder / "in.tiny").write_text(INPUT.replace("run 10\n", "run 11\n"))
+    assert "0 done before, 3 to run" in sweep({**more, "variables": {"n": 6}}, "--dry-run").text
+
+
+def test_goes_on_within_a_job(sweep, folder):
+    """from the newest restart file; not if the variables have changed, and not after a failure"""
+    study = {**STUDY, "grid": {"mode": ["good"]}, "restart": "tiny.restart.*"}
+    job = folder / "runs/tiny/mode-good"
+    assert sweep(study).returncode == 0 and table(folder)["mode-good"]["resumed"] == "from no"
+    for suffix in "ba":
+        (job / f"tiny.restart.{suffix}").write_text("")
+        time.sleep(0.02)
+    (job / "result.yaml").unlink()
+    assert sweep(study).returncode == 0 and table(folder)["mode-good"]["resumed"] == "from a"
+    (job / "result.yaml").unlink()
+    assert sweep({**study, "variables": {"n": 6}}).returncode == 0 and table(folder)["mode-good"]["resumed"] == "from no"
+    assert not list(job.glob("tiny.restart.*"))
+
+    study["grid"] = {"mode": ["bad"]}
+    assert sweep(study).returncode == 1
+    (folder / "runs/tiny/mode-bad/tiny.restart.a").write_text("")
+    assert "-var resume a" in sweep(study, "--dry-run").text
+    assert sweep(study).returncode == 1 and not (folder / "runs/tiny/mode-bad/tiny.restart.a").exists()
+
+
+def test_time_limit_and_interrupt(sweep, folder):
+    slow = {**STUDY, "grid": {"mode": ["slow", "good"]}}
+    process = sweep(slow, "--timeout", "2")
+    assert process.returncode == 1 and "mode-slow  FAILED: stopped after 2 s" in process.text and "mode-good  ok" in process.text
+
+    process = sweep(slow, wait=False)
+    while not (folder / "runs/tiny/mode-slow/log.lammps").exists():
+        time.sleep(0.1)
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    text = process.communicate(timeout=30)[0]
+    assert process.returncode == 130 and "call again to go on" in text
+    assert list(table(folder)) == ["mode-good"]  # the table is written all the same
+    asleep = [p for p in os.listdir("/proc") if p.isdigit() and working_folder(p) == str(folder / "runs/tiny/mode-slow")]
+    assert asleep == []  # no rank is left behind
+
+
+def working_folder(process):
+    try:
+        return os.readlink(f"/proc/{process}/cwd")
+    except OSError:
+        return ""
+
+
+def test_full_size_and_dry_run(sweep, folder):
+    study = {**STUDY, "full": {"variables": {"n": 9}, "grid": {"speed": [5.0]}}}
+    process = sweep(study, "--full", "--dry-run")
+    (line,) = [line for line in process.text.splitlines() if "mpirun" in line]
+    assert "-var n 9 -var speed 5.0 -var mode good" in line
+    assert process.returncode == 0 and not (folder / "runs").exists()
+
+
+@pytest.mark.parametrize("study, message", [
+    ("grid: [", "tiny.yaml: not YAML: "),
+    ("- grid", "not a mapping of"),
+    ({**STUDY, "input": "in.missing"}, "input in.missing is not there"),
+    ({**STUDY, "grids": {}}, "unknown key grids"),
+    ({**STUDY, "grid": {"speed": 1.0}}, "speed must be a list"),
+    ({**STUDY, "grid": {}}, "nothing to vary"),
+    ({**STUDY, "variables": {"spede": 1.0}}, "in.tiny has no variable 'spede'"),
+    ({**STUDY, "grid": {"speed": [1.0, 1.0]}}, "the same job twice"),
+])
+def test_wrong_study(sweep, study, message):
+    process = sweep(study)
+    assert process.returncode == 2 and message in process.text and "Traceback" not in process.text
+
+
+def test_wrong_options(sweep):
+    assert "no full size" in sweep(STUDY, "--full").text
+    assert "mpi-of-nowhere is not there" in sweep(STUDY, "--mpirun", "mpi-of-nowhere").text
+    assert "/nowhere does not exist" in sweep(STUDY, "--lmp", "/nowhere").text
+
+
+def test_studies_are_right(root, folder, lmp_exe):
+    """the studies of the example name variables that in.debris has, at both sizes"""
+    for study in (root / "examples/debris-studies/studies").glob("*.yaml"):
+        for size in ([], ["--full"] if "\nfull:" in study.read_text() else []):
+            subprocess.run([sys.executable, root / "examples/debris-studies/sweep.py", study, "--lmp", lmp_exe, "--dry-run", *size],
+                           cwd=folder, check=True, stdout=subprocess.DEVNULL)
+
+
+def test_plots(root, folder):
+    """all figures and tables can be drawn from the tables that are kept in results"""
+    plot = [sys.executable, root / "examples/debris-studies/plot.py"]
+    done = subprocess.run([*plot, "--out", folder], cwd=folder, text=True, capture_output=True)
+    assert done.returncode == 0, done.stderr
+    for name in ("convergence", "parameters", "thickness", "fragmentation", "sensitivity"):
+        assert (folder / f"{name}.png").stat().st_size > 5000
+    assert done.stdout.count("\n|---|") == 9  # seven studies, two of them with a table for each lattice
+    nothing = subprocess.run([*plot, "--tables", folder], cwd=folder, text=True, capture_output=True)
+    assert nothing.returncode == 1 and "run sweep.py first" in nothing.stderr
+
+
+def test_debris_cloud_in_a_sweep(sweep, root, folder):
+    """the example itself, with 600 particles: the keys that the figures need are there and make sense"""
+    study = {"input": str(root / "examples/debris-cloud/in.debris"), "variables": {"tstop": 1.5, "frames": 1, "layers": 3, "Rplate": 8},
+             "grid": {"lattice": ["sc"]}, "remove": ["debris.restart.*", "*.dump"]}
+    process = sweep(study)
+    assert process.returncode == 0, process.text
+    (row,) = table(folder).values()
+    assert row["plate_layers"] == "3" and float(row["particles"]) < 1000
+    assert 0 < float(row["projectile_largest_fragment_mass_fraction"]) <= 1
+    assert 0.5 < float(row["axial_velocity_ratio_displacement"]) < 1.5
+    assert float(row["displacement_from_us"]) == pytest.approx(1.125, abs=0.1)
+    assert not list(folder.glob("runs/tiny/*/*.dump"))
