@@ -9,6 +9,8 @@
 #ifndef LMP_HVI_SPH_H
 #define LMP_HVI_SPH_H
 
+#include "hvi_vector.h"
+
 // what SPH particles do to each other; no LAMMPS in here
 
 namespace HVI {
@@ -44,6 +46,9 @@ struct alignas(64) SphRates {
   double heat;    // viscous part of de
   double unused[2];
 };
+static_assert(sizeof(SphPlace) == sizeof(Vec4) && sizeof(SphState) == 2 * sizeof(Vec4) &&
+                  sizeof(SphRates) == 2 * sizeof(Vec4),
+              "records are read as vectors");
 
 // laws of pairs: uniform, or from tables of type pairs (row of one type) in a scene with SPH_BODIES
 
@@ -59,75 +64,18 @@ struct SphLaws {
   const double *row_a, *row_b, *row_tension;    // by type of the neighbor; tension: 0 or 1
 };
 
-// eight doubles, for whole records at a time; compilers split it where registers are shorter
-
-typedef double Vec8 __attribute__((vector_size(64), may_alias));
-static_assert(sizeof(SphState) == sizeof(Vec8) && sizeof(SphRates) == sizeof(Vec8), "records");
-
-static inline Vec8 load8(const double *x)
-{
-  return *(const Vec8 *) x;
-}
-
-static inline Vec8 sqrt8(const Vec8 &x)
-{
-  Vec8 r;
-  for (int k = 0; k < 8; k++) r[k] = __builtin_sqrt(x[k]);
-  return r;
-}
-
-static inline Vec8 abs8(const Vec8 &x)
-{
-  return x < 0.0 ? -x : x;
-}
-
-static inline double sum8(const Vec8 &x)
-{
-  return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
-}
-
-// GCC has the other name since version 12
-
-#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ < 12
-typedef long long Index8 __attribute__((vector_size(64)));
-#define HVI_SHUFFLE(a, b, ...) __builtin_shuffle(a, b, Index8{__VA_ARGS__})
-#else
-#define HVI_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
-#endif
-
-// rows to columns, and back
-
-static inline void transpose8(Vec8 *r)
-{
-  Vec8 t[8];
-  for (int k = 0; k < 8; k += 2) {
-    t[k] = HVI_SHUFFLE(r[k], r[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
-    t[k + 1] = HVI_SHUFFLE(r[k], r[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
-  }
-  Vec8 u[8];
-  for (int k = 0; k < 8; k += 4)
-    for (int n = 0; n < 2; n++) {
-      u[k + n] = HVI_SHUFFLE(t[k + n], t[k + n + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-      u[k + n + 2] = HVI_SHUFFLE(t[k + n], t[k + n + 2], 2, 3, 10, 11, 6, 7, 14, 15);
-    }
-  for (int k = 0; k < 4; k++) {
-    r[k] = HVI_SHUFFLE(u[k], u[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-    r[k + 4] = HVI_SHUFFLE(u[k], u[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
-  }
-}
-
 // neighbors of one particle within reach, as many as fit
 
 struct alignas(64) SphNear {
-  static constexpr int MAX = 128, LANES = 8, SIZE = MAX + LANES;
-  double dx[SIZE], dy[SIZE], dz[SIZE], rsq[SIZE], h[SIZE];
-  double force[SIZE];    // on i along (dx,dy,dz), opposite on j
+  static constexpr int MAX = 128, SIZE = MAX + LANES;
+  Vec4 d[SIZE];          // from the neighbor to the particle; difference in h
+  double force[SIZE];    // on i along d, opposite on j
   int j[SIZE];
 };
 
 /* ----------------------------------------------------------------------
-   All pairs of particle i with its n near neighbors, eight at a time.  Adds what
-   happens to i to sum and what happens to its neighbors to rates.  near is filled
+   All pairs of particle i with its n near neighbors, LANES at a time.  Adds what
+   happens to i to total and what happens to its neighbors to rates.  near is filled
    up to whole vectors with particles out of reach, for which all comes out as 0.
    Returns whether a neighbor is at the same place.
 
@@ -146,14 +94,12 @@ struct alignas(64) SphNear {
 
 template <class Kernel, int SCENE>
 inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n,
-                         const SphLaws &laws, SphNear &near, SphRates *rates, SphRates &sum)
+                         const SphLaws &laws, SphNear &near, SphRates *rates, SphRates &total)
 {
-  const int nlanes = (n + SphNear::LANES - 1) & ~(SphNear::LANES - 1);
+  const int nlanes = (n + LANES - 1) & ~(LANES - 1);
   for (int m = n; m < nlanes; m++) {
     near.j[m] = i;
-    near.dx[m] = near.dy[m] = near.dz[m] = 0.0;
-    near.h[m] = pi.h;
-    near.rsq[m] = 4.0 * Kernel::support * Kernel::support * pi.h * pi.h;
+    near.d[m] = Vec4{2.0 * Kernel::support * pi.h};
   }
 
   // weights of the two forms: rho V/w, p/P and V/w are 1 or a power of rho
@@ -175,41 +121,44 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
   const double same_scale = laws.norm * same_hinv * same_hinv * same_hinv *
       (two * same_hinv + not_two) * (three * same_hinv + not_three);
 
-  const Vec8 zero = {}, one = zero + 1.0;
-  Vec8 fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, same = zero;
+  const Vec zero = {}, one = zero + 1.0;
+  Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, same = zero;
 
-  for (int m = 0; m < nlanes; m += 8) {
-    Vec8 block[8];
-    for (int k = 0; k < 8; k++) block[k] = load8(&state[near.j[m + k]].vx);
-    transpose8(block);
-    const Vec8 w_j = block[3], P_j = block[4], c_j = block[5], rho_j = block[6];
-    const Vec8 dx = load8(near.dx + m), dy = load8(near.dy + m), dz = load8(near.dz + m);
-    const Vec8 rsq = load8(near.rsq + m);
-    const Vec8 r = sqrt8(rsq);
+  for (int m = 0; m < nlanes; m += LANES) {
+    static constexpr int in_turn[4] = {0, 1, 2, 3};
+    const int *const j = near.j + m;
+    Vec d[4], first[4], second[4];
+    read_columns(near.d + m, in_turn, 0, d);
+    read_columns(state, j, 0, first);
+    read_columns(state, j, 1, second);
+    const Vec w_j = first[3], P_j = second[0], c_j = second[1], rho_j = second[2];
+    const Vec dx = d[0], dy = d[1], dz = d[2];
+    const Vec rsq = dx * dx + dy * dy + dz * dz;
+    const Vec r = sqrt(rsq);
     same += rsq > 0.0 ? zero : one;
 
     // grad W = F (dx,dy,dz)
 
-    Vec8 h = zero + laws.h, hinv = zero + same_hinv, scale = zero + same_scale;
+    Vec h = zero + laws.h, hinv = zero + same_hinv, scale = zero + same_scale;
     if (SCENE & SPH_OWN_H) {
-      h = load8(near.h + m);
+      h = pi.h - 0.5 * d[3];
       hinv = 1.0 / h;
       scale = laws.norm * hinv * hinv * hinv * (two * hinv + not_two) * (three * hinv + not_three);
     }
-    const Vec8 F = scale * Kernel::template dw_q<Vec8>(r * hinv);
+    const Vec F = scale * Kernel::template dw_q<Vec>(r * hinv);
 
-    const Vec8 dvx = si.vx - block[0], dvy = si.vy - block[1], dvz = si.vz - block[2];
-    const Vec8 rdotv = dx * dvx + dy * dvy + dz * dvz;
-    const Vec8 g = rdotv * F;
-    const Vec8 rhow_j = add * rho_j + sym;
-    const Vec8 p_j = P_j * (add + sym * rho_j * rho_j);
+    const Vec dvx = si.vx - first[0], dvy = si.vy - first[1], dvz = si.vz - first[2];
+    const Vec rdotv = dx * dvx + dy * dvy + dz * dvz;
+    const Vec g = rdotv * F;
+    const Vec rhow_j = add * rho_j + sym;
+    const Vec p_j = P_j * (add + sym * rho_j * rho_j);
 
     // bodies without tension between them push, but do not pull, nor do they stretch each other
 
-    Vec8 a = zero + laws.a, b = zero + laws.b, bonded = one, open = one, stretch = one;
+    Vec a = zero + laws.a, b = zero + laws.b, bonded = one, open = one, stretch = one;
     if (SCENE & SPH_BODIES) {
-      for (int k = 0; k < 8; k++) {
-        const int jtype = static_cast<int>(block[7][k]);
+      for (int k = 0; k < LANES; k++) {
+        const int jtype = static_cast<int>(second[3][k]);
         a[k] = laws.row_a[jtype];
         b[k] = laws.row_b[jtype];
         bonded[k] = laws.row_tension[jtype];
@@ -221,34 +170,34 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
     // Monaghan 1992, for pairs that approach: mu = h v.x/(r^2 + 0.01 h^2),
     // Pi = (b mu^2 - a c_ij mu)/rho_ij; the means over i and j and all quotients in one
 
-    const Vec8 hv = h * (rdotv < 0.0 ? rdotv : zero);
-    const Vec8 soft = rsq + 0.01 * h * h;
-    const Vec8 Pi = hv * (2.0 * b * hv - a * (c_i + c_j) * soft) / (soft * soft * (rho_i + rho_j));
-    const Vec8 visc = w_i * rhow_i * w_j * rhow_j * Pi;
+    const Vec hv = h * (rdotv < 0.0 ? rdotv : zero);
+    const Vec soft = rsq + 0.01 * h * h;
+    const Vec Pi = hv * (2.0 * b * hv - a * (c_i + c_j) * soft) / (soft * soft * (rho_i + rho_j));
+    const Vec visc = w_i * rhow_i * w_j * rhow_j * Pi;
 
-    const Vec8 ww = open * w_i * w_j;
-    const Vec8 press_i = ww * P_i, press_j = ww * P_j;
-    const Vec8 force = -(press_i + press_j + visc) * F;
-    const Vec8 qheat = 0.5 * visc * g;
-    *(Vec8 *) (near.force + m) = force;
+    const Vec ww = open * w_i * w_j;
+    const Vec press_i = ww * P_i, press_j = ww * P_j;
+    const Vec force = -(press_i + press_j + visc) * F;
+    const Vec qheat = 0.5 * visc * g;
+    *(Vec *) (near.force + m) = force;
 
-    Vec8 drho_i = stretch * rhow_i * w_j * g, drho_j = stretch * rhow_j * w_i * g;
+    Vec drho_i = stretch * rhow_i * w_j * g, drho_j = stretch * rhow_j * w_i * g;
     if (SCENE & SPH_DENSITY) {
       // Zisis et al. eqs 22-25 with a constant; or what the contact of the acoustic Riemann
       // problem between i and j moves, less what is a wave within a body, |dp| = z |dv|
-      const Vec8 V_j = w_j * (add + sym / rho_j);
-      const Vec8 z_j = rho_j * c_j, dp = p_i - p_j, size = abs8(dp);
-      const Vec8 dv = sqrt8(dvx * dvx + dvy * dvy + dvz * dvz);
-      const Vec8 wave = bonded * (z_i < z_j ? zero + z_i : z_j) * dv;
-      const Vec8 excess = (size > wave ? size - wave : zero) / (size + 1.0e-300);
-      const Vec8 both = laws.automatic * excess / (z_i + z_j);
-      const Vec8 same_alpha = laws.alpha / (c_i + c_j);
-      const Vec8 phi = 2.0 * open * dp * F * r;
+      const Vec V_j = w_j * (add + sym / rho_j);
+      const Vec z_j = rho_j * c_j, dp = p_i - p_j, size = abs(dp);
+      const Vec dv = sqrt(dvx * dvx + dvy * dvy + dvz * dvz);
+      const Vec wave = bonded * (z_i < z_j ? zero + z_i : z_j) * dv;
+      const Vec excess = (size > wave ? size - wave : zero) / (size + 1.0e-300);
+      const Vec both = laws.automatic * excess / (z_i + z_j);
+      const Vec same_alpha = laws.alpha / (c_i + c_j);
+      const Vec phi = 2.0 * open * dp * F * r;
       drho_i += phi * V_j * (same_alpha + both * rho_i);
       drho_j -= phi * V_i * (same_alpha + both * rho_j);
     }
 
-    const Vec8 f[3] = {force * dx, force * dy, force * dz};
+    const Vec f[3] = {force * dx, force * dy, force * dz};
     fx += f[0];
     fy += f[1];
     fz += f[2];
@@ -256,22 +205,22 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
     drho += drho_i;
     heat += qheat;
 
-    for (int k = 0; k < 3; k++) block[k] = -f[k];
-    block[3] = (others * press_i + own * press_j) * g + qheat;
-    block[4] = drho_j;
-    block[5] = qheat;
-    block[6] = block[7] = zero;
-    transpose8(block);
-    for (int k = 0; k < 8; k++) *(Vec8 *) &rates[near.j[m + k]] += block[k];
+    for (int k = 0; k < 3; k++) first[k] = -f[k];
+    first[3] = (others * press_i + own * press_j) * g + qheat;
+    second[0] = drho_j;
+    second[1] = qheat;
+    second[2] = second[3] = zero;
+    add_columns(rates, j, 0, first);
+    add_columns(rates, j, 1, second);
   }
 
-  sum.fx += sum8(fx);
-  sum.fy += sum8(fy);
-  sum.fz += sum8(fz);
-  sum.de += sum8(de);
-  sum.drho += sum8(drho);
-  sum.heat += sum8(heat);
-  return sum8(same) > 0.0;
+  total.fx += sum(fx);
+  total.fy += sum(fy);
+  total.fz += sum(fz);
+  total.de += sum(de);
+  total.drho += sum(drho);
+  total.heat += sum(heat);
+  return sum(same) > 0.0;
 }
 
 }    // namespace HVI

@@ -170,7 +170,7 @@ template <class Kernel, int SCENE> void PairHVISPH::eval()
   const int *const ilist = list->ilist;
   const int *const numneigh = list->numneigh;
   const int *const *const firstneigh = list->firstneigh;
-  const HVI::SphPlace *const where = place.get();
+  HVI::SphPlace *const where = place.get();
 
   HVI::SphLaws mine = laws;
   HVI::SphNear near;
@@ -178,7 +178,7 @@ template <class Kernel, int SCENE> void PairHVISPH::eval()
 
   for (int ii = 0; ii < inum; ii++) {
     const int i = ilist[ii];
-    const HVI::SphPlace pi = where[i];
+    HVI::SphPlace pi = where[i];
     const int *const jlist = firstneigh[i];
     const int jnum = numneigh[i];
     HVI::SphRates sum = {};
@@ -194,20 +194,15 @@ template <class Kernel, int SCENE> void PairHVISPH::eval()
       int n = 0;
       for (int jj = jfirst; jj < jlast; jj++) {
         const int j = jlist[jj] & NEIGHMASK;
-        const double dx = pi.x - where[j].x;
-        const double dy = pi.y - where[j].y;
-        const double dz = pi.z - where[j].z;
-        const double rsq = dx * dx + dy * dy + dz * dz;
-        near.j[n] = j;
+        const HVI::Vec4 d = HVI::half(&pi, 0) - HVI::half(&where[j], 0);
+        const HVI::Vec4 square = d * d;
+        const double rsq = square[0] + square[2] + square[1];
         __builtin_prefetch(&state[j]);
         __builtin_prefetch(&rates[j], 1);
-        near.dx[n] = dx;
-        near.dy[n] = dy;
-        near.dz[n] = dz;
-        near.rsq[n] = rsq;
+        near.j[n] = j;
+        near.d[n] = d;
         if (SCENE & HVI::SPH_OWN_H) {
-          const double h = 0.5 * (pi.h + where[j].h);
-          near.h[n] = h;
+          const double h = pi.h - 0.5 * d[3];
           n += rsq < Kernel::support * Kernel::support * h * h;
         } else
           n += rsq < reachsq;
@@ -219,10 +214,10 @@ template <class Kernel, int SCENE> void PairHVISPH::eval()
 
       if (evflag)
         for (int m = 0; m < n; m++)
-          ev_tally(i, near.j[m], nlocal, newton_pair, 0.0, 0.0, near.force[m], near.dx[m],
-                   near.dy[m], near.dz[m]);
+          ev_tally(i, near.j[m], nlocal, newton_pair, 0.0, 0.0, near.force[m], near.d[m][0],
+                   near.d[m][1], near.d[m][2]);
     }
-    *(HVI::Vec8 *) &rates[i] += *(HVI::Vec8 *) &sum;
+    for (int k = 0; k < 2; k++) HVI::half(&rates[i], k) += HVI::half(&sum, k);
   }
 }
 
@@ -231,7 +226,7 @@ template <class Kernel, int SCENE> void PairHVISPH::eval()
 void PairHVISPH::report_overlap(int i, int n, const HVI::SphNear &near)
 {
   for (int m = 0; m < n; m++)
-    if (near.rsq[m] == 0.0)
+    if (near.d[m][0] == 0.0 && near.d[m][1] == 0.0 && near.d[m][2] == 0.0)
       error->one(FLERR, "Pair hvi/sph: particles {} and {} are at the same place at step {}",
                  atom->tag[i], atom->tag[near.j[m]], update->ntimestep);
 }
