@@ -22,7 +22,7 @@ sys.path.insert(0, os.path.join(os.environ.get("HVI_ROOT", os.path.join(here, ".
 from reference import fronts, layers, measures
 
 GAUGES = "ABC"
-COLORS = {"none": "C0", "0.3": "C2", "0.8": "C3", "auto": "C1"}
+COLORS = {"none": "C0", "0.3": "C2", "0.8": "C3", "auto": "C1", "riemann": "C4"}
 
 
 class Run:
@@ -87,6 +87,9 @@ class Run:
         d = self.result["dissipation"]
         return str(self.result["alpha_rho"]) if d == "paper" else d
 
+    def name(self):
+        return "riemann" if self.label() == "riemann" else r"$\alpha_\rho$ " + self.label()
+
 
 def profiles(runs, name):
     """u, p, rho/rho0 of several runs over one exact solution; below: the part behind the impact, larger"""
@@ -101,7 +104,7 @@ def profiles(runs, name):
             ax.set_xlabel("x")
         for run in runs:
             for ax, field in zip(row, (run.u, run.p, run.ratio)):
-                ax.plot(run.x, field, ".", ms=3, color=COLORS.get(run.label(), "C4"), label=r"$\alpha_\rho$ " + run.label())
+                ax.plot(run.x, field, ".", ms=3, color=COLORS.get(run.label(), "C5"), label=run.name())
     disturbed = x[np.abs(p) > 1e-9]
     lo, hi = disturbed.min(), disturbed.max()
     for ax, field in zip(axes[1], (u, p, rho / rho0)):
@@ -122,7 +125,7 @@ def pressures(columns, name):
     for ax, runs in zip(axes[0], columns):
         ax.plot(runs[0].fields[0], runs[0].fields[2], "k", lw=0.8, label="exact")
         for run in runs:
-            ax.plot(run.x, run.p, ".", ms=3, color=COLORS.get(run.label(), "C4"), label=r"$\alpha_\rho$ " + run.label())
+            ax.plot(run.x, run.p, ".", ms=3, color=COLORS.get(run.label(), "C5"), label=run.name())
         ax.set_title("%s, t = %g" % (runs[0].title(), runs[0].t))
         ax.set_xlabel("x")
         ax.legend(fontsize=7)
@@ -139,9 +142,9 @@ def gauges(columns, name):
         for k, m in enumerate(layers.gauges(runs[0].layers)):
             times, u, _ = runs[0].exact.gauge(m)
             ax.step(np.append(times, runs[0].t), np.append(u, u[-1]), "k", lw=0.8, where="post", label="exact" if k == 0 else None)
-            for run, style in zip(runs, ("-", "--")):
+            for run, style in zip(runs, ("-", "--", ":")):
                 ax.plot(run.gauges[:, 0], run.gauges[:, k + 1], style, color="C%d" % k, lw=1.3,
-                        label=GAUGES[k] + r", $\alpha_\rho$ " + run.label())
+                        label=GAUGES[k] + ", " + run.name())
         ax.set_title("%s, gap %g" % (runs[0].title(), runs[0].result["gap"]))
         ax.set_xlabel("t")
         ax.legend(fontsize=7)
@@ -189,13 +192,13 @@ def main():
         if several:
             profiles(several, f"profiles-gap{gap}.png")
     cases = [case for case in layers.CASES if case + "-0.3" in runs]
-    columns = [[runs[f"{case}-{a}"] for a in ("0.3", "auto") if f"{case}-{a}" in runs] for case in cases]
+    columns = [[runs[f"{case}-{a}"] for a in ("0.3", "auto", "riemann") if f"{case}-{a}" in runs] for case in cases]
     if columns:
         gauges(columns, "gauges.png")
         pressures(columns, "pressures.png")
 
     print("\n| order of L1 | u | p | rho |\n|---|---|---|---|")
-    for kind in ("0.3", "auto"):
+    for kind in ("0.3", "auto", "riemann"):
         chain = [runs[k] for k in (f"n100-{kind}", f"n200-{kind}", f"test-0-{kind}", f"n800-{kind}", f"n1600-{kind}") if k in runs]
         for a, b in zip(chain[:-1], chain[1:]):
             order = [np.log(a.l1[k] / b.l1[k]) / np.log(b.n / a.n) for k in a.l1]

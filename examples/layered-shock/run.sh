@@ -12,10 +12,12 @@ for gap in 0 0.1; do
   run test-$gap-0.3 -var gap $gap
   run test-$gap-0.8 -var gap $gap -var alpha_rho 0.8
   run test-$gap-auto -var gap $gap -var dissipation auto
+  run test-$gap-riemann -var gap $gap -var dissipation riemann
 done
 for n in 100 200 800 1600; do
   run n$n-0.3 -var n $n
   run n$n-auto -var n $n -var dissipation auto
+  run n$n-riemann -var n $n -var dissipation riemann
 done
 for kernel in quadratic cubic quartic quintic wendland2 wendland4; do run kernel-$kernel -var kernel $kernel; done
 for eta in 1.0 1.5; do run eta-$eta -var eta $eta; done
@@ -23,5 +25,6 @@ run h-constant -var hvar no
 for case in al_glass_al al_carbon_al st_glass_st st_carbon_st; do
   run $case-0.3 -var case $case
   run $case-auto -var case $case -var dissipation auto
+  run $case-riemann -var case $case -var dissipation riemann
   run $case-gap -var case $case -var gap 0.1 -var dissipation auto
 done

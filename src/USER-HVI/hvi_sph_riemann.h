@@ -108,15 +108,18 @@ inline void sph_slopes(int i, const SphPlace &pi, const SphState *state, int n, 
                             p * d[1],
                             p * d[2]};
     const Vec w_j = first[3];
-    Vec mine[12];
+    Vec mine[9];
     for (int k = 0; k < 9; k++) {
       sum_i[k] += w_j * product[k];
       mine[k] = si.w * product[k];
     }
-    sum_i[9] += spread_i;
-    mine[9] = spread_j;
-    mine[10] = mine[11] = Vec{};
-    for (int k = 0; k < 3; k++) add_columns(slopes, j, k, mine + 4 * k);
+    add_columns(slopes, j, 0, mine);
+    add_columns(slopes, j, 1, mine + 4);
+    add_column(slopes, j, &SphSlopes::pz, mine[8]);
+    if (SCENE & SPH_OWN_H) {
+      sum_i[9] += spread_i;
+      add_column(slopes, j, &SphSlopes::omega, spread_j);
+    }
   }
 
   double *const sums = &total.xx;
@@ -174,11 +177,12 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
   for (int m = 0; m < nlanes; m += LANES) {
     static constexpr int in_turn[4] = {0, 1, 2, 3};
     const int *const j = near.j + m;
-    Vec d[4], first[4], second[4], other[12];
+    Vec d[4], first[4], second[4], other[8];
     read_columns(near.d + m, in_turn, 0, d);
     read_columns(state, j, 0, first);
     read_columns(state, j, 1, second);
-    for (int k = 0; k < 3; k++) read_columns(slopes, j, k, other + 4 * k);
+    for (int k = 0; k < 2; k++) read_columns(slopes, j, k, other + 4 * k);
+    const Vec other_pz = read_column(slopes, j, &SphSlopes::pz);
     const Vec dx = d[0], dy = d[1], dz = d[2];
     const Vec V_j = first[3], p_j = second[0], c_j = second[1], rho_j = second[2],
               m_j = V_j * rho_j;
@@ -199,7 +203,7 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     const Vec ahead_j = other[0] * xx + other[1] * yy + other[2] * zz + other[3] * xy +
         other[4] * xz + other[5] * yz;
     const Vec ahead_pi = 2.0 * (own.px * dx + own.py * dy + own.pz * dz);
-    const Vec ahead_pj = 2.0 * (other[6] * dx + other[7] * dy + other[8] * dz);
+    const Vec ahead_pj = 2.0 * (other[6] * dx + other[7] * dy + other_pz * dz);
 
     // impedances times r; all quotients in one
 
@@ -235,8 +239,8 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
       stretch = u < 0.0 ? u : open * u;
     }
 
-    const double inv_i = own.omega;
-    const Vec inv_j = other[9];
+    const double inv_i = SCENE & SPH_OWN_H ? own.omega : 1.0;
+    const Vec inv_j = SCENE & SPH_OWN_H ? read_column(slopes, j, &SphSlopes::omega) : one;
     const Vec G_i = V_i * V_i * inv_i * F_i, G_j = V_j * V_j * inv_j * F_j, G = G_i + G_j;
     const Vec force = -pstar * G;
     *(Vec *) (near.force + m) = force;

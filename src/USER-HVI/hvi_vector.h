@@ -72,6 +72,22 @@ typedef long long Index __attribute__((vector_size(8 * LANES)));
 #define HVI_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #endif
 
+// one number of the records
+
+template <class Record>
+HVI_INLINE Vec read_column(const Record *records, const int *j, double Record::*number)
+{
+  Vec column;
+  for (int k = 0; k < LANES; k++) column[k] = records[j[k]].*number;
+  return column;
+}
+
+template <class Record>
+HVI_INLINE void add_column(Record *records, const int *j, double Record::*number, const Vec &column)
+{
+  for (int k = 0; k < LANES; k++) records[j[k]].*number += column[k];
+}
+
 // for either width, of part n of the records with numbers j[0] ... j[LANES - 1]:
 //   read_columns: column[k] is number k of them all
 //   add_columns: adds to them

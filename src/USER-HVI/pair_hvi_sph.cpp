@@ -161,10 +161,11 @@ void PairHVISPH::gather()
 /* ----------------------------------------------------------------------
    one sweep over the half list, in two passes over the neighbors of a
    particle: squeeze out those beyond reach without a branch, then work out the
-   pairs in vectors, which also adds what happens to the neighbors to their records
+   pairs in vectors, which also adds what happens to the neighbors to their records.
+   What is left of the list can be kept for a second sweep in the same step.
 ------------------------------------------------------------------------- */
 
-template <class Kernel, int SCENE, class Record, class Work>
+template <class Kernel, int SCENE, int SWEEP, class Record, class Work>
 void PairHVISPH::each_particle(Record *records, Work work)
 {
   const int inum = list->inum;
@@ -176,12 +177,15 @@ void PairHVISPH::each_particle(Record *records, Work work)
   HVI::SphLaws mine = laws;
   HVI::SphNear near;
   const double reachsq = Kernel::support * Kernel::support * laws.h * laws.h;
+  bigint nkept = 0;
+  if (SWEEP == FIRST) keep_lists();
 
   for (int ii = 0; ii < inum; ii++) {
     const int i = ilist[ii];
     HVI::SphPlace pi = where[i];
-    const int *const jlist = firstneigh[i];
-    const int jnum = numneigh[i];
+    const int *const jlist = SWEEP == SECOND ? &kept[nkept] : firstneigh[i];
+    const int jnum = SWEEP == SECOND ? numkept[ii] : numneigh[i];
+    if (SWEEP == FIRST) numkept[ii] = 0;
     Record sum = {};
 
     if (SCENE & HVI::SPH_BODIES) {
@@ -196,27 +200,44 @@ void PairHVISPH::each_particle(Record *records, Work work)
       for (int jj = jfirst; jj < jlast; jj++) {
         const int j = jlist[jj] & NEIGHMASK;
         const HVI::Vec4 d = HVI::part(&pi, 0) - HVI::part(&where[j], 0);
-        const HVI::Vec4 square = d * d;
-        const double rsq = square[0] + square[2] + square[1];
         __builtin_prefetch(&state[j]);
         __builtin_prefetch(&records[j], 1);
-        if (SCENE & HVI::SPH_RIEMANN) {
-          __builtin_prefetch(&slopes[j]);
-          __builtin_prefetch(&slopes[j].pz);
-        }
         near.j[n] = j;
         near.d[n] = d;
+        if (SWEEP == SECOND) {
+          __builtin_prefetch(&slopes[j]);
+          __builtin_prefetch(&slopes[j].pz);
+          n++;
+          continue;
+        }
+        const HVI::Vec4 square = d * d;
+        const double rsq = square[0] + square[2] + square[1];
         if (SCENE & HVI::SPH_OWN_H) {
           const double h = SCENE & HVI::SPH_RIEMANN ? MAX(pi.h, pi.h - d[3]) : pi.h - 0.5 * d[3];
           n += rsq < Kernel::support * Kernel::support * h * h;
         } else
           n += rsq < reachsq;
       }
+      if (SWEEP == FIRST) {
+        memcpy(&kept[nkept], near.j, n * sizeof(int));
+        numkept[ii] += n;
+      }
+      if (SWEEP != ONLY) nkept += n;
       work(i, pi, n, mine, near, sum);
     }
     for (int k = 0; k < (int) (sizeof(Record) / sizeof(HVI::Vec4)); k++)
       HVI::part(&records[i], k) += HVI::part(&sum, k);
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::keep_lists()
+{
+  bigint most = 0;
+  for (int ii = 0; ii < list->inum; ii++) most += list->numneigh[list->ilist[ii]];
+  if ((std::size_t) most > kept.size()) kept.resize(1.1 * most);
+  if ((std::size_t) list->inum > numkept.size()) numkept.resize(atom->nmax);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -228,7 +249,7 @@ template <class Kernel, int SCENE> void PairHVISPH::eval()
 
   if (SCENE & HVI::SPH_RIEMANN) eval_slopes<Kernel, SCENE>();
 
-  each_particle<Kernel, SCENE>(
+  each_particle<Kernel, SCENE, SCENE & HVI::SPH_RIEMANN ? SECOND : ONLY>(
       rates.get(),
       [&](int i, const HVI::SphPlace &pi, int n, const HVI::SphLaws &mine, HVI::SphNear &near,
           HVI::SphRates &sum) {
@@ -256,7 +277,7 @@ template <class Kernel, int SCENE> void PairHVISPH::eval_slopes()
 {
   if constexpr ((SCENE & HVI::SPH_RIEMANN) != 0) {
     memset((void *) slopes.get(), 0, (atom->nlocal + atom->nghost) * sizeof(HVI::SphSlopes));
-    each_particle<Kernel, SCENE>(
+    each_particle<Kernel, SCENE, FIRST>(
         slopes.get(),
         [&](int i, const HVI::SphPlace &pi, int n, const HVI::SphLaws &mine, HVI::SphNear &near,
             HVI::SphSlopes &sum) {
@@ -523,5 +544,6 @@ double PairHVISPH::memory_usage()
 {
   return (double) nmax *
       (sizeof(HVI::SphPlace) + sizeof(HVI::SphState) + sizeof(HVI::SphRates) +
-       (riemann ? sizeof(HVI::SphSlopes) : 0));
+       (riemann ? sizeof(HVI::SphSlopes) : 0)) +
+      (double) (kept.capacity() + numkept.capacity()) * sizeof(int);
 }

@@ -77,12 +77,14 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   std::vector<double> htype;
   double **visc_a, **visc_b, **tension;    // NAN: as in pair_style; rows have ntypes+1 entries
 
-  // a step
+  // a step; of two sweeps over the list the second knows who is within reach
 
+  enum { ONLY, FIRST, SECOND };
   int nmax;
   std::unique_ptr<HVI::SphPlace[]> place;    // arrays of owned and ghost particles
   std::unique_ptr<HVI::SphState[]> state;
   std::unique_ptr<HVI::SphSlopes[]> slopes;    // dissipation riemann only
+  std::vector<int> kept, numkept;              // of the neighbor list: those within reach
   std::unique_ptr<HVI::SphRates[]> rates;
   double heating;
   class FixHVISPH *fix;
@@ -97,7 +99,9 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   template <class Kernel> void choose_scene(int);
   template <class Kernel, int SCENE> void eval();
   template <class Kernel, int SCENE> void eval_slopes();
-  template <class Kernel, int SCENE, class Record, class Work> void each_particle(Record *, Work);
+  template <class Kernel, int SCENE, int SWEEP, class Record, class Work>
+  void each_particle(Record *, Work);
+  void keep_lists();
 };
 
 }    // namespace LAMMPS_NS
