@@ -199,11 +199,12 @@ def riemann_rates(s, eos, kernel, tension=True, h=None, follows=None, A=1.2, ste
         np.add.at(out, i, values)
         return out
 
-    # h dW/dh = -norm/h^dim (dim w + q dw/dq), the particle itself included
+    # numbers of particles, and h dW/dh = -norm/h^dim (dim w + q dw/dq); the particle itself included
     w, dw = shape(kernel, r / h[i])
-    spread = total(-norm(kernel, s.dim) / h[i] ** s.dim * (s.dim * w + r / h[i] * dw))
-    spread -= norm(kernel, s.dim) / h**s.dim * s.dim * shape(kernel, np.zeros(n))[0]
-    omega = np.where(np.zeros(n, bool) if follows is None else follows, np.maximum(1 + V / s.dim * spread, 0.25), 1.0)
+    center = norm(kernel, s.dim) / h**s.dim * shape(kernel, np.zeros(n))[0]
+    number = total(norm(kernel, s.dim) / h[i] ** s.dim * w) + center
+    spread = total(-norm(kernel, s.dim) / h[i] ** s.dim * (s.dim * w + r / h[i] * dw)) - s.dim * center
+    omega = np.where(np.zeros(n, bool) if follows is None else follows, np.maximum(1 + spread / (s.dim * number), 0.25), 1.0)
 
     weight = (-V[j] * 0.5 * (dW(i) + dW(j)))[:, None]
     grad_v = total(weight[:, :, None] * np.einsum("ka,kb->kab", s.v[i] - s.v[j], e))
@@ -218,7 +219,9 @@ def riemann_rates(s, eos, kernel, tension=True, h=None, follows=None, A=1.2, ste
     beyond = [2 * np.einsum("kab,ka,kb->k", grad_v[k], d, e) - u for k in (i, j)]
     u_i, u_j = (0.5 * limited(u, b) / (1 + steep * closing / np.minimum(c[i], c[j])) for b in beyond)
     p_i, p_j = (p[k] - sign * 0.5 * limited(p[i] - p[j], 2 * (grad_p[k] * d).sum(1) - (p[i] - p[j])) for k, sign in ((i, 1), (j, -1)))
-    z_i, z_j = (s.rho[k] * (c[k] + A * closing) for k in (i, j))
+    z_i, z_j = (s.rho[k] * c[k] for k in (i, j))
+    sound = (0.5 * u * (z_i - z_j) - (p[i] - p[j])) / (z_i + z_j)  # velocity of the contact, from the mean of both
+    z_i, z_j = z_i + A * s.rho[i] * np.maximum(0, sound - 0.5 * u), z_j + A * s.rho[j] * np.maximum(0, -0.5 * u - sound)
     # velocities along e from the mean of both particles: of i u/2, of j -u/2
     U_i, U_j = 0.5 * u - u_i, -0.5 * u + u_j
     star_p = (z_j * p_i + z_i * p_j - z_i * z_j * (U_i - U_j)) / (z_i + z_j)
@@ -228,10 +231,11 @@ def riemann_rates(s, eos, kernel, tension=True, h=None, follows=None, A=1.2, ste
     star_p, delta = star_p * open_, delta * open_
     stretch = u * (open_ | (u < 0))
 
-    G_i, G_j = (V[k] ** 2 / omega[k] * dW(k) for k in (i, j))
+    G_i, G_j = (V[k] / (number[k] * omega[k]) * dW(k) for k in (i, j))
+    K = 2 * V[i] * V[j] / (V[i] + V[j]) * (dW(i) + dW(j))
     pair = -(star_p * (G_i + G_j))[:, None] * e
     de = star_p * (G_i * u - (G_i + G_j) * delta)
-    drho = s.m[i] / omega[i] * (dW(i) * stretch - (G_i + G_j) / (V[i] * V[j]) * delta)
+    drho = s.rho[i] / omega[i] * (dW(i) * stretch / number[i] - K * delta)
     return dict(f=total(pair), de=total(de), drho=total(drho), heat=0.5 * (viscous * (G_i + G_j) * u).sum(),
                 virial=0.5 * np.einsum("ka,kb->ab", d, pair), p=p, c=c)
 

@@ -15,16 +15,17 @@
 
 namespace HVI {
 
-// gradients at a particle: of velocity the symmetric part, and of pressure; and what follows from
-// its h being a function of its density
+// gradients at a particle: of velocity the symmetric part, and of pressure; and how its density
+// follows from the number of particles n = sum_j W(x_ij, h_i), itself included
 
 struct alignas(32) SphSlopes {
-  static constexpr int SENT = 10;    // of the numbers below, to other ranks
+  static constexpr int SENT = 11;    // of the numbers below, to other ranks
   double xx, yy, zz, xy;
   double xz, yz, px, py;
   double pz;
-  double omega;    // first h dW/dh summed over neighbors, then 1/Omega
-  double unused[2];
+  double volume;    // first n, then 1/(n Omega)
+  double omega;     // first h dW/dh summed over neighbors, then 1/Omega
+  double unused;
 };
 static_assert(sizeof(SphSlopes) == 3 * sizeof(Vec4), "records are read as vectors");
 
@@ -47,16 +48,20 @@ template <class Kernel, int SCENE> class SphTwoKernels {
     }
   }
 
-  // h dW/dh = - norm/h^dim (dim w + q dw/dq)
+  // W, and h dW/dh = - (dim W + norm/h^dim q dw/dq)
 
-  inline void spread(const Vec &r, const Vec &dh, Vec &s_i, Vec &s_j) const
+  inline void W(const Vec &r, const Vec &dh, Vec &W_i, Vec &W_j, Vec &s_i, Vec &s_j) const
   {
-    const double dim = 1.0 + two + three;
-    const Vec hinv = 1.0 / (h_i - dh), q_i = r * hinv_i, q_j = r * hinv;
-    s_i = -scale_i *
-        (dim * Kernel::template w<Vec>(q_i) + q_i * q_i * Kernel::template dw_q<Vec>(q_i));
-    s_j = -scale(hinv) *
-        (dim * Kernel::template w<Vec>(q_j) + q_j * q_j * Kernel::template dw_q<Vec>(q_j));
+    const Vec q_i = r * hinv_i;
+    W_i = scale_i * Kernel::template w<Vec>(q_i);
+    W_j = W_i;
+    if (SCENE & SPH_OWN_H) {
+      const double dim = 1.0 + two + three;
+      const Vec hinv = 1.0 / (h_i - dh), q_j = r * hinv, scale_j = scale(hinv);
+      W_j = scale_j * Kernel::template w<Vec>(q_j);
+      s_i = -(dim * W_i + scale_i * q_i * q_i * Kernel::template dw_q<Vec>(q_i));
+      s_j = -(dim * W_j + scale_j * q_j * q_j * Kernel::template dw_q<Vec>(q_j));
+    }
   }
 
  private:
@@ -92,9 +97,9 @@ inline void sph_slopes(int i, const SphPlace &pi, const SphState *state, int n, 
     read_columns(state, j, 0, first);
     read_columns(state, j, 1, second);
     const Vec r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    Vec F_i, F_j, spread_i = {}, spread_j = {};
+    Vec F_i, F_j, W_i, W_j, spread_i = {}, spread_j = {};
     kernels.F(r, d[3], F_i, F_j);
-    if (SCENE & SPH_OWN_H) kernels.spread(r, d[3], spread_i, spread_j);
+    kernels.W(r, d[3], W_i, W_j, spread_i, spread_j);
     const Vec F = -0.5 * (F_i + F_j);
     const Vec vx = F * (si.vx - first[0]), vy = F * (si.vy - first[1]), vz = F * (si.vz - first[2]);
     const Vec p = F * (si.p - second[0]);
@@ -116,8 +121,10 @@ inline void sph_slopes(int i, const SphPlace &pi, const SphState *state, int n, 
     add_columns(slopes, j, 0, mine);
     add_columns(slopes, j, 1, mine + 4);
     add_column(slopes, j, &SphSlopes::pz, mine[8]);
+    sum_i[9] += W_i;
+    add_column(slopes, j, &SphSlopes::volume, W_j);
     if (SCENE & SPH_OWN_H) {
-      sum_i[9] += spread_i;
+      sum_i[10] += spread_i;
       add_column(slopes, j, &SphSlopes::omega, spread_j);
     }
   }
@@ -141,18 +148,19 @@ static inline Vec limited(const Vec &a, const Vec &b)
 
    Half-way between i and j meet the states which either extrapolates: U, velocity
    along d, and p.  Of their acoustic Riemann problem, with impedances
-   z = rho (c + A |closing speed|), come p* and U*.  With weights as of Hu & Adams
-   (J. Comput. Phys. 213 (2006) 844) and G_i = V_i^2/Omega_i grad W(r, h_i):
+   z = rho (c + A |speed into the shock|), come p* and v*.  With delta = v* - (v_i + v_j)/2 along
+   d, and with G_i = V_i/(n_i Omega_i) grad W(r, h_i), n_i = sum_j W(x_ij, h_i),
+   Omega_i = 1 + h_i/(dim n_i) sum_j dW/dh(x_ij, h_i):
 
      f_i = - p* (G_i + G_j)
-     dE_i = p* ((G_i + G_j).(v_i - v*)) = p* (G_i.v_ij - (G_i + G_j) delta)
-     drho_i = m_i/V_i^2 G_i.v_ij - m_i/(Omega_i V_i V_j) (G_i + G_j) delta
+     dE_i = p* (G_i.v_ij - (G_i + G_j).delta)
+     drho_i/rho_i = (G_i/V_i).v_ij - K.delta/Omega_i
+     K = 2 V_i V_j/(V_i + V_j) (grad W(r, h_i) + grad W(r, h_j))
 
-   delta is what makes v* differ from the mean of v_i and v_j with which the first parts come
-   alone.  Of drho_i that part is m_i d/dt sum_j W(x_ij, h_i), where
-   Omega_i = 1 + m_i/(dim rho_i) h_i sum_j dW/dh(x_ij, h_i) takes care of h as a function
-   of rho_i; and what delta moves is antisymmetric per mass.  So density behind a shock
-   is that of the particles there, however sharp the shock, which is not so if their volumes V_j are weights.
+   Without delta, drho_i/rho_i is dn_i/n_i with the changes of h; what delta moves is
+   antisymmetric.  So density behind a shock is that of the particles there, however sharp
+   the shock, which is not so with volumes V_j as weights; and forces and energies follow from
+   it (Hu & Adams, J. Comput. Phys. 213 (2006) 844, have them for h = const).
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
@@ -168,8 +176,7 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
   const SphTwoKernels<Kernel, SCENE> kernels(laws, pi);
   const SphState si = state[i];
   const SphSlopes own = slopes[i];
-  const double V_i = si.w, rho_i = si.rho, c_i = si.c, p_i = si.p, m_i = V_i * rho_i,
-               Vinv_i = 1.0 / V_i;
+  const double V_i = si.w, rho_i = si.rho, c_i = si.c, p_i = si.p;
 
   const Vec zero = {}, one = zero + 1.0;
   Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, same = zero;
@@ -184,8 +191,7 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     for (int k = 0; k < 2; k++) read_columns(slopes, j, k, other + 4 * k);
     const Vec other_pz = read_column(slopes, j, &SphSlopes::pz);
     const Vec dx = d[0], dy = d[1], dz = d[2];
-    const Vec V_j = first[3], p_j = second[0], c_j = second[1], rho_j = second[2],
-              m_j = V_j * rho_j;
+    const Vec V_j = first[3], p_j = second[0], c_j = second[1], rho_j = second[2];
     const Vec rsq = dx * dx + dy * dy + dz * dz;
     const Vec r = sqrt(rsq);
     same += rsq > 0.0 ? zero : one;
@@ -205,17 +211,23 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     const Vec ahead_pi = 2.0 * (own.px * dx + own.py * dy + own.pz * dz);
     const Vec ahead_pj = 2.0 * (other[6] * dx + other[7] * dy + other_pz * dz);
 
-    // impedances times r; all quotients in one
+    // either side is hit by a shock of the velocity which the problem of sounds would give: all times r
 
+    const Vec za_i = zero + rho_i * c_i, za_j = rho_j * c_j, zainv = 1.0 / (za_i + za_j);
+    const Vec push_i = -zainv * (za_j * u + p * r), push_j = zainv * (p * r - za_i * u);
     const Vec closing = u < 0.0 ? -u : zero;
-    const Vec z_i = rho_i * (c_i * r + A * closing), z_j = rho_j * (c_j * r + A * closing);
+    const Vec z_i = za_i * r + rho_i * A * (push_i > 0.0 ? push_i : zero);
+    const Vec z_j = za_j * r + rho_j * A * (push_j > 0.0 ? push_j : zero);
+
+    // all other quotients in one
+
     const Vec c = r * (c_i < c_j ? zero + c_i : c_j);
     const Vec steep = c + STEEP * closing, both = z_i + z_j;
-    const Vec left = steep * both, right = rsq * V_j, inverse = 1.0 / (left * right);
-    const Vec keep = 0.5 * c * inverse * right * both;    // c/steep
-    const Vec zinv = inverse * right * steep;             // 1/both
-    const Vec squareinv = inverse * left * V_j;           // 1/r^2
-    const Vec Vinv = inverse * left * rsq * Vinv_i;       // 1/(V_i V_j)
+    const Vec left = steep * both, right = rsq * (V_i + V_j), inverse = 1.0 / (left * right);
+    const Vec keep = 0.5 * c * inverse * right * both;     // c/steep
+    const Vec zinv = inverse * right * steep;              // 1/both
+    const Vec squareinv = inverse * left * (V_i + V_j);    // 1/r^2
+    const Vec Vinv = inverse * left * rsq;                 // 1/(V_i + V_j)
 
     const Vec u_i = keep * limited(u, ahead_i - u), u_j = keep * limited(u, ahead_j - u);
     const Vec dp_i = 0.5 * limited(p, ahead_pi - p), dp_j = 0.5 * limited(p, ahead_pj - p);
@@ -239,25 +251,26 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
       stretch = u < 0.0 ? u : open * u;
     }
 
-    const double inv_i = SCENE & SPH_OWN_H ? own.omega : 1.0;
-    const Vec inv_j = SCENE & SPH_OWN_H ? read_column(slopes, j, &SphSlopes::omega) : one;
-    const Vec G_i = V_i * V_i * inv_i * F_i, G_j = V_j * V_j * inv_j * F_j, G = G_i + G_j;
+    const Vec volume_j = read_column(slopes, j, &SphSlopes::volume);
+    const Vec omega_j = SCENE & SPH_OWN_H ? read_column(slopes, j, &SphSlopes::omega) : one;
+    const double omega_i = SCENE & SPH_OWN_H ? own.omega : 1.0;
+    const Vec G_i = V_i * own.volume * F_i, G_j = V_j * volume_j * F_j, G = G_i + G_j;
     const Vec force = -pstar * G;
     *(Vec *) (near.force + m) = force;
     const Vec E_i = pstar * (G_i * u - G * delta), E_j = pstar * (G_j * u + G * delta);
-    const Vec flow = Vinv * G * delta;
+    const Vec flow = 2.0 * V_i * V_j * Vinv * (F_i + F_j) * delta;
     const Vec qheat = 0.5 * viscous * G * u;
     const Vec f[3] = {force * dx, force * dy, force * dz};
     fx += f[0];
     fy += f[1];
     fz += f[2];
     de += E_i;
-    drho += m_i * inv_i * (F_i * stretch - flow);
+    drho += rho_i * (own.volume * F_i * stretch - omega_i * flow);
     heat += qheat;
 
     for (int k = 0; k < 3; k++) first[k] = -f[k];
     first[3] = E_j;
-    second[0] = m_j * inv_j * (F_j * stretch + flow);
+    second[0] = rho_j * (volume_j * F_j * stretch + omega_j * flow);
     second[1] = qheat;
     second[2] = second[3] = zero;
     add_columns(rates, j, 0, first);

@@ -285,17 +285,17 @@ template <class Kernel, int SCENE> void PairHVISPH::eval_slopes()
         });
     if (force->newton_pair) comm->reverse_comm(this);
 
-    // Omega; 1 where h stays as it is.  Far from 1 only for particles nearly alone: bounded
+    // Omega is 1 where h stays as it is, and far from 1 only for particles nearly alone: bounded
 
     for (int i = 0; i < atom->nlocal; i++) {
-      const int itype = atom->type[i];
-      const double h = place[i].h;
-      double omega = 1.0;
-      if (variable && h > hmin * htype[itype] && h < hmax * htype[itype]) {
-        const double own = Kernel::w(0.0) * laws.norm / MathSpecial::powint(h, laws.dim);
-        omega += state[i].w * (slopes[i].omega / laws.dim - own);
-      }
+      if (!materials[atom->type[i]]) continue;
+      const double start = htype[atom->type[i]], h = place[i].h;
+      const double W0 = Kernel::w(0.0) * laws.norm / MathSpecial::powint(h, laws.dim);
+      const double n = slopes[i].volume + W0;
+      const bool follows = variable && h > hmin * start && h < hmax * start;
+      const double omega = follows ? 1.0 + (slopes[i].omega / laws.dim - W0) / n : 1.0;
       slopes[i].omega = 1.0 / MAX(omega, 0.25);
+      slopes[i].volume = slopes[i].omega / n;
     }
     comm->forward_comm(this);
   }
