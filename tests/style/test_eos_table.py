@@ -1,7 +1,10 @@
 """Tabulated equations of state and Tillotson's in LAMMPS: tables from Python, both ways to name them, units, restart, wrong ones."""
 
+import re
+
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import hvi.eos_table
 from hvi import HVIError
@@ -119,6 +122,29 @@ def test_both_ways_to_name_it(lmp, tmp_path, nranks):
     short = state(lmp(text("eos table al.table"), nranks=nranks, env=env))
     assert short == state(lmp(text("file al.hvi"), nranks=nranks, env=env))
     assert short[0] == pytest.approx(mie_gruneisen(2900.0, 5e5), rel=1e-6)
+
+
+@pytest.mark.parametrize("material", ["file Al-Tillotson.hvi", "eos table al.table"])
+def test_plates_meet(lmp, root, tmp_path, material):
+    """the example of Howto_sph with other laws: behind the shocks p = rho0 Us u, u = 1000 m/s, e = u^2/2"""
+    write(tmp_path / "al.table")
+    (example,) = re.findall(r"(?=   # two aluminum plates)(.*?)\n(?=\S)", (root / "doc/src/Howto_sph.rst").read_text(), re.S)
+    rho0, law = (2700, tillotson) if "Tillotson" in material else (2703, mie_gruneisen)
+    old, density = "eos gruneisen 2703 5240 1.4 1.97 0.48 885", "sph/rho 2703.0"
+    assert old in example and density in example
+    example = example.replace(old, material).replace(density, f"sph/rho {rho0}").replace("2.703e-9", f"{rho0}e-12")
+    thermo = lmp(example, env={"LAMMPS_POTENTIALS": str(root / "potentials")}).thermo
+    rho = brentq(lambda r: law(r, 5e5) - rho0 * 1e6 / (1 - rho0 / r), 1.01 * rho0, 1.49 * rho0)
+    assert thermo["c_mean"][-1] == pytest.approx(law(rho, 5e5), rel=0.02)
+    assert abs(thermo["c_book[9]"] - 1).max() < 1e-4
+
+
+def test_the_example_of_the_docs(lmp, root, tmp_path):
+    (code,) = re.findall(r"code-block:: python\n(.*?)\n(?=\S)", (root / "doc/src/Howto_materials.rst").read_text(), re.S)
+    exec(re.sub(r"^   ", "", code, flags=re.M), {})
+    p, c, T = state(lmp(text("eos table gas.table", rho=1.2, e=2.5e5)))
+    assert p == pytest.approx(0.4 * 1.2 * 2.5e5, rel=1e-5)
+    assert c**2 == pytest.approx(1.4 * 0.4 * 2.5e5, rel=1e-4)
 
 
 @pytest.mark.parametrize("units", ["si", "cgs", "micro"])
