@@ -45,7 +45,7 @@ class Eos {
 
   // Densities at and beyond this are outside the law's range: there C/Us, which is 1 on the
   // reference state and 0 on the pole of the Hugoniot, has fallen to 1/100.  Infinite for laws
-  // without a pole.
+  // without a pole; behind its last density for a table.
   virtual double rho_max() const = 0;
 
   // False outside the law's range: rho not in (0, rho_max), anything not finite.  Then p and csq

@@ -166,7 +166,8 @@ TEST(Tillotson, FarStatesAreNumbersOrNoAnswer)
         double p, csq;
         const bool good = m.law()->evaluate(rho, e, p, csq);
         EXPECT_EQ(good, std::isfinite(p) && std::isfinite(csq)) << rho << " " << e;
-        if (rho > 1e-101 && rho < 1 && std::fabs(e) < 1e11) {
+        // vapor has an answer at any density
+        if (rho > (e > 1e9 ? 1e-201 : 1e-101) && rho < 1 && std::fabs(e) < 1e11) {
           EXPECT_TRUE(good) << rho << " " << e;
         }
       }
