@@ -30,13 +30,13 @@ def _block(word, rho, e, values):
 
 
 def write_eos_table(path, rho, e, pressure, temperature=None, *, rho0=None, units="si", density="linear",
-                    interpolation="bicubic", comment=""):
+                    interpolation="bicubic", comment="", date=None):
     """Writes a table on the grid of densities rho and energies per mass e.
 
     pressure, temperature: functions of (rho, e), or arrays with a row per density and a column per energy
     rho0: density of the reference state, where e = 0 and the pressure is about 0; None for gases
     density: linear or log, in what one interpolates; interpolation: bilinear or bicubic
-    comment: where the numbers come from
+    comment: where the numbers come from; date: a word that LAMMPS repeats in its log, for instance 2026-02-01
     """
     if units not in UNITS:
         raise HVIError(f"unknown units {units}: tables have {', '.join(UNITS)}")
@@ -47,7 +47,7 @@ def write_eos_table(path, rho, e, pressure, temperature=None, *, rho0=None, unit
     rho, e = _grid("densities", rho), _grid("energies", e)
     if rho[0] <= 0:
         raise HVIError("densities must be > 0")
-    text = f"# UNITS: {units}\n" + "".join(f"# {line}\n" for line in comment.splitlines()) + "\n"
+    text = "# " + (f"DATE: {date} " if date else "") + f"UNITS: {units}\n" + "".join(f"# {line}\n" for line in comment.splitlines()) + "\n"
     if rho0 is not None:
         text += f"rho0 {float(rho0)!r}\n"
     text += f"density {density}\ninterpolation {interpolation}\n\n" + _block("pressure", rho, e, pressure)

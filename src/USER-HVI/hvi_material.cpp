@@ -308,8 +308,10 @@ std::string parse_material(const std::string &text, const std::string &filename,
       if (!open.file_line) return lines.at(open.line, open.label() + ": missing key file");
       std::string table;
       problem = read ? read(open.file, table) : "there is no way to read " + open.file;
-      if (problem.empty()) material.eos = parse_table(table, open.file, run_units, problem);
+      if (problem.empty())
+        material.eos = parse_table(table, open.file, run_units, problem, material.table_date);
       if (!problem.empty()) return lines.at(open.file_line, open.label() + ": " + problem);
+      material.table = open.file;
       continue;
     }
     if (open.kind == "eos") {

@@ -37,8 +37,9 @@ struct Section {
 
 class Material {
  public:
-  std::string name;    // as the user typed it
-  std::string date;    // DATE: of the file, or empty
+  std::string name;                 // as the user typed it
+  std::string date;                 // DATE: of the file, or empty
+  std::string table, table_date;    // of the equation of state, if it is a table
   std::unique_ptr<Eos> eos;
   std::vector<Section> sections;    // all but eos
 
@@ -57,10 +58,11 @@ std::string parse_material(const std::string &text, const std::string &filename,
                            const std::string &run_units, Material &material,
                            const ReadText &read = nullptr);
 
-// a tabulated equation of state from the text of its file, likewise; null if something is wrong
+// a tabulated equation of state and the DATE: of its file, likewise; null if something is wrong
 
 std::unique_ptr<Eos> parse_table(const std::string &text, const std::string &filename,
-                                 const std::string &run_units, std::string &problem);
+                                 const std::string &run_units, std::string &problem,
+                                 std::string &date);
 
 // Between LAMMPS's unit sets si, cgs and micro; all have Kelvin.  Same name in and out: unchanged.
 

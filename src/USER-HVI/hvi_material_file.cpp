@@ -45,6 +45,13 @@ std::string read_text(LAMMPS *lmp, const std::string &what, const std::string &f
   MPI_Bcast(&text[0], length, MPI_CHAR, 0, lmp->world);
   return "";
 }
+
+void log_date(LAMMPS *lmp, const std::string &what, const std::string &filename,
+              const std::string &date)
+{
+  if (lmp->comm->me == 0 && !date.empty())
+    utils::logmesg(lmp, "Reading {} file {} with DATE: {}\n", what, filename, date);
+}
 }    // namespace
 
 /* ----------------------------------------------------------------------
@@ -63,8 +70,8 @@ HVI::Material HVI::read_material_file(LAMMPS *lmp, const std::string &filename)
   Material material;
   problem = parse_material(text, filename, lmp->update->unit_style, material, read);
   if (!problem.empty()) lmp->error->all(FLERR, "Material file {}", problem);
-  if (lmp->comm->me == 0 && !material.date.empty())
-    utils::logmesg(lmp, "Reading material file {} with DATE: {}\n", filename, material.date);
+  log_date(lmp, "material", filename, material.date);
+  log_date(lmp, "table", material.table, material.table_date);
   return material;
 }
 
@@ -75,7 +82,9 @@ std::unique_ptr<HVI::Eos> HVI::read_table_file(LAMMPS *lmp, const std::string &f
   std::string text;
   std::string problem = read_text(lmp, "table", filename, text);
   if (!problem.empty()) lmp->error->all(FLERR, problem);
-  auto eos = parse_table(text, filename, lmp->update->unit_style, problem);
+  std::string date;
+  auto eos = parse_table(text, filename, lmp->update->unit_style, problem, date);
   if (!eos) lmp->error->all(FLERR, "Table file {}", problem);
+  log_date(lmp, "table", filename, date);
   return eos;
 }

@@ -25,13 +25,13 @@ namespace {
     }
 
     TableData data;
+    Header header;
 
     std::string parse();
 
    private:
     Lines lines;
     const std::string &filename, &run_units;
-    Header header;
     bool started = false;    // behind the comments at the head
     bool rho0_given = false, density_given = false, interpolation_given = false;
 
@@ -191,10 +191,12 @@ namespace {
 /* ---------------------------------------------------------------------- */
 
 std::unique_ptr<Eos> parse_table(const std::string &text, const std::string &filename,
-                                 const std::string &run_units, std::string &problem)
+                                 const std::string &run_units, std::string &problem,
+                                 std::string &date)
 {
   TableText table(text, filename, run_units);
   problem = table.parse();
+  date = table.header.date;
   if (!problem.empty()) return nullptr;
   auto eos = make_eos_table(table.data, problem);
   if (!eos) problem = filename + ": " + problem;

@@ -116,11 +116,13 @@ def test_table_gives_the_formula(lmp, tmp_path, density, interpolation, of_p, of
 def test_both_ways_to_name_it(lmp, tmp_path, nranks):
     folder = tmp_path / "potentials"
     folder.mkdir()
-    write(folder / "al.table")
+    write(folder / "al.table", date="2026-02-01")
     (folder / "al.hvi").write_text("# UNITS: cgs\neos table\n  file al.table\nspall limit\n  sigma_p 1e10\n")
     env = {"LAMMPS_POTENTIALS": str(folder)}
-    short = state(lmp(text("eos table al.table"), nranks=nranks, env=env))
-    assert short == state(lmp(text("file al.hvi"), nranks=nranks, env=env))
+    one, two = (lmp(text(words), nranks=nranks, env=env) for words in ("eos table al.table", "file al.hvi"))
+    short = state(one)
+    assert short == state(two)
+    assert [r.log.count("Reading table file al.table with DATE: 2026-02-01") for r in (one, two)] == [1, 1]
     assert short[0] == pytest.approx(mie_gruneisen(2900.0, 5e5), rel=1e-6)
 
 

@@ -447,8 +447,8 @@ const std::string BODY = "rho0 1.5\ndensity linear\ninterpolation bilinear # com
 
 std::unique_ptr<Eos> parsed(const std::string &text, const std::string &units = "si")
 {
-  std::string why;
-  auto law = HVI::parse_table(text, "x.table", units, why);
+  std::string why, date;
+  auto law = HVI::parse_table(text, "x.table", units, why, date);
   if (!law) throw std::runtime_error(why);
   EXPECT_EQ(why, "");
   return law;
@@ -456,8 +456,8 @@ std::unique_ptr<Eos> parsed(const std::string &text, const std::string &units = 
 
 std::string problem(const std::string &text, const std::string &units = "si")
 {
-  std::string why;
-  EXPECT_FALSE(HVI::parse_table(text, "x.table", units, why));
+  std::string why, date;
+  EXPECT_FALSE(HVI::parse_table(text, "x.table", units, why, date));
   return why;
 }
 
@@ -607,6 +607,8 @@ TEST(TableFile, ThroughAMaterialFile)
       material("eos table\n file x.table # units of its own\nspall limit\n sigma_p 1e10\n", m), "");
   EXPECT_DOUBLE_EQ(at(*m.eos, 1.75, 1).p, (0 + 1.5 + 1 + 3) / 4);
   EXPECT_EQ(m.section("spall", "limit")->values.at("sigma_p"), 1e9);
+  EXPECT_EQ(m.table, "x.table");
+  EXPECT_EQ(m.table_date, "2026-02-01");
 
   EXPECT_EQ(material("eos table\n", m), "x.hvi:2: eos table: missing key file");
   EXPECT_FALSE(m.eos);
