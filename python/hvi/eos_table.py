@@ -47,7 +47,10 @@ def write_eos_table(path, rho, e, pressure, temperature=None, *, rho0=None, unit
     rho, e = _grid("densities", rho), _grid("energies", e)
     if rho[0] <= 0:
         raise HVIError("densities must be > 0")
-    text = "# " + (f"DATE: {date} " if date else "") + f"UNITS: {units}\n" + "".join(f"# {line}\n" for line in comment.splitlines()) + "\n"
+    if not comment.isascii() or "UNITS:" in comment or "DATE:" in comment:
+        raise HVIError("the comment must be plain ASCII, without UNITS: and DATE:")
+    text = "# " + (f"DATE: {date} " if date else "") + f"UNITS: {units}\n"
+    text += "".join(f"# {line}\n" for line in comment.splitlines()) + "\n"
     if rho0 is not None:
         text += f"rho0 {float(rho0)!r}\n"
     text += f"density {density}\ninterpolation {interpolation}\n\n" + _block("pressure", rho, e, pressure)

@@ -1,4 +1,4 @@
-"""Tabulated equations of state and Tillotson's in LAMMPS: tables from Python, both ways to name them, units, restart, wrong ones."""
+"""Tillotson's equation of state and tables in LAMMPS: tables from Python, both ways to name them, units, restart, wrong ones."""
 
 import re
 
@@ -102,7 +102,7 @@ def test_tillotson(lmp, root, rho, e):
 @pytest.mark.parametrize("density", ["linear", "log"])
 @pytest.mark.parametrize("interpolation, of_p, of_c", [("bilinear", 1e-4, 0.03), ("bicubic", 1e-7, 1e-5)])
 def test_table_gives_the_formula(lmp, tmp_path, density, interpolation, of_p, of_c):
-    """to what the spacing of 1 % in density allows: p in units of rho0 c0^2, c relative; three nodes away from the law's kink at rho0"""
+    """to what the spacing of 1 % in density allows, three nodes away from the law's kink: p in units of rho0 c0^2, c relative"""
     write(tmp_path / "al.table", density=density, interpolation=interpolation)
     law = "eos mie-gruneisen 2703 5240 1.4 1.97 885"
     for rho, e in ((2791.0, 7e4), (3507.0, 1.93e6)):
@@ -248,6 +248,7 @@ def test_missing_words(lmp, tmp_path):
     ({"pressure": [[1, 2]]}, "pressure must have a row per density"),
     ({"pressure": [[1, 2], [3, np.inf]]}, "pressure must be finite"),
     ({"temperature": lambda rho, e: np.nan}, "temperature must be finite"),
+    ({"comment": "UNITS: cgs"}, "the comment must be plain ASCII"),
     ({"path": "nowhere/x.table"}, "cannot write nowhere/x.table"),
 ])
 def test_writer_refuses(how, says):
