@@ -14,31 +14,50 @@
 #include "hvi_eos_mie_gruneisen.h"
 #include "hvi_eos_polynomial.h"
 #include "hvi_eos_tait.h"
+#include "hvi_eos_tillotson.h"
 
 namespace HVI {
 
 namespace {
 
-  // the only list of equations of state
+  // the only list of equations of state with parameters
 
   struct Entry {
     const char *name;
     int nargs, nparams;
     const Parameter *params;
+    std::string (*problem)(const double *);
     std::unique_ptr<Eos> (*make)(const double *);
   };
 
+  // what a law has against parameters that are right one by one, if it looks at them together
+
+  template <class Law> auto together(const double *v, int) -> decltype(Law::problem(v))
+  {
+    return Law::problem(v);
+  }
+  template <class Law> std::string together(const double *, long)
+  {
+    return "";
+  }
+
   template <class Law> constexpr Entry entry()
   {
-    return {Law::name, Law::nargs, int(std::size(Law::params)), Law::params,
+    return {Law::name,
+            Law::nargs,
+            int(std::size(Law::params)),
+            Law::params,
+            [](const double *v) {
+              return together<Law>(v, 0);
+            },
             [](const double *v) -> std::unique_ptr<Eos> {
               return std::make_unique<EosModel<Law>>(Law::make(v));
             }};
   }
 
-  constexpr Entry entries[] = {entry<EosLinear>(),       entry<EosTait>(),
-                               entry<EosIdealGas>(),     entry<EosGruneisen>(),
-                               entry<EosMieGruneisen>(), entry<EosPolynomial>()};
+  constexpr Entry entries[] = {
+      entry<EosLinear>(),       entry<EosTait>(),       entry<EosIdealGas>(), entry<EosGruneisen>(),
+      entry<EosMieGruneisen>(), entry<EosPolynomial>(), entry<EosTillotson>()};
 
   const Entry *find(const std::string &name)
   {
@@ -51,8 +70,8 @@ namespace {
 std::string eos_names()
 {
   std::string names;
-  for (const Entry &e : entries) names += (names.empty() ? "" : ", ") + std::string(e.name);
-  return names;
+  for (const Entry &e : entries) names += std::string(e.name) + ", ";
+  return names + EOS_TABLE;
 }
 
 int eos_nargs(const std::string &name)
@@ -96,6 +115,8 @@ std::unique_ptr<Eos> make_eos_full(const std::string &name, const std::vector<do
     problem = value_problem(e->params[i].key, values[i], e->params[i].range);
     if (!problem.empty()) return nullptr;
   }
+  problem = e->problem(values.data());
+  if (!problem.empty()) return nullptr;
   return e->make(values.data());
 }
 

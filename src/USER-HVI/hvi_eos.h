@@ -27,6 +27,7 @@ namespace HVI {
    A law is a plain struct with
      name, nargs               nargs: how many of its parameters the short form takes, the first
      params[]                  its table of parameters, density first
+     problem(const double *)   if it has any: what is wrong with values that are right one by one
      make(const double *)      from values in the order of params
      rho0, c0, rho_max         rho_max: the law holds below it (pole of the Hugoniot)
      state(rho, e, p, csq)     pressure, and dp/drho at constant entropy,
@@ -44,7 +45,7 @@ class Eos {
 
   // Densities at and beyond this are outside the law's range: there C/Us, which is 1 on the
   // reference state and 0 on the pole of the Hugoniot, has fallen to 1/100.  Infinite for laws
-  // without a pole.
+  // without a pole; behind its last density for a table.
   virtual double rho_max() const = 0;
 
   // False outside the law's range: rho not in (0, rho_max), anything not finite.  Then p and csq
@@ -59,7 +60,7 @@ template <class Law> class EosModel final : public Eos {
  public:
   explicit EosModel(const Law &law) : law(law), csq_min(std::max(1e-6 * law.c0 * law.c0, 1e-300)) {}
 
-  const char *name() const override { return Law::name; }
+  const char *name() const override { return law.name; }
   double rho0() const override { return law.rho0; }
   double c0() const override { return law.c0; }
   double rho_max() const override { return law.rho_max; }
@@ -87,7 +88,10 @@ template <class Law> class EosModel final : public Eos {
 // The laws by name.  Short form of pair_coeff: the first eos_nargs(name) parameters, in order, in
 // the units of the run; the others have presets (T0 = 300, S2 = S3 = 0).  eos_nargs is -1 for an
 // unknown name.  make_eos returns null for an unknown name or wrong arguments and says in problem
-// what is wrong, without naming the law, which its caller does.
+// what is wrong, without naming the law, which its caller does.  The law of tables is only among
+// eos_names(): it has a file in place of parameters, see hvi_eos_table.h.
+
+static constexpr char EOS_TABLE[] = "table";
 
 std::string eos_names();                          // "linear, tait, ..."
 std::string eos_args(const std::string &name);    // "rho0 K"

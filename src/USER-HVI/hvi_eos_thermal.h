@@ -74,6 +74,16 @@ struct ThermalTable {
     }
   }
 
+  // tau, with x = eta/spacing in [0, N)
+
+  double interpolate(double x) const
+  {
+    const int i = (int) x;
+    const double s = x - i, r = 1.0 - s;
+    return r * r * ((1.0 + 2.0 * s) * tau[i] + s * slope[i]) +
+        s * s * ((1.0 + 2.0 * r) * tau[i + 1] - r * slope[i + 1]);
+  }
+
   template <class Law> double temperature(const Law &law, double rho, double e) const
   {
     if (law.cp <= 0.0) return std::numeric_limits<double>::quiet_NaN();
@@ -81,12 +91,8 @@ struct ThermalTable {
     double t = law.T0;
     if (x >= N)
       t = integrate(law, N * spacing, tau[N], x * spacing, 64);
-    else if (x > 0.0) {
-      const int i = (int) x;
-      const double s = x - i, r = 1.0 - s;
-      t = r * r * ((1.0 + 2.0 * s) * tau[i] + s * slope[i]) +
-          s * s * ((1.0 + 2.0 * r) * tau[i + 1] - r * slope[i + 1]);
-    }
+    else if (x > 0.0)
+      t = interpolate(x);
     return std::max(t + e / law.cp, 0.0);
   }
 };

@@ -8,8 +8,9 @@
 
 #include "hvi_material.h"
 
+#include "hvi_text.h"
+
 #include <cmath>
-#include <cstdlib>
 
 namespace HVI {
 
@@ -115,31 +116,6 @@ namespace {
     return nullptr;
   }
 
-  // ---------------------------------------------------------------- text
-
-  std::vector<std::string> split(const std::string &text)
-  {
-    static const char *blank = " \t\r\f\v";
-    std::vector<std::string> words;
-    size_t from = text.find_first_not_of(blank);
-    while (from != std::string::npos) {
-      const size_t to = text.find_first_of(blank, from);
-      words.push_back(text.substr(from, to - from));
-      from = text.find_first_not_of(blank, to);
-    }
-    return words;
-  }
-
-  // decimal numbers only: no hexadecimal ones, no inf or nan by name
-
-  bool number(const std::string &word, double &x)
-  {
-    if (word.find_first_not_of("0123456789+-.eE") != std::string::npos) return false;
-    char *end = nullptr;
-    x = std::strtod(word.c_str(), &end);
-    return end != word.c_str() && *end == '\0';
-  }
-
   // powers of ten of the units of mass, length and time in kg, m, s
 
   bool decades(const std::string &units, int &mass, int &length, int &time)
@@ -167,8 +143,11 @@ namespace {
     const Parameter *params = nullptr;
     std::vector<double> values;
     std::vector<int> lines;    // where a value was given; 0: not yet
+    std::string file;          // of a table, in place of values
+    int file_line = 0;
 
     std::string label() const { return kind + " " + law; }
+    bool table() const { return kind == "eos" && law == EOS_TABLE; }
   };
 
   // fills in presets and converts; says what is missing
@@ -215,6 +194,23 @@ double convert(double x, const Dimension &dim, const std::string &from, const st
   return n < 0 ? x / std::pow(10.0, -n) : x * std::pow(10.0, n);
 }
 
+// ---------------------------------------------------------------------- head of a file
+
+std::string Header::read(const std::vector<std::string> &words, const std::string &run_units)
+{
+  for (size_t i = 0; i + 1 < words.size(); i++) {
+    if (words[i] == "DATE:") date = words[i + 1];
+    if (words[i] != "UNITS:") continue;
+    if (!units.empty()) return "UNITS: given twice";
+    units = words[i + 1];
+    if (!convertible(units, units))
+      return "unknown UNITS: " + units + "; known are si, cgs, micro, lj";
+    if (!convertible(units, run_units))
+      return "UNITS: " + units + " cannot be converted to units " + run_units + " of the run";
+  }
+  return "";
+}
+
 const Section *Material::section(const std::string &kind, const std::string &law) const
 {
   for (const Section &s : sections)
@@ -228,99 +224,99 @@ const Section *Material::section(const std::string &kind, const std::string &law
 ------------------------------------------------------------------------- */
 
 std::string parse_material(const std::string &text, const std::string &filename,
-                           const std::string &run_units, Material &material)
+                           const std::string &run_units, Material &material, const ReadText &read)
 {
   material = Material();
   material.name = filename;
-  std::string units;
+  Header header;
   std::vector<Open> opened;
-  int line = 0;
-  auto at = [&](int where, const std::string &what) {
-    return filename + ":" + std::to_string(where) + ": " + what;
-  };
+  Lines lines(text, filename);
 
-  for (size_t from = 0; from < text.size();) {
-    size_t to = text.find('\n', from);
-    if (to == std::string::npos) to = text.size();
-    const std::string whole = text.substr(from, to - from);
-    from = to + 1;
-    line++;
-
-    const size_t hash = whole.find('#');
-    if (hash != std::string::npos && opened.empty()) {
-      const std::vector<std::string> words = split(whole.substr(hash + 1));
-      for (size_t i = 0; i + 1 < words.size(); i++) {
-        if (words[i] == "DATE:") material.date = words[i + 1];
-        if (words[i] != "UNITS:") continue;
-        if (!units.empty()) return at(line, "UNITS: given twice");
-        units = words[i + 1];
-        if (!convertible(units, units))
-          return at(line, "unknown UNITS: " + units + "; known are si, cgs, micro, lj");
-        if (!convertible(units, run_units))
-          return at(line,
-                    "UNITS: " + units + " cannot be converted to units " + run_units +
-                        " of the run");
-      }
+  while (lines.next()) {
+    if (opened.empty()) {
+      const std::string problem = header.read(split(lines.comment), run_units);
+      if (!problem.empty()) return lines.here(problem);
     }
-
-    const std::vector<std::string> words = split(whole.substr(0, hash));
+    const std::vector<std::string> &words = lines.words;
     if (words.empty()) continue;
     const std::string &key = words[0];
 
     if (is_kind(key)) {
-      if (units.empty()) return at(line, "no UNITS: in the comments before the first section");
+      if (header.units.empty())
+        return lines.here("no UNITS: in the comments before the first section");
       if (words.size() < 2)
-        return at(line, "section " + key + " names no law; known are " + laws_of(key));
+        return lines.here("section " + key + " names no law; known are " + laws_of(key));
       Open open;
       open.kind = key;
       open.law = words[1];
-      open.line = line;
+      open.line = lines.line;
       open.params = find_params(key, open.law, open.n);
-      if (!open.params)
-        return at(line, "unknown law " + open.label() + "; known are " + laws_of(key));
-      if (words.size() > 2) return at(line, open.label() + ": unexpected text " + words[2]);
+      if (!open.params && !open.table())
+        return lines.here("unknown law " + open.label() + "; known are " + laws_of(key));
+      if (words.size() > 2) return lines.here(open.label() + ": unexpected text " + words[2]);
       for (const Open &old : opened)
         if (old.kind == key && (key == "eos" || old.law == open.law))
-          return at(line,
-                    "second section " + (key == "eos" ? key : open.label()) +
-                        ", the first is in line " + std::to_string(old.line));
+          return lines.here("second section " + (key == "eos" ? key : open.label()) +
+                            ", the first is in line " + std::to_string(old.line));
       open.values.resize(open.n);
       open.lines.resize(open.n);
       opened.push_back(open);
       continue;
     }
 
-    if (opened.empty()) return at(line, "expected a section (" + kinds() + "), found " + key);
+    if (opened.empty()) return lines.here("expected a section (" + kinds() + "), found " + key);
     Open &open = opened.back();
     const std::string label = open.label() + ": ";
+    if (open.table()) {
+      if (key != "file") return lines.here(label + "unknown key " + key + "; known is file");
+      if (open.file_line)
+        return lines.here(label + "key file given twice, first in line " +
+                          std::to_string(open.file_line));
+      if (words.size() < 2) return lines.here(label + "key file has no value");
+      if (words.size() > 2)
+        return lines.here(label + "file: unexpected text " + words[2] + " after the name");
+      open.file = words[1];
+      open.file_line = lines.line;
+      continue;
+    }
     int i = 0;
     while (i < open.n && key != open.params[i].key) i++;
     if (i == open.n) {
       std::string known;
       for (int k = 0; k < open.n; k++) known += " " + std::string(open.params[k].key);
-      return at(line, label + "unknown key " + key + "; known are" + known);
+      return lines.here(label + "unknown key " + key + "; known are" + known);
     }
     if (open.lines[i])
-      return at(line,
-                label + "key " + key + " given twice, first in line " +
-                    std::to_string(open.lines[i]));
-    if (words.size() < 2) return at(line, label + "key " + key + " has no value");
+      return lines.here(label + "key " + key + " given twice, first in line " +
+                        std::to_string(open.lines[i]));
+    if (words.size() < 2) return lines.here(label + "key " + key + " has no value");
     double x;
-    if (!number(words[1], x)) return at(line, label + key + ": " + words[1] + " is not a number");
+    if (!number(words[1], x)) return lines.here(label + key + ": " + words[1] + " is not a number");
     if (words.size() > 2)
-      return at(line, label + key + ": unexpected text " + words[2] + " after the value");
+      return lines.here(label + key + ": unexpected text " + words[2] + " after the value");
     const std::string problem = value_problem(open.params[i].key, x, open.params[i].range);
-    if (!problem.empty()) return at(line, label + problem);
+    if (!problem.empty()) return lines.here(label + problem);
     open.values[i] = x;
-    open.lines[i] = line;
+    open.lines[i] = lines.line;
   }
 
+  material.date = header.date;
   for (Open &open : opened) {
-    std::string problem = finish(open, units, run_units);
-    if (!problem.empty()) return at(open.line, open.label() + ": " + problem);
+    std::string problem = finish(open, header.units, run_units);
+    if (!problem.empty()) return lines.at(open.line, open.label() + ": " + problem);
+    if (open.table()) {
+      if (!open.file_line) return lines.at(open.line, open.label() + ": missing key file");
+      std::string table;
+      problem = read ? read(open.file, table) : "there is no way to read " + open.file;
+      if (problem.empty())
+        material.eos = parse_table(table, open.file, run_units, problem, material.table_date);
+      if (!problem.empty()) return lines.at(open.file_line, open.label() + ": " + problem);
+      material.table = open.file;
+      continue;
+    }
     if (open.kind == "eos") {
       material.eos = make_eos_full(open.law, open.values, problem);
-      if (!material.eos) return at(open.line, open.label() + ": " + problem);
+      if (!material.eos) return lines.at(open.line, open.label() + ": " + problem);
       continue;
     }
     Section section = {open.kind, open.law, {}};

@@ -11,6 +11,7 @@
 
 #include "hvi_eos.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -36,8 +37,9 @@ struct Section {
 
 class Material {
  public:
-  std::string name;    // as the user typed it
-  std::string date;    // DATE: of the file, or empty
+  std::string name;                 // as the user typed it
+  std::string date;                 // DATE: of the file, or empty
+  std::string table, table_date;    // of the equation of state, if it is a table
   std::unique_ptr<Eos> eos;
   std::vector<Section> sections;    // all but eos
 
@@ -47,10 +49,20 @@ class Material {
 };
 
 // A material from the text of its file, with values converted to the units of the run.
-// Returns what is wrong as "file:line: ...", or nothing.
+// Returns what is wrong as "file:line: ...", or nothing.  The text of a table that the file names
+// comes from read(name, text), which returns what is wrong.
+
+using ReadText = std::function<std::string(const std::string &, std::string &)>;
 
 std::string parse_material(const std::string &text, const std::string &filename,
-                           const std::string &run_units, Material &material);
+                           const std::string &run_units, Material &material,
+                           const ReadText &read = nullptr);
+
+// a tabulated equation of state and the DATE: of its file, likewise; null if something is wrong
+
+std::unique_ptr<Eos> parse_table(const std::string &text, const std::string &filename,
+                                 const std::string &run_units, std::string &problem,
+                                 std::string &date);
 
 // Between LAMMPS's unit sets si, cgs and micro; all have Kelvin.  Same name in and out: unchanged.
 
@@ -61,6 +73,7 @@ double convert(double x, const Dimension &dim, const std::string &from, const st
 // LAMMPS's error if anything is wrong.
 
 Material read_material_file(LAMMPS_NS::LAMMPS *lmp, const std::string &filename);
+std::unique_ptr<Eos> read_table_file(LAMMPS_NS::LAMMPS *lmp, const std::string &filename);
 
 }    // namespace HVI
 

@@ -18,14 +18,13 @@
 
 using namespace LAMMPS_NS;
 
-/* ----------------------------------------------------------------------
-   all ranks parse the same text, so all of them meet the same error
-------------------------------------------------------------------------- */
+namespace {
 
-HVI::Material HVI::read_material_file(LAMMPS *lmp, const std::string &filename)
+// The text of a file, found as LAMMPS finds potentials, on all ranks; returns what is wrong.
+
+std::string read_text(LAMMPS *lmp, const std::string &what, const std::string &filename,
+                      std::string &text)
 {
-  Error *error = lmp->error;
-  std::string text;
   int length = -1;    // not found, -2: not readable
   if (lmp->comm->me == 0) {
     const std::string path = utils::get_potential_file_path(filename);
@@ -40,16 +39,52 @@ HVI::Material HVI::read_material_file(LAMMPS *lmp, const std::string &filename)
   }
   MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
   if (length == -1)
-    error->all(FLERR, "Cannot find material file {}, neither here nor in LAMMPS_POTENTIALS",
-               filename);
-  if (length == -2) error->all(FLERR, "Cannot read material file {}", filename);
+    return "Cannot find " + what + " file " + filename + ", neither here nor in LAMMPS_POTENTIALS";
+  if (length == -2) return "Cannot read " + what + " file " + filename;
   text.resize(length);
   MPI_Bcast(&text[0], length, MPI_CHAR, 0, lmp->world);
+  return "";
+}
 
+void log_date(LAMMPS *lmp, const std::string &what, const std::string &filename,
+              const std::string &date)
+{
+  if (lmp->comm->me == 0 && !date.empty())
+    utils::logmesg(lmp, "Reading {} file {} with DATE: {}\n", what, filename, date);
+}
+}    // namespace
+
+/* ----------------------------------------------------------------------
+   all ranks parse the same text, so all of them meet the same error
+------------------------------------------------------------------------- */
+
+HVI::Material HVI::read_material_file(LAMMPS *lmp, const std::string &filename)
+{
+  std::string text;
+  std::string problem = read_text(lmp, "material", filename, text);
+  if (!problem.empty()) lmp->error->all(FLERR, problem);
+
+  auto read = [lmp](const std::string &name, std::string &table) {
+    return read_text(lmp, "table", name, table);
+  };
   Material material;
-  const std::string problem = parse_material(text, filename, lmp->update->unit_style, material);
-  if (!problem.empty()) error->all(FLERR, "Material file {}", problem);
-  if (lmp->comm->me == 0 && !material.date.empty())
-    utils::logmesg(lmp, "Reading material file {} with DATE: {}\n", filename, material.date);
+  problem = parse_material(text, filename, lmp->update->unit_style, material, read);
+  if (!problem.empty()) lmp->error->all(FLERR, "Material file {}", problem);
+  log_date(lmp, "material", filename, material.date);
+  log_date(lmp, "table", material.table, material.table_date);
   return material;
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::unique_ptr<HVI::Eos> HVI::read_table_file(LAMMPS *lmp, const std::string &filename)
+{
+  std::string text;
+  std::string problem = read_text(lmp, "table", filename, text);
+  if (!problem.empty()) lmp->error->all(FLERR, problem);
+  std::string date;
+  auto eos = parse_table(text, filename, lmp->update->unit_style, problem, date);
+  if (!eos) lmp->error->all(FLERR, "Table file {}", problem);
+  log_date(lmp, "table", filename, date);
+  return eos;
 }

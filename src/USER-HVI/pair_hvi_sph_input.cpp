@@ -267,6 +267,11 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
     if (nwords < 2) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph file", error);
     *made = HVI::read_material_file(lmp, words[1]);
     used = 2;
+  } else if (nwords > 1 && words[1] == HVI::EOS_TABLE) {
+    if (nwords < 3) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph eos table", error);
+    made->name = words[2];
+    made->eos = HVI::read_table_file(lmp, words[2]);
+    used = 3;
   } else {
     if (nwords < 2) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph eos", error);
     const int nargs = HVI::eos_nargs(words[1]);

@@ -74,7 +74,7 @@ def test_hugoniot_of_al6061(lmp, potentials):
 @pytest.mark.parametrize("nranks", [1, 2])
 def test_every_material_is_found_and_read(lmp, potentials, nranks):
     files = sorted(f.name for f in potentials.glob("*.hvi"))
-    assert len(files) == 15
+    assert len(files) == 18
     for name in files if nranks == 1 else files[:2]:
         units = "lj" if "UNITS: lj" in (potentials / name).read_text() else "si"
         result = lmp(text(name, units), nranks=nranks, env={"LAMMPS_POTENTIALS": str(potentials)})
@@ -166,6 +166,8 @@ def test_units_that_do_not_convert(lmp, tmp_path, file_units, units):
     ("eos mie-gruneisen 2703 5240 1.4 -1.97 885 h 1e-3", "g0 = -1.97 must be >= 0"),
     ("eos idealgas 1 h 1e-3", "gamma = 1 must be > 1"),
     ("eos linear 2703 nan h 1e-3", "nan"),
+    ("eos tillotson 2700 .5 1.63 75.2e9 65e9 5e6 3e6 13.9e6 5 5 h 1e-3", "needs rho0 a b A B E0 Eiv Ecv alpha beta cp"),
+    ("eos tillotson 2700 .5 1.63 75.2e9 65e9 5e6 3e6 2e6 5 5 884 h 1e-3", "Ecv = 2e+06 must be > Eiv = 3e+06"),
 ])
 def test_wrong_short_forms(lmp, coeff, says):
     result = lmp(text("", material=coeff), expect_fail=True, timeout=60)

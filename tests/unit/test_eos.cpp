@@ -68,6 +68,7 @@ std::vector<std::unique_ptr<Eos>> all()
   laws.push_back(al_mie());
   laws.push_back(eos("polynomial", {2700, 7.6e10, 1e11, 5e10, 2.0, 1.0, 0.3, 7.6e10, 0, 885}));
   laws.push_back(eos("polynomial", {2700, 7.6e10, 1e11, 5e10, 2.0, 1.0, 0, 5e10, 1e9, 885}));
+  laws.push_back(eos("tillotson", {2700, 0.5, 1.63, 75.2e9, 65e9, 5e6, 3e6, 13.9e6, 5, 5, 0}));
   return laws;
 }
 
@@ -190,6 +191,8 @@ TEST(SoundSpeed, IsTheSlopeOfTheIsentrope)
   for (const auto &law : all())
     for (double x : {0.9, 0.97, 1.03, 1.2, 1.5, 1.9})
       for (double heat : {0.0, 0.02, 0.3}) {
+        // at e = 0 the second derivative of tillotson jumps, which differences do not like
+        if (heat == 0.0 && law->name() == std::string("tillotson")) continue;
         const double rho = x * law->rho0(), e = heat * law->c0() * law->c0(), d = 1e-4 * rho;
         const double slope = (8 * (step(*law, rho, e, d) - step(*law, rho, e, -d)) -
                               step(*law, rho, e, 2 * d) + step(*law, rho, e, -2 * d)) /
@@ -407,6 +410,8 @@ TEST(MakeEos, ShortForm)
   EXPECT_EQ(HVI::eos_nargs("gruneisen"), 6);
   EXPECT_EQ(HVI::eos_nargs("mie-gruneisen"), 5);
   EXPECT_EQ(HVI::eos_nargs("polynomial"), 10);
+  EXPECT_EQ(HVI::eos_nargs("tillotson"), 11);
+  EXPECT_EQ(HVI::eos_nargs("table"), -1);    // has a file
   EXPECT_EQ(HVI::eos_nargs("none"), -1);
   EXPECT_EQ(HVI::eos_args("gruneisen"), "rho0 C S1 g0 a cp");
   EXPECT_EQ(HVI::eos_args("mie-gruneisen"), "rho0 C S1 g0 cp");
@@ -416,7 +421,7 @@ TEST(MakeEos, ShortForm)
 TEST(MakeEos, WrongArguments)
 {
   refused("shock", {1, 2}, "unknown equation of state shock");
-  refused("shock", {1, 2}, "mie-gruneisen");
+  refused("shock", {1, 2}, "mie-gruneisen, polynomial, tillotson, table");
   refused("linear", {1000}, "takes 2 values (rho0 K), not 1");
   refused("linear", {1000, 1, 1}, "not 3");
   refused("linear", {0, 1}, "rho0 = 0 must be > 0");

@@ -168,7 +168,7 @@ TEST(WrongFile, Sections)
             "x.hvi:3: expected a section (eos, strength, damage, spall, thermal), found rho0");
   EXPECT_EQ(problem(HEAD + "eos\n"),
             "x.hvi:3: section eos names no law; known are linear, tait, idealgas, gruneisen, "
-            "mie-gruneisen, polynomial");
+            "mie-gruneisen, polynomial, tillotson, table");
   EXPECT_EQ(problem(HEAD + EOS + "strength mts\n"),
             "x.hvi:10: unknown law strength mts; known are johnson-cook, steinberg-guinan");
   EXPECT_EQ(problem(HEAD + "eos linear 3\n"), "x.hvi:3: eos linear: unexpected text 3");
@@ -274,7 +274,7 @@ TEST(Potentials, AreRightAndCited)
       from = to + 1;
     }
   }
-  EXPECT_EQ(n, 15);
+  EXPECT_EQ(n, 18);
 }
 
 struct Handbook {
@@ -303,6 +303,60 @@ TEST(Potentials, HugoniotsOfTheHandbook)
     EXPECT_TRUE(m.eos->evaluate(row.rho0 / (1 - eta), 0.5 * u * u, p, csq));
     EXPECT_NEAR(p / (row.rho0 * Us * u), 1.0, 2e-6) << row.file;
   }
+}
+
+// Tillotson's sets, typed once more; every parameter shows in a pressure
+
+struct TillotsonSet {
+  const char *file;
+  std::vector<double> values;
+};
+
+TEST(Potentials, TillotsonSets)
+{
+  const TillotsonSet table[] = {
+      {"Al-Tillotson.hvi", {2700, .5, 1.63, 75.2e9, 65e9, 5e6, 3e6, 13.9e6, 5, 5, 884}},
+      {"Fe-Tillotson.hvi", {7860, .5, 1.5, 128e9, 105e9, 9.5e6, 1.42e6, 8.45e6, 5, 5, 449}},
+      {"Cu-Tillotson.hvi", {8900, .5, 1.5, 139e9, 110e9, 32.5e6, 1.35e6, 3e6, 5, 5, 383}}};
+  for (const TillotsonSet &row : table) {
+    Material m;
+    ASSERT_EQ(HVI::parse_material(text_of(potentials() / row.file), row.file, "si", m), "");
+    std::string why;
+    const auto law = HVI::make_eos("tillotson", row.values, why);
+    ASSERT_TRUE(law) << why;
+    EXPECT_EQ(m.eos->rho0(), row.values[0]);
+    for (double x : {0.3, 0.9, 1.2, 2.0})
+      for (double e : {1e5, 2e6, 5e6, 2e7}) {
+        double p[2], csq[2];
+        EXPECT_TRUE(m.eos->evaluate(x * m.eos->rho0(), e, p[0], csq[0]));
+        EXPECT_TRUE(law->evaluate(x * m.eos->rho0(), e, p[1], csq[1]));
+        EXPECT_EQ(p[0], p[1]) << row.file;
+        EXPECT_EQ(m.eos->temperature(x * m.eos->rho0(), e), law->temperature(x * m.eos->rho0(), e));
+      }
+  }
+}
+
+// the laws' quotients of pressures do not depend on units
+
+TEST(Units, OfTillotson)
+{
+  const std::string text = text_of(potentials() / "Al-Tillotson.hvi");
+  Material si, cgs, micro;
+  ASSERT_EQ(HVI::parse_material(text, "x", "si", si), "");
+  ASSERT_EQ(HVI::parse_material(text, "x", "cgs", cgs), "");
+  ASSERT_EQ(HVI::parse_material(text, "x", "micro", micro), "");
+  for (double x : {0.5, 1.5})
+    for (double e : {1e6, 5e6, 2e7}) {
+      double p[3], csq[3];
+      EXPECT_TRUE(si.eos->evaluate(2700 * x, e, p[0], csq[0]));
+      EXPECT_TRUE(cgs.eos->evaluate(2.7 * x, e * 1e4, p[1], csq[1]));
+      EXPECT_TRUE(micro.eos->evaluate(2.7 * x, e, p[2], csq[2]));
+      EXPECT_NEAR(p[1], 10 * p[0], 1e-12 * std::fabs(p[1]));
+      EXPECT_NEAR(p[2], 1e-3 * p[0], 1e-12 * std::fabs(p[2]));
+      EXPECT_NEAR(csq[1], 1e4 * csq[0], 1e-12 * csq[1]);
+      EXPECT_NEAR(csq[2], csq[0], 1e-12 * csq[2]);
+      EXPECT_NEAR(cgs.eos->temperature(2.7 * x, e * 1e4), si.eos->temperature(2700 * x, e), 1e-8);
+    }
 }
 
 TEST(Potentials, EspositoExchangedTheSoundSpeeds)
