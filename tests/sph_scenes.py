@@ -173,6 +173,69 @@ def rates(s, eos, kernel, form="sum", visc=(1.0, 2.0), alpha=0.0, tension=True, 
     return dict(f=f, de=de, drho=drho, heat=(q * g).sum(), virial=virial, p=p, c=c)
 
 
+def riemann_rates(s, eos, kernel, tension=True, h=None, follows=None, A=1.2, steep=1.5):
+    """as rates(), for dissipation riemann; follows (n,): h of which particles is a function of their density (dh/drho = -h/(dim rho))"""
+    p, c = np.empty(len(s.x)), np.empty(len(s.x))
+    for t in set(s.type):
+        k = s.type == t
+        p[k], c[k] = eos[t](s.rho[k], (s.esph / s.m)[k])
+    h = np.array([s.h[t] for t in s.type]) if h is None else h
+    V, n = s.m / s.rho, len(s.x)
+    i, j = np.nonzero(~np.eye(n, dtype=bool))  # every pair twice: each row is what happens to i
+    d = s.x[i] - s.x[j]
+    for a in range(3):
+        if s.periodic[a]:
+            d[:, a] -= s.box[a] * np.round(d[:, a] / s.box[a])
+    r = np.sqrt((d**2).sum(1))
+    near = r < SUPPORT[kernel] * np.maximum(h[i], h[j])
+    i, j, d, r = i[near], j[near], d[near], r[near]
+    e = d / r[:, None]
+
+    def dW(k):  # dW/dr(r, h_k)
+        return norm(kernel, s.dim) / h[k] ** (s.dim + 1) * shape(kernel, r / h[k])[1]
+
+    def total(values):
+        out = np.zeros((n,) + values.shape[1:])
+        np.add.at(out, i, values)
+        return out
+
+    # h dW/dh = -norm/h^dim (dim w + q dw/dq), the particle itself included
+    w, dw = shape(kernel, r / h[i])
+    spread = total(-norm(kernel, s.dim) / h[i] ** s.dim * (s.dim * w + r / h[i] * dw))
+    spread -= norm(kernel, s.dim) / h**s.dim * s.dim * shape(kernel, np.zeros(n))[0]
+    omega = np.where(np.zeros(n, bool) if follows is None else follows, np.maximum(1 + V / s.dim * spread, 0.25), 1.0)
+
+    weight = (-V[j] * 0.5 * (dW(i) + dW(j)))[:, None]
+    grad_v = total(weight[:, :, None] * np.einsum("ka,kb->kab", s.v[i] - s.v[j], e))
+    grad_p = total(weight * ((p[i] - p[j])[:, None] * e))
+
+    def limited(a, b):  # monotonized central
+        size = np.minimum(0.5 * np.abs(a + b), 2 * np.minimum(np.abs(a), np.abs(b)))
+        return np.where(a * b > 0, np.sign(a) * size, 0.0)
+
+    u = ((s.v[i] - s.v[j]) * e).sum(1)
+    closing = np.maximum(0, -u)
+    beyond = [2 * np.einsum("kab,ka,kb->k", grad_v[k], d, e) - u for k in (i, j)]
+    u_i, u_j = (0.5 * limited(u, b) / (1 + steep * closing / np.minimum(c[i], c[j])) for b in beyond)
+    p_i, p_j = (p[k] - sign * 0.5 * limited(p[i] - p[j], 2 * (grad_p[k] * d).sum(1) - (p[i] - p[j])) for k, sign in ((i, 1), (j, -1)))
+    z_i, z_j = (s.rho[k] * (c[k] + A * closing) for k in (i, j))
+    # velocities along e from the mean of both particles: of i u/2, of j -u/2
+    U_i, U_j = 0.5 * u - u_i, -0.5 * u + u_j
+    star_p = (z_j * p_i + z_i * p_j - z_i * z_j * (U_i - U_j)) / (z_i + z_j)
+    delta = (z_i * U_i + z_j * U_j - (p_i - p_j)) / (z_i + z_j)
+    viscous = -z_i * z_j * (U_i - U_j) / (z_i + z_j)
+    open_ = (star_p > 0) | (True if tension else s.type[i] == s.type[j])
+    star_p, delta = star_p * open_, delta * open_
+    stretch = u * (open_ | (u < 0))
+
+    G_i, G_j = (V[k] ** 2 / omega[k] * dW(k) for k in (i, j))
+    pair = -(star_p * (G_i + G_j))[:, None] * e
+    de = star_p * (G_i * u - (G_i + G_j) * delta)
+    drho = s.m[i] / omega[i] * (dW(i) * stretch - (G_i + G_j) / (V[i] * V[j]) * delta)
+    return dict(f=total(pair), de=total(de), drho=total(drho), heat=0.5 * (viscous * (G_i + G_j) * u).sum(),
+                virial=0.5 * np.einsum("ka,kb->ab", d, pair), p=p, c=c)
+
+
 def tait(rho0, c0, gamma=7.0):
     def law(rho, e):
         return rho0 * c0**2 / gamma * ((rho / rho0) ** gamma - 1), c0 * (rho / rho0) ** (0.5 * (gamma - 1))

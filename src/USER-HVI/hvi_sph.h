@@ -21,7 +21,8 @@ enum SphScene {
   SPH_OWN_H = 1,      // particles differ in h
   SPH_BODIES = 2,     // pairs of types differ: bodies without tension, own viscosities
   SPH_DENSITY = 4,    // interface density dissipation
-  SPH_NSCENES = 8
+  SPH_RIEMANN = 8,    // Riemann problems instead of viscosity and that
+  SPH_NSCENES = 12
 };
 
 // records of a particle: where it is, what its neighbors must know (one cache line), what they do to it
@@ -73,6 +74,48 @@ struct alignas(64) SphNear {
   int j[SIZE];
 };
 
+// whole vectors: fill up with particles out of reach, to which nothing happens
+
+template <class Kernel> inline int sph_fill_up(int i, const SphPlace &pi, int n, SphNear &near)
+{
+  const int nlanes = (n + LANES - 1) & ~(LANES - 1);
+  for (int m = n; m < nlanes; m++) {
+    near.j[m] = i;
+    near.d[m] = Vec4{2.0 * Kernel::support * pi.h};
+  }
+  return nlanes;
+}
+
+// grad W = F (dx,dy,dz)
+
+template <class Kernel, int SCENE> class SphGradient {
+ public:
+  SphGradient(const SphLaws &laws, const SphPlace &pi) :
+      norm(laws.norm), h_i(pi.h), two(laws.dim > 1), three(laws.dim > 2), h0(laws.h),
+      hinv0(1.0 / laws.h), scale0(scale(hinv0))
+  {
+  }
+  inline Vec F(const Vec &r, const Vec &dh, Vec &h) const
+  {
+    if (SCENE & SPH_OWN_H) {
+      h = h_i - 0.5 * dh;
+      const Vec hinv = 1.0 / h;
+      return scale(hinv) * Kernel::template dw_q<Vec>(r * hinv);
+    }
+    h = Vec{} + h0;
+    return scale0 * Kernel::template dw_q<Vec>(r * hinv0);
+  }
+
+ private:
+  const double norm, h_i, two, three, h0, hinv0, scale0;
+
+  // norm/h^(dim+2), without a choice
+  template <class T> inline T scale(const T &hinv) const
+  {
+    return norm * hinv * hinv * hinv * (two * hinv + (1.0 - two)) * (three * hinv + (1.0 - three));
+  }
+};
+
 /* ----------------------------------------------------------------------
    All pairs of particle i with its n near neighbors, LANES at a time.  Adds what
    happens to i to total and what happens to its neighbors to rates.  near is filled
@@ -96,11 +139,8 @@ template <class Kernel, int SCENE>
 inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n,
                          const SphLaws &laws, SphNear &near, SphRates *rates, SphRates &total)
 {
-  const int nlanes = (n + LANES - 1) & ~(LANES - 1);
-  for (int m = n; m < nlanes; m++) {
-    near.j[m] = i;
-    near.d[m] = Vec4{2.0 * Kernel::support * pi.h};
-  }
+  const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
+  const SphGradient<Kernel, SCENE> gradient(laws, pi);
 
   // weights of the two forms: rho V/w, p/P and V/w are 1 or a power of rho
 
@@ -112,14 +152,6 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
   const double rhow_i = add * rho_i + sym;
   const double p_i = P_i * (add + sym * rho_i * rho_i);
   const double V_i = w_i * (add + sym / rho_i);
-
-  // norm/h^(dim+2), without a choice in the loop
-
-  const double two = laws.dim > 1, not_two = 1.0 - two;
-  const double three = laws.dim > 2, not_three = 1.0 - three;
-  const double same_hinv = 1.0 / laws.h;
-  const double same_scale = laws.norm * same_hinv * same_hinv * same_hinv *
-      (two * same_hinv + not_two) * (three * same_hinv + not_three);
 
   const Vec zero = {}, one = zero + 1.0;
   Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, same = zero;
@@ -137,15 +169,8 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
     const Vec r = sqrt(rsq);
     same += rsq > 0.0 ? zero : one;
 
-    // grad W = F (dx,dy,dz)
-
-    Vec h = zero + laws.h, hinv = zero + same_hinv, scale = zero + same_scale;
-    if (SCENE & SPH_OWN_H) {
-      h = pi.h - 0.5 * d[3];
-      hinv = 1.0 / h;
-      scale = laws.norm * hinv * hinv * hinv * (two * hinv + not_two) * (three * hinv + not_three);
-    }
-    const Vec F = scale * Kernel::template dw_q<Vec>(r * hinv);
+    Vec h;
+    const Vec F = gradient.F(r, d[3], h);
 
     const Vec dvx = si.vx - first[0], dvy = si.vy - first[1], dvz = si.vz - first[2];
     const Vec rdotv = dx * dvx + dy * dvy + dz * dvz;

@@ -30,7 +30,7 @@ static constexpr int LANES = 2;
 #endif
 
 typedef double Vec __attribute__((vector_size(8 * LANES), may_alias));
-typedef double Vec4 __attribute__((vector_size(32), may_alias));    // half a record
+typedef double Vec4 __attribute__((vector_size(32), may_alias));    // part of a record
 typedef double Vec2 __attribute__((vector_size(16), may_alias));
 
 static inline Vec sqrt(const Vec &x)
@@ -52,9 +52,13 @@ static inline double sum(const Vec &x)
   return s;
 }
 
-// half a record of eight doubles, or all of one of four
+// a call would put all vectors in memory
 
-template <class Record> static inline Vec4 &half(Record *record, int n)
+#define HVI_INLINE static inline __attribute__((always_inline))
+
+// four doubles of a record
+
+template <class Record> static inline Vec4 &part(Record *record, int n)
 {
   return *((Vec4 *) record + n);
 }
@@ -68,13 +72,13 @@ typedef long long Index __attribute__((vector_size(8 * LANES)));
 #define HVI_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #endif
 
-// for either width, of half n of the records with numbers j[0] ... j[LANES - 1]:
+// for either width, of part n of the records with numbers j[0] ... j[LANES - 1]:
 //   read_columns: column[k] is number k of them all
 //   add_columns: adds to them
 
 #if defined(__AVX__)
 
-static inline void transpose(Vec *r)
+HVI_INLINE void transpose(Vec *r)
 {
   const Vec t[4] = {HVI_SHUFFLE(r[0], r[1], 0, 4, 2, 6), HVI_SHUFFLE(r[0], r[1], 1, 5, 3, 7),
                     HVI_SHUFFLE(r[2], r[3], 0, 4, 2, 6), HVI_SHUFFLE(r[2], r[3], 1, 5, 3, 7)};
@@ -85,17 +89,17 @@ static inline void transpose(Vec *r)
 }
 
 template <class Record>
-static inline void read_columns(Record *records, const int *j, int n, Vec *column)
+HVI_INLINE void read_columns(Record *records, const int *j, int n, Vec *column)
 {
-  for (int k = 0; k < 4; k++) column[k] = half(records + j[k], n);
+  for (int k = 0; k < 4; k++) column[k] = part(records + j[k], n);
   transpose(column);
 }
 
 template <class Record>
-static inline void add_columns(Record *records, const int *j, int n, Vec *column)
+HVI_INLINE void add_columns(Record *records, const int *j, int n, Vec *column)
 {
   transpose(column);
-  for (int k = 0; k < 4; k++) half(records + j[k], n) += column[k];
+  for (int k = 0; k < 4; k++) part(records + j[k], n) += column[k];
 }
 
 #else
@@ -106,7 +110,7 @@ template <class Record> static inline Vec2 &quarter(Record *record, int n)
 }
 
 template <class Record>
-static inline void read_columns(Record *records, const int *j, int n, Vec *column)
+HVI_INLINE void read_columns(Record *records, const int *j, int n, Vec *column)
 {
   for (int k = 0; k < 4; k += 2) {
     const Vec a = quarter(records + j[0], 2 * n + k / 2),
@@ -117,7 +121,7 @@ static inline void read_columns(Record *records, const int *j, int n, Vec *colum
 }
 
 template <class Record>
-static inline void add_columns(Record *records, const int *j, int n, Vec *column)
+HVI_INLINE void add_columns(Record *records, const int *j, int n, Vec *column)
 {
   for (int k = 0; k < 4; k += 2) {
     quarter(records + j[0], 2 * n + k / 2) += HVI_SHUFFLE(column[k], column[k + 1], 0, 2);

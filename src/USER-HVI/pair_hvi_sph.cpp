@@ -20,6 +20,7 @@
 #include "fix_hvi_sph.h"
 #include "force.h"
 #include "hvi_kernel.h"
+#include "math_special.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -36,9 +37,9 @@ static constexpr double BIG = 1.0e100;
 /* ---------------------------------------------------------------------- */
 
 PairHVISPH::PairHVISPH(LAMMPS *lmp) :
-    Pair(lmp), support(0.0), laws(), variable(false), energy(true), density(false), hmin(0.5),
-    hmax(1.25), visc_a(nullptr), visc_b(nullptr), tension(nullptr), nmax(0), heating(0.0),
-    fix(nullptr), sweep(nullptr)
+    Pair(lmp), support(0.0), laws(), variable(false), energy(true), density(false), riemann(false),
+    hmin(0.5), hmax(1.25), visc_a(nullptr), visc_b(nullptr), tension(nullptr), nmax(0),
+    heating(0.0), fix(nullptr), sweep(nullptr)
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
@@ -92,6 +93,7 @@ void PairHVISPH::compute(int eflag, int vflag)
     place.reset(new HVI::SphPlace[nmax]);
     state.reset(new HVI::SphState[nmax]);
     rates.reset(new HVI::SphRates[nmax]);
+    if (riemann) slopes.reset(new HVI::SphSlopes[nmax]);
   }
 
   gather();
@@ -159,13 +161,12 @@ void PairHVISPH::gather()
 /* ----------------------------------------------------------------------
    one sweep over the half list, in two passes over the neighbors of a
    particle: squeeze out those beyond reach without a branch, then work out the
-   pairs in vectors and add what happens to the neighbors
+   pairs in vectors, which also adds what happens to the neighbors to their records
 ------------------------------------------------------------------------- */
 
-template <class Kernel, int SCENE> void PairHVISPH::eval()
+template <class Kernel, int SCENE, class Record, class Work>
+void PairHVISPH::each_particle(Record *records, Work work)
 {
-  const int nlocal = atom->nlocal;
-  const int newton_pair = force->newton_pair;
   const int inum = list->inum;
   const int *const ilist = list->ilist;
   const int *const numneigh = list->numneigh;
@@ -181,7 +182,7 @@ template <class Kernel, int SCENE> void PairHVISPH::eval()
     HVI::SphPlace pi = where[i];
     const int *const jlist = firstneigh[i];
     const int jnum = numneigh[i];
-    HVI::SphRates sum = {};
+    Record sum = {};
 
     if (SCENE & HVI::SPH_BODIES) {
       mine.row_a = visc_a[atom->type[i]];
@@ -194,30 +195,120 @@ template <class Kernel, int SCENE> void PairHVISPH::eval()
       int n = 0;
       for (int jj = jfirst; jj < jlast; jj++) {
         const int j = jlist[jj] & NEIGHMASK;
-        const HVI::Vec4 d = HVI::half(&pi, 0) - HVI::half(&where[j], 0);
+        const HVI::Vec4 d = HVI::part(&pi, 0) - HVI::part(&where[j], 0);
         const HVI::Vec4 square = d * d;
         const double rsq = square[0] + square[2] + square[1];
         __builtin_prefetch(&state[j]);
-        __builtin_prefetch(&rates[j], 1);
+        __builtin_prefetch(&records[j], 1);
+        if (SCENE & HVI::SPH_RIEMANN) {
+          __builtin_prefetch(&slopes[j]);
+          __builtin_prefetch(&slopes[j].pz);
+        }
         near.j[n] = j;
         near.d[n] = d;
         if (SCENE & HVI::SPH_OWN_H) {
-          const double h = pi.h - 0.5 * d[3];
+          const double h = SCENE & HVI::SPH_RIEMANN ? MAX(pi.h, pi.h - d[3]) : pi.h - 0.5 * d[3];
           n += rsq < Kernel::support * Kernel::support * h * h;
         } else
           n += rsq < reachsq;
       }
-
-      const bool same =
-          HVI::sph_interact<Kernel, SCENE>(i, pi, state.get(), n, mine, near, rates.get(), sum);
-      if (same) report_overlap(i, n, near);
-
-      if (evflag)
-        for (int m = 0; m < n; m++)
-          ev_tally(i, near.j[m], nlocal, newton_pair, 0.0, 0.0, near.force[m], near.d[m][0],
-                   near.d[m][1], near.d[m][2]);
+      work(i, pi, n, mine, near, sum);
     }
-    for (int k = 0; k < 2; k++) HVI::half(&rates[i], k) += HVI::half(&sum, k);
+    for (int k = 0; k < (int) (sizeof(Record) / sizeof(HVI::Vec4)); k++)
+      HVI::part(&records[i], k) += HVI::part(&sum, k);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class Kernel, int SCENE> void PairHVISPH::eval()
+{
+  const int nlocal = atom->nlocal;
+  const int newton_pair = force->newton_pair;
+
+  if (SCENE & HVI::SPH_RIEMANN) eval_slopes<Kernel, SCENE>();
+
+  each_particle<Kernel, SCENE>(
+      rates.get(),
+      [&](int i, const HVI::SphPlace &pi, int n, const HVI::SphLaws &mine, HVI::SphNear &near,
+          HVI::SphRates &sum) {
+        bool same;
+        if constexpr ((SCENE & HVI::SPH_RIEMANN) != 0)
+          same = HVI::sph_riemann<Kernel, SCENE>(i, pi, state.get(), slopes.get(), n, mine, near,
+                                                 rates.get(), sum);
+        else
+          same =
+              HVI::sph_interact<Kernel, SCENE>(i, pi, state.get(), n, mine, near, rates.get(), sum);
+        if (same) report_overlap(i, n, near);
+
+        if (evflag)
+          for (int m = 0; m < n; m++)
+            ev_tally(i, near.j[m], nlocal, newton_pair, 0.0, 0.0, near.force[m], near.d[m][0],
+                     near.d[m][1], near.d[m][2]);
+      });
+}
+
+/* ----------------------------------------------------------------------
+   gradients of owned particles, then of ghosts
+------------------------------------------------------------------------- */
+
+template <class Kernel, int SCENE> void PairHVISPH::eval_slopes()
+{
+  if constexpr ((SCENE & HVI::SPH_RIEMANN) != 0) {
+    memset((void *) slopes.get(), 0, (atom->nlocal + atom->nghost) * sizeof(HVI::SphSlopes));
+    each_particle<Kernel, SCENE>(
+        slopes.get(),
+        [&](int i, const HVI::SphPlace &pi, int n, const HVI::SphLaws &mine, HVI::SphNear &near,
+            HVI::SphSlopes &sum) {
+          HVI::sph_slopes<Kernel, SCENE>(i, pi, state.get(), n, mine, near, slopes.get(), sum);
+        });
+    if (force->newton_pair) comm->reverse_comm(this);
+
+    // Omega; 1 where h stays as it is.  Far from 1 only for particles nearly alone: bounded
+
+    for (int i = 0; i < atom->nlocal; i++) {
+      const int itype = atom->type[i];
+      const double h = place[i].h;
+      double omega = 1.0;
+      if (variable && h > hmin * htype[itype] && h < hmax * htype[itype]) {
+        const double own = Kernel::w(0.0) * laws.norm / MathSpecial::powint(h, laws.dim);
+        omega += state[i].w * (slopes[i].omega / laws.dim - own);
+      }
+      slopes[i].omega = 1.0 / MAX(omega, 0.25);
+    }
+    comm->forward_comm(this);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+int PairHVISPH::pack_forward_comm(int n, int *sent, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+{
+  for (int k = 0; k < n; k++)
+    memcpy(buf + k * HVI::SphSlopes::SENT, &slopes[sent[k]], HVI::SphSlopes::SENT * sizeof(double));
+  return n * HVI::SphSlopes::SENT;
+}
+
+void PairHVISPH::unpack_forward_comm(int n, int first, double *buf)
+{
+  for (int k = 0; k < n; k++)
+    memcpy((void *) &slopes[first + k], buf + k * HVI::SphSlopes::SENT,
+           HVI::SphSlopes::SENT * sizeof(double));
+}
+
+int PairHVISPH::pack_reverse_comm(int n, int first, double *buf)
+{
+  for (int k = 0; k < n; k++)
+    memcpy(buf + k * HVI::SphSlopes::SENT, &slopes[first + k],
+           HVI::SphSlopes::SENT * sizeof(double));
+  return n * HVI::SphSlopes::SENT;
+}
+
+void PairHVISPH::unpack_reverse_comm(int n, int *owned, double *buf)
+{
+  for (int k = 0; k < n; k++) {
+    double *const to = &slopes[owned[k]].xx;
+    for (int l = 0; l < HVI::SphSlopes::SENT; l++) to[l] += buf[k * HVI::SphSlopes::SENT + l];
   }
 }
 
@@ -341,7 +432,7 @@ void PairHVISPH::init_style()
     }
   }
 
-  int scene = density ? HVI::SPH_DENSITY : 0;
+  int scene = riemann ? HVI::SPH_RIEMANN : (density ? HVI::SPH_DENSITY : 0);
   int first = 0;
   if (variable) scene |= HVI::SPH_OWN_H;
   for (int i = 1; i <= atom->ntypes; i++) {
@@ -363,6 +454,7 @@ void PairHVISPH::init_style()
     choose_scene<decltype(k)>(scene);
   });
 
+  comm_forward = comm_reverse = riemann ? HVI::SphSlopes::SENT : 0;
   neighbor->add_request(this);
 }
 
@@ -371,9 +463,10 @@ void PairHVISPH::init_style()
 template <class Kernel> void PairHVISPH::choose_scene(int scene)
 {
   static constexpr decltype(sweep) table[HVI::SPH_NSCENES] = {
-      &PairHVISPH::eval<Kernel, 0>, &PairHVISPH::eval<Kernel, 1>, &PairHVISPH::eval<Kernel, 2>,
-      &PairHVISPH::eval<Kernel, 3>, &PairHVISPH::eval<Kernel, 4>, &PairHVISPH::eval<Kernel, 5>,
-      &PairHVISPH::eval<Kernel, 6>, &PairHVISPH::eval<Kernel, 7>};
+      &PairHVISPH::eval<Kernel, 0>, &PairHVISPH::eval<Kernel, 1>,  &PairHVISPH::eval<Kernel, 2>,
+      &PairHVISPH::eval<Kernel, 3>, &PairHVISPH::eval<Kernel, 4>,  &PairHVISPH::eval<Kernel, 5>,
+      &PairHVISPH::eval<Kernel, 6>, &PairHVISPH::eval<Kernel, 7>,  &PairHVISPH::eval<Kernel, 8>,
+      &PairHVISPH::eval<Kernel, 9>, &PairHVISPH::eval<Kernel, 10>, &PairHVISPH::eval<Kernel, 11>};
   sweep = table[scene];
 }
 
@@ -385,7 +478,8 @@ double PairHVISPH::init_one(int i, int j)
 {
   for (const int itype : {i, j})
     if (!materials[itype]) error->all(FLERR, "Pair style hvi/sph: type {} has no material", itype);
-  return 0.5 * support * (variable ? hmax : 1.0) * (htype[i] + htype[j]);
+  const double h = riemann ? MAX(htype[i], htype[j]) : 0.5 * (htype[i] + htype[j]);
+  return support * (variable ? hmax : 1.0) * h;
 }
 
 /* ----------------------------------------------------------------------
@@ -427,5 +521,7 @@ void PairHVISPH::setup()
 
 double PairHVISPH::memory_usage()
 {
-  return (double) nmax * (sizeof(HVI::SphPlace) + sizeof(HVI::SphState) + sizeof(HVI::SphRates));
+  return (double) nmax *
+      (sizeof(HVI::SphPlace) + sizeof(HVI::SphState) + sizeof(HVI::SphRates) +
+       (riemann ? sizeof(HVI::SphSlopes) : 0));
 }

@@ -16,7 +16,7 @@ PairStyle(hvi/sph,PairHVISPH);
 #define LMP_PAIR_HVI_SPH_H
 
 #include "hvi_material.h"
-#include "hvi_sph.h"
+#include "hvi_sph_riemann.h"
 #include "hvi_timestep.h"
 #include "pair.h"
 
@@ -41,6 +41,10 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   void read_restart(FILE *) override;
   void write_restart_settings(FILE *) override;
   void read_restart_settings(FILE *) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  int pack_reverse_comm(int, int, double *) override;
+  void unpack_reverse_comm(int, int *, double *) override;
   void tighten(HVI::TimeStepBounds &) override;
   double memory_usage() override;
 
@@ -63,7 +67,7 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   std::string kernel, text;
   double support;
   HVI::SphLaws laws;
-  bool variable, energy, density;
+  bool variable, energy, density, riemann;
   double hmin, hmax;    // in units of the start value
 
   // pair_coeff
@@ -78,6 +82,7 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   int nmax;
   std::unique_ptr<HVI::SphPlace[]> place;    // arrays of owned and ghost particles
   std::unique_ptr<HVI::SphState[]> state;
+  std::unique_ptr<HVI::SphSlopes[]> slopes;    // dissipation riemann only
   std::unique_ptr<HVI::SphRates[]> rates;
   double heating;
   class FixHVISPH *fix;
@@ -91,6 +96,8 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   void report_overlap(int, int, const HVI::SphNear &);
   template <class Kernel> void choose_scene(int);
   template <class Kernel, int SCENE> void eval();
+  template <class Kernel, int SCENE> void eval_slopes();
+  template <class Kernel, int SCENE, class Record, class Work> void each_particle(Record *, Work);
 };
 
 }    // namespace LAMMPS_NS

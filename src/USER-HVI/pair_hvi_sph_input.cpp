@@ -74,11 +74,12 @@ void PairHVISPH::settings(int narg, char **arg)
   laws.dim = domain->dimension;
   laws.a = 1.0;
   laws.b = 2.0;
-  variable = density = false;
+  variable = density = riemann = false;
   energy = true;
   hmin = 0.5;
   hmax = 1.25;
-  int form_given = 0;
+  nmax = 0;    // arrays for what is asked for now
+  int form_given = 0, viscosity_given = 0;
 
   kernel = arg[0];
   if (kernel == "gaussian") kernel = "gauss";    // pair style hybrid takes gauss for a pair style
@@ -122,12 +123,21 @@ void PairHVISPH::settings(int narg, char **arg)
       need(2);
       laws.a = number(1, 0.0);
       laws.b = number(2, 0.0);
+      viscosity_given = 1;
       iarg += 3;
     } else if (key == "interface") {
       need(1);
       laws.automatic = strcmp(arg[iarg + 1], "auto") == 0;
       laws.alpha = laws.automatic ? 0.0 : number(1, 0.0);
       density = laws.automatic || laws.alpha > 0.0;
+      iarg += 2;
+    } else if (key == "dissipation") {
+      need(1);
+      const std::string name = arg[iarg + 1];
+      if (name != "monaghan" && name != "riemann")
+        error->all(FLERR, "Pair_style hvi/sph dissipation must be monaghan or riemann, not {}",
+                   name);
+      riemann = name == "riemann";
       iarg += 2;
     } else if (key == "h") {
       need(1);
@@ -158,6 +168,11 @@ void PairHVISPH::settings(int narg, char **arg)
       error->all(FLERR, "Unknown pair_style hvi/sph keyword: {}", key);
   }
 
+  if (riemann && (viscosity_given || density || laws.symmetric || laws.stock))
+    error->all(FLERR,
+               "Pair_style hvi/sph dissipation riemann takes the place of viscosity and interface, "
+               "and has its own form of the equations: do not give viscosity, interface, form "
+               "symmetric or stock yes with it");
   if (laws.stock) {
     if (kernel != "lucy" || variable || density || !energy || laws.dim != domain->dimension ||
         laws.dim < 2 || (form_given && !laws.symmetric))
@@ -171,7 +186,7 @@ void PairHVISPH::settings(int narg, char **arg)
   });
   text = fmt::format("{} dim {} form {} h {}{}", kernel, laws.dim,
                      laws.symmetric ? "symmetric" : "sum", variable ? "variable" : "constant",
-                     laws.stock ? " stock yes" : "");
+                     laws.stock ? " stock yes" : (riemann ? " dissipation riemann" : ""));
 }
 
 /* ----------------------------------------------------------------------
@@ -368,9 +383,10 @@ void PairHVISPH::write_restart_settings(FILE *fp)
 {
   write_text(fp, kernel);
   write_text(fp, text);
-  const int flags[6] = {laws.dim, laws.symmetric, laws.stock, laws.automatic, variable, energy};
+  const int flags[7] = {laws.dim, laws.symmetric, laws.stock, laws.automatic,
+                        variable, energy,         riemann};
   const double values[5] = {laws.a, laws.b, laws.alpha, hmin, hmax};
-  fwrite(flags, sizeof(int), 6, fp);
+  fwrite(flags, sizeof(int), 7, fp);
   fwrite(values, sizeof(double), 5, fp);
 }
 
@@ -380,13 +396,13 @@ void PairHVISPH::read_restart_settings(FILE *fp)
 {
   kernel = read_text(fp, comm->me, world, error);
   text = read_text(fp, comm->me, world, error);
-  int flags[6];
+  int flags[7];
   double values[5];
   if (comm->me == 0) {
-    utils::sfread(FLERR, flags, sizeof(int), 6, fp, nullptr, error);
+    utils::sfread(FLERR, flags, sizeof(int), 7, fp, nullptr, error);
     utils::sfread(FLERR, values, sizeof(double), 5, fp, nullptr, error);
   }
-  MPI_Bcast(flags, 6, MPI_INT, 0, world);
+  MPI_Bcast(flags, 7, MPI_INT, 0, world);
   MPI_Bcast(values, 5, MPI_DOUBLE, 0, world);
 
   laws.dim = flags[0];
@@ -395,6 +411,7 @@ void PairHVISPH::read_restart_settings(FILE *fp)
   laws.automatic = flags[3];
   variable = flags[4];
   energy = flags[5];
+  riemann = flags[6];
   laws.a = values[0];
   laws.b = values[1];
   laws.alpha = values[2];

@@ -130,8 +130,10 @@ def test_time_limit_and_interrupt(sweep, folder):
     process = sweep(slow, "--timeout", "2")
     assert process.returncode == 1 and "mode-slow  FAILED: stopped after 2 s" in process.text and "mode-good  ok" in process.text
 
+    log = folder / "runs/tiny/mode-slow/log.lammps"
+    log.unlink()
     process = sweep(slow, wait=False)
-    while not (folder / "runs/tiny/mode-slow/log.lammps").exists():
+    while not log.exists():
         time.sleep(0.1)
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from sph_scenes import RATES, ideal_gas, linear, norm, random_fluid, rates, read_rates, scene, tait
+from sph_scenes import RATES, ideal_gas, linear, norm, random_fluid, rates, read_rates, riemann_rates, scene, tait
 
 KERNELS = ("lucy", "quadratic", "cubic", "quartic", "quintic", "gauss", "wendland2", "wendland4")
 TAIT = {1: tait(1.0, 4.0), 2: tait(1.7, 3.0)}
@@ -43,8 +43,14 @@ SCENES = {
     "bodies": ("", "pair_coeff 1 2 tension no\n", dict(tension=False)),
     "viscosity": ("viscosity 0.5 0.25", "", dict(visc=(0.5, 0.25))),
     "all": ("interface 0.5 viscosity 2 3", "pair_coeff 1 2 tension no\n", dict(alpha=0.5, visc=(2, 3), tension=False)),
+    "riemann": ("dissipation riemann", "", dict(riemann=True)),
+    "riemann-bodies": ("dissipation riemann", "pair_coeff 1 2 tension no\n", dict(riemann=True, tension=False)),
     "all-symmetric": ("interface 0.5 form symmetric", "pair_coeff 1 2 tension no\n", dict(alpha=0.5, form="symmetric", tension=False)),
 }
+
+
+def solve(state, eos, kernel, riemann=False, follows=None, **terms):
+    return riemann_rates(state, eos, kernel, follows=follows, **terms) if riemann else rates(state, eos, kernel, **terms)
 
 
 @pytest.mark.parametrize("h", ["same", "differs", "variable"])
@@ -57,33 +63,38 @@ def test_scenes(lmp, tmp_path, name, h):
     pair = f"pair_style hvi/sph cubic {words} {'h variable 0.7 1.1' if h == 'variable' else ''}\n"
     pair += COEFF.format(state.h) + (coeff or "pair_coeff 1 2 tension yes\n")
     text = scene(state, tmp_path / "s.data", pair)
-    hi = None
+    hi = follows = None
     if h == "variable":
         # the first run sets the scale of h; then density changes
         start = np.array([state.h[t] for t in state.type])
         factor = np.random.default_rng(8).uniform(0.6, 1.9, len(start))
         hi = np.clip(start * (1 / factor) ** (1 / 3), 0.7 * start, 1.1 * start)
-        assert (hi == 1.1 * start).any() and ((hi > 0.7 * start) & (hi < 1.1 * start)).any()
+        follows = (hi > 0.7 * start) & (hi < 1.1 * start)
+        assert (hi == 1.1 * start).any() and follows.any()
         new = state.rho * factor
         (tmp_path / "rho").write_text("\n".join(f"{i + 1} {r:.17g}" for i, r in enumerate(new)))
         text += "run 0\nvariable new atomfile rho\nset group all sph/rho v_new\n"
         (tmp_path / "rho").write_text(f"{len(new)}\n" + (tmp_path / "rho").read_text() + "\n")
         state.rho = new
     lmp(text + RATES.format("f"))
-    want = rates(state, TAIT, "cubic", h=hi, **terms)
+    want = solve(state, TAIT, "cubic", h=hi, follows=follows, **terms)
     if not terms.get("tension", True):
-        welded = rates(state, TAIT, "cubic", h=hi, **{**terms, "tension": True})
+        welded = solve(state, TAIT, "cubic", h=hi, follows=follows, **{**terms, "tension": True})
         assert np.abs(welded["f"] - want["f"]).max() > 0.01 * np.abs(want["f"]).max()
     close(read_rates(tmp_path / "f"), want)
 
 
 @pytest.mark.parametrize("periodic", [True, False])
 @pytest.mark.parametrize("nranks", [1, 2, 3, 4])
-def test_layouts(lmp, tmp_path, nranks, periodic):
+@pytest.mark.parametrize("words", ["interface 0.3", "dissipation riemann"])
+def test_layouts(lmp, tmp_path, nranks, periodic, words):
     """newton on and off, brick and tiled, periodic images: 1e-12; total force and the virial"""
     state = random_fluid(7, seed=7, h=[1.1, 1.0], periodic=periodic)
-    pair = "pair_style hvi/sph cubic interface 0.3 h variable\n" + COEFF.format(state.h)
-    want = rates(state, TAIT, "cubic", alpha=0.3, tension=False)
+    pair = f"pair_style hvi/sph cubic {words} h variable\n" + COEFF.format(state.h)
+    if words == "interface 0.3":
+        want = rates(state, TAIT, "cubic", alpha=0.3, tension=False)
+    else:
+        want = riemann_rates(state, TAIT, "cubic", tension=False, follows=np.full(len(state.x), True))
     cases = list(itertools.product(("on", "off"), ("brick", "tiled")))
     text = ""
     for k, (newton, comm) in enumerate(cases):
@@ -102,11 +113,11 @@ def test_layouts(lmp, tmp_path, nranks, periodic):
         assert np.abs([-row[f"c_sum[{a}]"] for a in range(1, 7)] - w).max() <= 1e-11 * np.abs(w).max(), case
 
 
-@pytest.mark.parametrize("form", ["sum", "symmetric"])
-def test_energy_of_pairs(lmp, tmp_path, form):
+@pytest.mark.parametrize("words", ["form sum interface 0.5", "form symmetric interface 0.5", "dissipation riemann"])
+def test_energy_of_pairs(lmp, tmp_path, words):
     """internal energy gains what kinetic energy loses: sum of de/dt = - sum of f.v, momentum is kept"""
     state = random_fluid(8, seed=9, h=1.2)
-    pair = f"pair_style hvi/sph quintic form {form} interface 0.5\n" + COEFF.format(state.h)
+    pair = f"pair_style hvi/sph quintic {words}\n" + COEFF.format(state.h)
     got = one(lmp, tmp_path, state, pair)
     power = (got["f"] * state.v).sum()
     assert got["de"].sum() == pytest.approx(-power, rel=1e-12)

@@ -32,7 +32,8 @@ def run(lmp, tmp_path, words="", C=0.1, nranks=1, state=None, until=6.0, newton=
     return lmp(text, nranks=nranks).thermo
 
 
-@pytest.mark.parametrize("words", ["", "h variable", "interface 0.3", "form symmetric", "h variable 0.8 1.1 form symmetric"])
+@pytest.mark.parametrize("words", ["", "h variable", "interface 0.3", "form symmetric", "h variable 0.8 1.1 form symmetric",
+                                   "dissipation riemann", "dissipation riemann h variable"])
 def test_books_close(lmp, tmp_path, words):
     """energy to 1e-3 at the default step, momentum and mass to round-off; viscosity only heats"""
     t = run(lmp, tmp_path, words)

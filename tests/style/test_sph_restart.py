@@ -5,7 +5,7 @@ import pytest
 from sph_scenes import RATES, random_fluid, read_rates, scene
 
 MIDDLE, END = 60, 110  # at 120 the restart command would rebuild the list
-PAIR = "pair_style hvi/sph cubic interface 0.3 {0}\npair_coeff 1 1 eos tait 1.0 4.0 7 h 1.2\npair_coeff 2 2 eos idealgas 1.4 h 1.1\n"
+PAIR = "pair_style hvi/sph cubic {0}\npair_coeff 1 1 eos tait 1.0 4.0 7 h 1.2\npair_coeff 2 2 eos idealgas 1.4 h 1.1\n"
 THERMO = "compute book all hvi/energy\nthermo 10\nthermo_style custom step dt time f_step[*] c_book[*]\nthermo_modify norm no format float %.17g\n"
 STATE = dict(seed=41, jitter=0.1, speed=0.8, periodic=True)
 
@@ -21,7 +21,7 @@ def continued(newton, more="", pair=""):
     return text + "fix sph all hvi/sph\nfix step all hvi/dt 0.2\n" + THERMO + more + f"run {END - MIDDLE}\n" + RATES.format("part")
 
 
-@pytest.mark.parametrize("h", ["h constant", "h variable"])
+@pytest.mark.parametrize("h", ["interface 0.3 h constant", "interface 0.3 h variable", "dissipation riemann h variable"])
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (1, "off"), (2, "on")])
 def test_bit_exact_on_the_same_ranks(lmp, tmp_path, h, nranks, newton):
     """positions, velocities, density, energy, rates, time step and every ledger entry: the same bits"""
@@ -39,15 +39,15 @@ def test_bit_exact_on_the_same_ranks(lmp, tmp_path, h, nranks, newton):
 
 def test_two_runs_are_one(lmp, tmp_path):
     """run 60 and 50 more is run 110; a particle changed in between starts anew"""
-    one = lmp(whole(tmp_path, "h variable", "on", rest="unfix step\ntimestep 0.01\nthermo_style custom step\nrun 110\n"))
+    one = lmp(whole(tmp_path, "interface 0.3 h variable", "on", rest="unfix step\ntimestep 0.01\nthermo_style custom step\nrun 110\n"))
     a = read_rates(tmp_path / "whole")
-    lmp(whole(tmp_path, "h variable", "on", rest="unfix step\ntimestep 0.01\nthermo_style custom step\nrun 60\nrun 50\n"))
+    lmp(whole(tmp_path, "interface 0.3 h variable", "on", rest="unfix step\ntimestep 0.01\nthermo_style custom step\nrun 60\nrun 50\n"))
     b = read_rates(tmp_path / "whole")
     assert one.runs
     # a second list is built at step 60, in another order of pairs
     for name in a:
         assert np.abs(a[name] - b[name]).max() <= 1e-11 * np.abs(a[name]).max(), name
-    lmp(whole(tmp_path, "h variable", "on",
+    lmp(whole(tmp_path, "interface 0.3 h variable", "on",
               rest="unfix step\ntimestep 0.01\nthermo_style custom step\nrun 60\nvelocity all set 0 0 0\nrun 0\n"))
     c = read_rates(tmp_path / "whole")
     assert np.abs(c["v"]).max() == 0.0 and np.abs(c["de"]).max() == 0.0 < np.abs(a["de"]).max()
@@ -55,7 +55,7 @@ def test_two_runs_are_one(lmp, tmp_path):
 
 @pytest.mark.parametrize("first, second", [(1, 2), (3, 1)])
 def test_other_ranks(lmp, tmp_path, first, second):
-    lmp(whole(tmp_path, "h variable", "on"), nranks=first)
+    lmp(whole(tmp_path, "interface 0.3 h variable", "on"), nranks=first)
     lmp(continued("on"), nranks=second)
     one, two = read_rates(tmp_path / "whole"), read_rates(tmp_path / "part")
     for name in one:
@@ -64,11 +64,11 @@ def test_other_ranks(lmp, tmp_path, first, second):
 
 def test_other_settings_are_refused(lmp, tmp_path):
     """a restart goes on with the equations it was written with"""
-    lmp(whole(tmp_path, "h variable", "on"))
+    lmp(whole(tmp_path, "interface 0.3 h variable", "on"))
     pair = "pair_style hvi/sph quintic\npair_coeff * * eos tait 1.0 4.0 7 h 1.2\n"
     r = lmp(continued("on", pair=pair), expect_fail=True)
     assert "restart file was written with pair_style hvi/sph cubic dim 3 form sum h variable" in r.error
-    lmp(continued("on", pair=PAIR.format("h variable")))
+    lmp(continued("on", pair=PAIR.format("interface 0.3 h variable")))
 
 
 GAS = "pair_style hvi/sph cubic\npair_coeff * * eos idealgas 1.4 h 1.2\n"
