@@ -2,12 +2,13 @@
 
 METHODS are lines of a pair style; nothing in them, nor anything else that is a choice (kernel, h/spacing, step), depends on the case.
 
-Particles. 1D: one row, dim 1, equal spacing within a state; scenes that say "equal mass" have spacings as 1/rho, the others equal
-spacing everywhere and masses as rho. 2D, 3D: square and simple cubic lattices about the origin, no particle on it. A gas that would
-expand at the ends is mirrored and periodic, so every scene of one dimension but acoustics and unlike plates has a mirror image of
-itself. h = 1.2 spacings of the type, kernel gauss (the gradient of cubic sums up to 1.022 on a row
-at 1.2 spacings, an error that no resolution cures; gauss: 0.9997), h variable within limits that the exact solution does not reach (hmax at least 10 on
-rows; at most 2 in 2D and 3D, where Sedov's empty middle would have more). Step: fix hvi/dt 0.2, at the end up to four shorter equal ones that meet the time.
+Particles. 1D: one row, dim 1. "sod" has equal masses, so spacings as 1/rho; the other rows equal spacing and masses as rho (but equal
+mass through the shock that is there at the start of "interface"). 2D, 3D: square and simple cubic lattices about the origin, no
+particle on it. A gas that would expand at the ends is mirrored and periodic, so every scene of one dimension but sound and unlike
+plates has a mirror image of itself. h = 1.2 spacings of the type, kernel gauss (the gradient of cubic sums up to 1.022 on a row at
+1.2 spacings, an error that no resolution cures; gauss: 0.9997). h variable, within limits that the exact solution does not reach
+(hmax at least 10 on rows; at most 2 in 2D and 3D, where Sedov's empty middle would have more). Step: fix hvi/dt 0.2, at the end up to
+five shorter equal ones that meet the time.
 
 Errors. In one dimension by element, as measures.l1: a particle is compared with the mean of the exact field over its own mass; in two
 and three with the exact field at its place. The errors are weighted with the exact volumes of the particles, in 2D and 3D with the
