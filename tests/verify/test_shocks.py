@@ -1,7 +1,8 @@
 """Standard shocks (tests/shocks.py) in their short form: errors, energy, momentum and symmetry within the bounds written down before.
 
 What a dissipation misses is in shocks.csv with its convergence: such a run counts as an expected failure as long as it misses nothing
-else and no more than it did. `make verify` is the long form, which makes that table.
+else and no more than it did. A run that stopped, or is ten times its bound off, is only told. `make verify` is the long form, which
+makes that table.
 """
 
 import csv
@@ -19,6 +20,12 @@ def known_misses():
     with open(HERE / "shocks.csv") as f:
         rows = csv.DictReader(line for line in f if line[0] != "#")
         return {(r["case"], r["method"], int(r["n"])): r for r in rows}
+
+
+def lost(case, row):
+    """stopped, or so far off that the last digits decide what comes out: nothing is asked of such a run"""
+    bounds = case.bounds(int(row["n"]))
+    return bool(row["error"]) or any(float(row[f"l1_{f}"]) > 10 * b for f, b in bounds.items())
 
 
 @pytest.fixture(scope="session")
@@ -42,6 +49,10 @@ def test_shock(name, method, methods, lmp_exe, tmp_path):
         order = shocks.order_of(last, o) if last and not o.error else {}
         row = table.get((name, method, n))
         old = row["missed"].split() if row else []
+        if row and lost(case, row):
+            expected.append(f"n = {n}: " + (o.error or "far off"))
+            last = o if not o.error else last
+            continue
         for what in shocks.missed(case, o, order):
             assert what in old, (name, method, n, what, o.l1, case.bounds(n), order, o.numbers, o.energy, o.momentum, o.symmetry, o.error)
             if what.startswith("l1_"):
