@@ -3,6 +3,7 @@
 #   make demo    dependencies, LAMMPS, the package; then the main job with its picture
 #   make test    the same; then all tests
 #   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so
+#   make verify  the long form of the standard shocks: all methods and resolutions, report with pictures
 #   make doc | bench | bench-full | sanitize | clean
 #
 # LAMMPS_VERSION=20250204|20260704   which pinned LAMMPS          LAMMPS_SOURCE_DIR=DIR   your own LAMMPS source tree
@@ -27,7 +28,7 @@ TOP := $(CURDIR)
 OUT = $(abspath $(BUILD))
 export CMAKE_BUILD_PARALLEL_LEVEL = $(JOBS)
 
-.PHONY: all build demo test doc bench bench-full sanitize clean
+.PHONY: all build demo test verify doc bench bench-full sanitize clean
 all: build
 
 # configures quietly; what went wrong is told in one line
@@ -55,6 +56,12 @@ test:
 	@cmake/deps.sh build test
 	@$(MAKE) build
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
+
+verify:
+	@cmake/deps.sh build test
+	@$(MAKE) build
+	@python=$$(cmake/find-python.sh numpy scipy matplotlib) && \
+	  cmake/env.sh $$python tests/shocks.py --lmp $(OUT)/lmp --out $(OUT)/verify --ranks $(RANKS) $(VERIFY_ARGS)
 
 sanitize:
 	@$(MAKE) test BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON
