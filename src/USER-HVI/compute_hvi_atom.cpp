@@ -15,6 +15,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_sph.h"
 #include "force.h"
 #include "memory.h"
@@ -28,27 +29,28 @@
 
 using namespace LAMMPS_NS;
 
+// in the order of Value
+
+static const char *const NAMES[] = {"p",      "e",      "T",       "c",   "h",     "eps",
+                                    "epsdot", "damage", "spalled", "vm",  "sxx",   "syy",
+                                    "szz",    "sxy",    "sxz",     "syz", "nbonds"};
+
 /* ---------------------------------------------------------------------- */
 
 ComputeHVIAtom::ComputeHVIAtom(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), nmax(0), table(nullptr), pair(nullptr), fix(nullptr)
+    Compute(lmp, narg, arg), nmax(0), table(nullptr), pair(nullptr), fix(nullptr), strength(nullptr)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "compute hvi/atom", error);
 
   for (int iarg = 3; iarg < narg; iarg++) {
     const std::string name = arg[iarg];
-    if (name == "p")
-      values.push_back(PRESSURE);
-    else if (name == "T")
-      values.push_back(TEMPERATURE);
-    else if (name == "c")
-      values.push_back(SOUND);
-    else if (name == "h")
-      values.push_back(LENGTH);
-    else if (name == "nbonds")
-      values.push_back(BONDS);
-    else
-      error->all(FLERR, "Unknown compute hvi/atom value {}: use p, T, c, h or nbonds", name);
+    const auto found = std::find(std::begin(NAMES), std::end(NAMES), name);
+    if (found == std::end(NAMES)) {
+      std::string known;
+      for (const char *const one : NAMES) known += std::string(known.empty() ? "" : ", ") + one;
+      error->all(FLERR, "Unknown compute hvi/atom value {}: use {}", name, known);
+    }
+    values.push_back(static_cast<Value>(found - std::begin(NAMES)));
     if (name == "nbonds" && atom->molecular != Atom::MOLECULAR)
       error->all(FLERR, "Compute hvi/atom nbonds needs an atom style with bonds");
   }
@@ -72,9 +74,14 @@ void ComputeHVIAtom::init()
   pair = PairHVISPH::find(lmp);
   const auto fixes = modify->get_fix_by_style("^hvi/sph$");
   fix = fixes.empty() ? nullptr : dynamic_cast<FixHVISPH *>(fixes[0]);
-  for (const Value v : values)
+  const auto solids = modify->get_fix_by_style("^hvi/johnson-cook$");
+  strength = solids.empty() ? nullptr : dynamic_cast<FixHVIJohnsonCook *>(solids[0]);
+  for (const Value v : values) {
     if (v != BONDS && !pair)
-      error->all(FLERR, "Compute hvi/atom p, T, c and h need pair style hvi/sph");
+      error->all(FLERR, "Compute hvi/atom {} needs pair style hvi/sph", NAMES[v]);
+    if (v >= EPS && v < MISES && !strength)
+      error->all(FLERR, "Compute hvi/atom {} needs fix hvi/johnson-cook", NAMES[v]);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -93,13 +100,51 @@ double ComputeHVIAtom::value_of(Value value, int i) const
 
   const double m = atom->rmass ? atom->rmass[i] : atom->mass[itype];
   const double e = atom->esph[i] / m;
+  if (value == ENERGY) return e;
   if (value == TEMPERATURE) {
     const double T = material->eos->temperature(atom->rho[i], e);
     return std::isnan(T) ? 0.0 : T;
   }
   double p, csq;
-  if (!material->eos->evaluate(atom->rho[i], e, p, csq)) return 0.0;
-  return value == PRESSURE ? p : std::sqrt(csq);
+  if (!material->eos->evaluate(atom->rho[i], e, p, csq)) p = csq = 0.0;
+  if (value == SOUND) return std::sqrt(csq);
+  if (strength && strength->failed(i)) p = std::max(p, 0.0);
+  return value == PRESSURE ? p : solid_value(value, i, p);
+}
+
+/* ----------------------------------------------------------------------
+   stress is that of the material, tension positive; without strength it is -p
+------------------------------------------------------------------------- */
+
+double ComputeHVIAtom::solid_value(Value value, int i, double p) const
+{
+  const FixHVIJohnsonCook::Solid s = strength ? strength->state(i) : FixHVIJohnsonCook::Solid();
+  switch (value) {
+    case EPS:
+      return s.eps;
+    case EPSDOT:
+      return s.rate;
+    case DAMAGE:
+      return std::min(s.damage, 1.0);
+    case SPALLED:
+      return s.spalled;
+    case MISES:
+      return HVI::von_mises(s.S);
+    case SXX:
+      return s.S.xx - p;
+    case SYY:
+      return s.S.yy - p;
+    case SZZ:
+      return s.S.zz - p;
+    case SXY:
+      return s.S.xy;
+    case SXZ:
+      return s.S.xz;
+    case SYZ:
+      return s.S.yz;
+    default:
+      return 0.0;
+  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -32,7 +32,25 @@ class ComputeHVIAtom : public Compute {
   double memory_usage() override;
 
  private:
-  enum Value { PRESSURE, TEMPERATURE, SOUND, LENGTH, BONDS };
+  enum Value {
+    PRESSURE,
+    ENERGY,
+    TEMPERATURE,
+    SOUND,
+    LENGTH,    // of all
+    EPS,
+    EPSDOT,
+    DAMAGE,
+    SPALLED,
+    MISES,
+    SXX,
+    SYY,
+    SZZ,
+    SXY,
+    SXZ,
+    SYZ,    // of solids
+    BONDS
+  };
 
   std::vector<Value> values;
   int nmax;
@@ -40,8 +58,11 @@ class ComputeHVIAtom : public Compute {
   std::vector<double> nbonds;    // of owned and ghost particles
   class PairHVISPH *pair;
   class FixHVISPH *fix;
+  class FixHVIJohnsonCook *strength;
 
   double value_of(Value, int) const;
+  double solid_value(Value, int, double) const;
+
   void count_bonds();
 };
 

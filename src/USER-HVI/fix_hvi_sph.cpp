@@ -16,6 +16,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_ledger.h"
 #include "force.h"
 #include "memory.h"
@@ -32,7 +33,7 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), dtv(0.0), dtf(0.0),
+    Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), strength(nullptr), dtv(0.0), dtf(0.0),
     power(0.0), stepping(0), follow(0)
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
@@ -97,6 +98,9 @@ void FixHVISPH::init()
 
   restored.clear();    // later runs of this script may change the settings
 
+  auto fixes = modify->get_fix_by_style("^hvi/johnson-cook$");
+  strength = fixes.empty() ? nullptr : dynamic_cast<FixHVIJohnsonCook *>(fixes[0]);
+
   ledger = FixHVILedger::instance(lmp);
   follow = igroup != 0 && !pair->is_stock() && modify->get_fix_by_style("^sph$").empty();
   reset_dt();
@@ -151,6 +155,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
     const bool anew = pair->is_stock() || !mine(i) || e.mark != fingerprint(i);
     if (anew && (mine(i) || follow))
       for (int k = 0; k < 3; k++) atom->vest[i][k] = atom->v[i][k];
+    if (strength) strength->start(i, anew);
     if (!mine(i)) continue;
     if (anew) {
       e.rho = atom->rho[i];
@@ -201,6 +206,7 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
   double *const rho = atom->rho;
   double *const esph = atom->esph;
   const double ahead = pair->is_stock() ? 0.0 : 1.0;
+  if (strength) strength->first_half(dtf);
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
@@ -251,6 +257,7 @@ void FixHVISPH::final_integrate()
     esph[i] += dtf * atom->desph[i] - e.de;
     e.drho = e.de = 0.0;
   }
+  if (strength) strength->second_half(dtf);
 
   const double now = pair->viscous_power();
   ledger->book_viscous(dtf * (power + now));

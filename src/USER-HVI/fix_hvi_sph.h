@@ -70,6 +70,7 @@ class FixHVISPH : public Fix {
   Extra *extra;
   class PairHVISPH *pair;
   class FixHVILedger *ledger;
+  class FixHVIJohnsonCook *strength;    // of solids, which it integrates when asked to
   double dtv, dtf;
   double power;            // viscous, of the last force evaluation
   int stepping;            // in a run, so that the state is the one the last step left

@@ -18,11 +18,12 @@ namespace HVI {
 // what a scene adds to plain hydrodynamics with one h; bits of a template parameter
 
 enum SphScene {
-  SPH_OWN_H = 1,      // particles differ in h
-  SPH_BODIES = 2,     // pairs of types differ: bodies without tension, own viscosities
-  SPH_DENSITY = 4,    // interface density dissipation
-  SPH_RIEMANN = 8,    // Riemann problems instead of viscosity and that
-  SPH_NSCENES = 12
+  SPH_OWN_H = 1,        // particles differ in h
+  SPH_BODIES = 2,       // pairs of types differ: bodies without tension, own viscosities
+  SPH_DENSITY = 4,      // interface density dissipation
+  SPH_RIEMANN = 8,      // Riemann problems instead of viscosity and that
+  SPH_STRENGTH = 16,    // deviatoric stress; not with SPH_RIEMANN
+  SPH_NSCENES = 24
 };
 
 // records of a particle: where it is, what its neighbors must know (one cache line), what they do to it
@@ -47,6 +48,25 @@ struct alignas(64) SphRates {
   double heat;    // viscous part of de
   double unused[2];
 };
+// of solids: deviatoric stress, which neighbors must know, and velocity gradient L_ab = d v_a/d x_b
+
+struct alignas(32) SphStress {
+  static constexpr int SENT = 8;
+  double xx, yy, zz, xy;
+  double xz, yz;
+  double p_min;    // what pressure cannot fall below: 0 in rubble
+  double shear;    // modulus
+};
+
+struct alignas(32) SphGradV {
+  static constexpr int SENT = 9;
+  double xx, xy, xz, yx;
+  double yy, yz, zx, zy;
+  double zz, unused[3];
+};
+
+static_assert(sizeof(SphStress) == 2 * sizeof(Vec4) && sizeof(SphGradV) == 3 * sizeof(Vec4),
+              "records are read as vectors");
 static_assert(sizeof(SphPlace) == sizeof(Vec4) && sizeof(SphState) == 2 * sizeof(Vec4) &&
                   sizeof(SphRates) == 2 * sizeof(Vec4),
               "records are read as vectors");
@@ -69,8 +89,9 @@ struct SphLaws {
 
 struct alignas(64) SphNear {
   static constexpr int MAX = 128, SIZE = MAX + LANES;
-  Vec4 d[SIZE];          // from the neighbor to the particle; difference in h
-  double force[SIZE];    // on i along d, opposite on j
+  Vec4 d[SIZE];                           // from the neighbor to the particle; difference in h
+  double force[SIZE];                     // on i along d, opposite on j
+  double fx[SIZE], fy[SIZE], fz[SIZE];    // all of it, with SPH_STRENGTH only
   int j[SIZE];
 };
 
@@ -133,11 +154,16 @@ template <class Kernel, int SCENE> class SphGradient {
 
    so that the internal energies of a pair gain what its kinetic energy loses.
    The package SPH gives either particle half of it (stock).
+
+   Solids (form sum only) have the deviatoric stress S besides, tension positive:
+     f_i += V_i V_j (S_i + S_j) grad W     dE_i -= V_i V_j v_ij.S_i grad W
+     L_i -= V_j v_ij (x) grad W
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
 inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n,
-                         const SphLaws &laws, SphNear &near, SphRates *rates, SphRates &total)
+                         const SphLaws &laws, SphNear &near, SphRates *rates, SphRates &total,
+                         const SphStress *stress = nullptr, SphGradV *gradv = nullptr)
 {
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
   const SphGradient<Kernel, SCENE> gradient(laws, pi);
@@ -155,6 +181,8 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
 
   const Vec zero = {}, one = zero + 1.0;
   Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, same = zero;
+  Vec grad[9] = {};
+  const SphStress Si = SCENE & SPH_STRENGTH ? stress[i] : SphStress{};
 
   for (int m = 0; m < nlanes; m += LANES) {
     static constexpr int in_turn[4] = {0, 1, 2, 3};
@@ -222,16 +250,44 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
       drho_j -= phi * V_i * (same_alpha + both * rho_j);
     }
 
-    const Vec f[3] = {force * dx, force * dy, force * dz};
+    Vec f[3] = {force * dx, force * dy, force * dz};
+    Vec work_i = zero, work_j = zero;
+    if (SCENE & SPH_STRENGTH) {
+      Vec S[8], mine[9];
+      read_columns(stress, j, 0, S);
+      read_columns(stress, j, 1, S + 4);
+      const Vec VVF = bonded * w_i * w_j * F;
+      const Vec ti[3] = {Si.xx * dx + Si.xy * dy + Si.xz * dz, Si.xy * dx + Si.yy * dy + Si.yz * dz,
+                         Si.xz * dx + Si.yz * dy + Si.zz * dz};
+      const Vec tj[3] = {S[0] * dx + S[3] * dy + S[4] * dz, S[3] * dx + S[1] * dy + S[5] * dz,
+                         S[4] * dx + S[5] * dy + S[2] * dz};
+      for (int k = 0; k < 3; k++) f[k] += VVF * (ti[k] + tj[k]);
+      *(Vec *) (near.fx + m) = f[0];
+      *(Vec *) (near.fy + m) = f[1];
+      *(Vec *) (near.fz + m) = f[2];
+      work_i = VVF * (ti[0] * dvx + ti[1] * dvy + ti[2] * dvz);
+      work_j = VVF * (tj[0] * dvx + tj[1] * dvy + tj[2] * dvz);
+
+      const Vec Fx = -bonded * F * dx, Fy = -bonded * F * dy, Fz = -bonded * F * dz;
+      const Vec product[9] = {dvx * Fx, dvx * Fy, dvx * Fz, dvy * Fx, dvy * Fy,
+                              dvy * Fz, dvz * Fx, dvz * Fy, dvz * Fz};
+      for (int k = 0; k < 9; k++) {
+        grad[k] += w_j * product[k];
+        mine[k] = w_i * product[k];
+      }
+      add_columns(gradv, j, 0, mine);
+      add_columns(gradv, j, 1, mine + 4);
+      add_column(gradv, j, &SphGradV::zz, mine[8]);
+    }
     fx += f[0];
     fy += f[1];
     fz += f[2];
-    de += (own * press_i + others * press_j) * g + qheat;
+    de += (own * press_i + others * press_j) * g + qheat - work_i;
     drho += drho_i;
     heat += qheat;
 
     for (int k = 0; k < 3; k++) first[k] = -f[k];
-    first[3] = (others * press_i + own * press_j) * g + qheat;
+    first[3] = (others * press_i + own * press_j) * g + qheat - work_j;
     second[0] = drho_j;
     second[1] = qheat;
     second[2] = second[3] = zero;
@@ -245,6 +301,8 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
   total.de += sum(de);
   total.drho += sum(drho);
   total.heat += sum(heat);
+  if (SCENE & SPH_STRENGTH)
+    for (int k = 0; k < 9; k++) (&gradv[i].xx)[k] += sum(grad[k]);
   return sum(same) > 0.0;
 }
 

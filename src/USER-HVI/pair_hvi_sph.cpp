@@ -16,6 +16,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_ledger.h"
 #include "fix_hvi_sph.h"
 #include "force.h"
@@ -94,11 +95,18 @@ void PairHVISPH::compute(int eflag, int vflag)
     state.reset(new HVI::SphState[nmax]);
     rates.reset(new HVI::SphRates[nmax]);
     if (riemann) slopes.reset(new HVI::SphSlopes[nmax]);
+    if (solid) stress.reset(new HVI::SphStress[nmax]);
+    if (solid) gradv.reset(new HVI::SphGradV[nmax]);
   }
 
+  if (solid) gather_stress();
   gather();
   (this->*sweep)();
   scatter();
+  if (solid && force->newton_pair) {
+    sending = STRESS;
+    comm->reverse_comm(this);
+  }
 
   if (vflag_fdotr) virial_fdotr_compute();
 }
@@ -130,6 +138,13 @@ void PairHVISPH::gather()
                  materials[itype]->eos->name(), atom->tag[i], itype, rho[i], esph[i] / m,
                  update->ntimestep);
 
+    // failed particles are not pulled; signals in solids are longitudinal
+
+    if (solid) {
+      p = MAX(p, stress[i].p_min);
+      csq += 4.0 / 3.0 * stress[i].shear / rho[i];
+    }
+
     // the package SPH takes the speed of sound of liquids as constant, of gases as sqrt(p/rho)
 
     if (laws.stock) {
@@ -156,6 +171,30 @@ void PairHVISPH::gather()
     s.type = itype;
   }
   if (nall) memset((void *) rates.get(), 0, nall * sizeof(HVI::SphRates));
+  if (nall && solid) memset((void *) gradv.get(), 0, nall * sizeof(HVI::SphGradV));
+}
+
+/* ----------------------------------------------------------------------
+   stress at this step, of owned particles from the fix that integrates it
+------------------------------------------------------------------------- */
+
+void PairHVISPH::gather_stress()
+{
+  for (int i = 0; i < atom->nlocal; i++) stress[i] = strength->stress(i);
+  sending = STRESS;
+  comm->forward_comm(this);
+}
+
+HVI::VelocityGradient PairHVISPH::velocity_gradient(int i) const
+{
+  const HVI::SphGradV &L = gradv[i];
+  return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
+}
+
+double PairHVISPH::pressure(int i) const
+{
+  const HVI::SphState &s = state[i];
+  return laws.symmetric ? s.p * s.rho * s.rho : s.p;
 }
 
 /* ----------------------------------------------------------------------
@@ -258,11 +297,15 @@ template <class Kernel, int SCENE> void PairHVISPH::eval()
           same = HVI::sph_riemann<Kernel, SCENE>(i, pi, state.get(), slopes.get(), n, mine, near,
                                                  rates.get(), sum);
         else
-          same =
-              HVI::sph_interact<Kernel, SCENE>(i, pi, state.get(), n, mine, near, rates.get(), sum);
+          same = HVI::sph_interact<Kernel, SCENE>(i, pi, state.get(), n, mine, near, rates.get(),
+                                                  sum, stress.get(), gradv.get());
         if (same) report_overlap(i, n, near);
 
-        if (evflag)
+        if (evflag && (SCENE & HVI::SPH_STRENGTH))
+          for (int m = 0; m < n; m++)
+            ev_tally_xyz(i, near.j[m], nlocal, newton_pair, 0.0, 0.0, near.fx[m], near.fy[m],
+                         near.fz[m], near.d[m][0], near.d[m][1], near.d[m][2]);
+        else if (evflag)
           for (int m = 0; m < n; m++)
             ev_tally(i, near.j[m], nlocal, newton_pair, 0.0, 0.0, near.force[m], near.d[m][0],
                      near.d[m][1], near.d[m][2]);
@@ -283,6 +326,7 @@ template <class Kernel, int SCENE> void PairHVISPH::eval_slopes()
             HVI::SphSlopes &sum) {
           HVI::sph_slopes<Kernel, SCENE>(i, pi, state.get(), n, mine, near, slopes.get(), sum);
         });
+    sending = SLOPES;
     if (force->newton_pair) comm->reverse_comm(this);
 
     // Omega is 1 where h stays as it is, and far from 1 only for particles nearly alone: bounded
@@ -303,33 +347,45 @@ template <class Kernel, int SCENE> void PairHVISPH::eval_slopes()
 
 /* ---------------------------------------------------------------------- */
 
-int PairHVISPH::pack_forward_comm(int n, int *sent, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+// one of two kinds of records, all numbers of theirs that others need
+
+template <class Record>
+static int pack(const Record *records, const int *list, int n, int first, int size, double *buf)
 {
   for (int k = 0; k < n; k++)
-    memcpy(buf + k * HVI::SphSlopes::SENT, &slopes[sent[k]], HVI::SphSlopes::SENT * sizeof(double));
-  return n * HVI::SphSlopes::SENT;
+    memcpy(buf + k * size, &records[list ? list[k] : first + k], size * sizeof(double));
+  return n * size;
+}
+
+int PairHVISPH::pack_forward_comm(int n, int *sent, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+{
+  if (sending == SLOPES) return pack(slopes.get(), sent, n, 0, HVI::SphSlopes::SENT, buf);
+  return pack(stress.get(), sent, n, 0, HVI::SphStress::SENT, buf);
 }
 
 void PairHVISPH::unpack_forward_comm(int n, int first, double *buf)
 {
   for (int k = 0; k < n; k++)
-    memcpy((void *) &slopes[first + k], buf + k * HVI::SphSlopes::SENT,
-           HVI::SphSlopes::SENT * sizeof(double));
+    if (sending == SLOPES)
+      memcpy((void *) &slopes[first + k], buf + k * HVI::SphSlopes::SENT,
+             HVI::SphSlopes::SENT * sizeof(double));
+    else
+      memcpy((void *) &stress[first + k], buf + k * HVI::SphStress::SENT,
+             HVI::SphStress::SENT * sizeof(double));
 }
 
 int PairHVISPH::pack_reverse_comm(int n, int first, double *buf)
 {
-  for (int k = 0; k < n; k++)
-    memcpy(buf + k * HVI::SphSlopes::SENT, &slopes[first + k],
-           HVI::SphSlopes::SENT * sizeof(double));
-  return n * HVI::SphSlopes::SENT;
+  if (sending == SLOPES) return pack(slopes.get(), nullptr, n, first, HVI::SphSlopes::SENT, buf);
+  return pack(gradv.get(), nullptr, n, first, HVI::SphGradV::SENT, buf);
 }
 
 void PairHVISPH::unpack_reverse_comm(int n, int *owned, double *buf)
 {
+  const int size = sending == SLOPES ? HVI::SphSlopes::SENT : HVI::SphGradV::SENT;
   for (int k = 0; k < n; k++) {
-    double *const to = &slopes[owned[k]].xx;
-    for (int l = 0; l < HVI::SphSlopes::SENT; l++) to[l] += buf[k * HVI::SphSlopes::SENT + l];
+    double *const to = sending == SLOPES ? &slopes[owned[k]].xx : &gradv[owned[k]].xx;
+    for (int l = 0; l < size; l++) to[l] += buf[k * size + l];
   }
 }
 
@@ -453,7 +509,17 @@ void PairHVISPH::init_style()
     }
   }
 
+  auto laws_of_solids = modify->get_fix_by_style("^hvi/johnson-cook$");
+  strength = laws_of_solids.empty() ? nullptr
+                                    : dynamic_cast<FixHVIJohnsonCook *>(laws_of_solids[0]);
+  solid = strength != nullptr;
+  if (solid && (riemann || laws.symmetric))
+    error->all(FLERR,
+               "Pair style hvi/sph: fix hvi/johnson-cook works with form sum and dissipation "
+               "monaghan");
+  if (solid && !stress) nmax = 0;    // arrays are to be made
   int scene = riemann ? HVI::SPH_RIEMANN : (density ? HVI::SPH_DENSITY : 0);
+  if (solid) scene |= HVI::SPH_STRENGTH;
   int first = 0;
   if (variable) scene |= HVI::SPH_OWN_H;
   for (int i = 1; i <= atom->ntypes; i++) {
@@ -475,7 +541,8 @@ void PairHVISPH::init_style()
     choose_scene<decltype(k)>(scene);
   });
 
-  comm_forward = comm_reverse = riemann ? HVI::SphSlopes::SENT : 0;
+  comm_forward = solid ? HVI::SphStress::SENT : (riemann ? HVI::SphSlopes::SENT : 0);
+  comm_reverse = solid ? HVI::SphGradV::SENT : (riemann ? HVI::SphSlopes::SENT : 0);
   neighbor->add_request(this);
 }
 
@@ -483,11 +550,30 @@ void PairHVISPH::init_style()
 
 template <class Kernel> void PairHVISPH::choose_scene(int scene)
 {
-  static constexpr decltype(sweep) table[HVI::SPH_NSCENES] = {
-      &PairHVISPH::eval<Kernel, 0>, &PairHVISPH::eval<Kernel, 1>,  &PairHVISPH::eval<Kernel, 2>,
-      &PairHVISPH::eval<Kernel, 3>, &PairHVISPH::eval<Kernel, 4>,  &PairHVISPH::eval<Kernel, 5>,
-      &PairHVISPH::eval<Kernel, 6>, &PairHVISPH::eval<Kernel, 7>,  &PairHVISPH::eval<Kernel, 8>,
-      &PairHVISPH::eval<Kernel, 9>, &PairHVISPH::eval<Kernel, 10>, &PairHVISPH::eval<Kernel, 11>};
+  static constexpr decltype(sweep) table[HVI::SPH_NSCENES] = {&PairHVISPH::eval<Kernel, 0>,
+                                                              &PairHVISPH::eval<Kernel, 1>,
+                                                              &PairHVISPH::eval<Kernel, 2>,
+                                                              &PairHVISPH::eval<Kernel, 3>,
+                                                              &PairHVISPH::eval<Kernel, 4>,
+                                                              &PairHVISPH::eval<Kernel, 5>,
+                                                              &PairHVISPH::eval<Kernel, 6>,
+                                                              &PairHVISPH::eval<Kernel, 7>,
+                                                              &PairHVISPH::eval<Kernel, 8>,
+                                                              &PairHVISPH::eval<Kernel, 9>,
+                                                              &PairHVISPH::eval<Kernel, 10>,
+                                                              &PairHVISPH::eval<Kernel, 11>,
+                                                              nullptr,
+                                                              nullptr,
+                                                              nullptr,
+                                                              nullptr,
+                                                              &PairHVISPH::eval<Kernel, 16>,
+                                                              &PairHVISPH::eval<Kernel, 17>,
+                                                              &PairHVISPH::eval<Kernel, 18>,
+                                                              &PairHVISPH::eval<Kernel, 19>,
+                                                              &PairHVISPH::eval<Kernel, 20>,
+                                                              &PairHVISPH::eval<Kernel, 21>,
+                                                              &PairHVISPH::eval<Kernel, 22>,
+                                                              &PairHVISPH::eval<Kernel, 23>};
   sweep = table[scene];
 }
 
@@ -544,6 +630,7 @@ double PairHVISPH::memory_usage()
 {
   return (double) nmax *
       (sizeof(HVI::SphPlace) + sizeof(HVI::SphState) + sizeof(HVI::SphRates) +
-       (riemann ? sizeof(HVI::SphSlopes) : 0)) +
+       (riemann ? sizeof(HVI::SphSlopes) : 0) +
+       (solid ? sizeof(HVI::SphStress) + sizeof(HVI::SphGradV) : 0)) +
       (double) (kept.capacity() + numkept.capacity()) * sizeof(int);
 }

@@ -17,6 +17,7 @@ PairStyle(hvi/sph,PairHVISPH);
 
 #include "hvi_material.h"
 #include "hvi_sph_riemann.h"
+#include "hvi_stress.h"
 #include "hvi_timestep.h"
 #include "pair.h"
 
@@ -57,7 +58,9 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   bool has_energy() const { return energy; }
   bool variable_h() const { return variable; }
   double smoothing_length(int itype, double rho, double hscale) const;
-  double hscale(int itype, double rho) const;         // h rho^(1/dim), which stays as it is
+  double hscale(int itype, double rho) const;    // h rho^(1/dim), which stays as it is
+  double pressure(int i) const;                  // of the last forces, owned particles
+  HVI::VelocityGradient velocity_gradient(int i) const;
   double viscous_power() const { return heating; }    // of owned particles
   const std::string &description() const { return text; }
 
@@ -67,7 +70,7 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   std::string kernel, text;
   double support;
   HVI::SphLaws laws;
-  bool variable, energy, density, riemann;
+  bool variable, energy, density, riemann, solid;
   double hmin, hmax;    // in units of the start value
 
   // pair_coeff
@@ -86,14 +89,19 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   std::unique_ptr<HVI::SphSlopes[]> slopes;    // dissipation riemann only
   std::vector<int> kept, numkept;              // of the neighbor list: those within reach
   std::unique_ptr<HVI::SphRates[]> rates;
+  std::unique_ptr<HVI::SphStress[]> stress;    // solids only, as is the next
+  std::unique_ptr<HVI::SphGradV[]> gradv;
+  enum { SLOPES, STRESS } sending;
   double heating;
   class FixHVISPH *fix;
+  class FixHVIJohnsonCook *strength;    // keeps the stress of solids
   void (PairHVISPH::*sweep)();
 
   void allocate();
   void deallocate();
   void set_material(int ilo, int ihi, int jlo, int jhi, const std::vector<std::string> &);
   void gather();
+  void gather_stress();
   void scatter();
   void report_overlap(int, int, const HVI::SphNear &);
   template <class Kernel> void choose_scene(int);

@@ -169,7 +169,7 @@ def test_scene(attempt):
         (GOOD[GOOD.index("fix move"):], "min_style quickmin\nminimize 0 1e-6 10 10\n", "Pair style hvi/sph does not support minimization"),
         (fix, "fix move all hvi/sph now\n", "takes no arguments, but got now"),
         (fix, fix + "fix again all hvi/sph\n", "More than one fix hvi/sph"),
-        (pair, lj, "Compute hvi/atom p, T, c and h need pair style hvi/sph"),
+        (pair, lj, "Compute hvi/atom p needs pair style hvi/sph"),
         (GOOD[GOOD.index("pair_style"):GOOD.index("fix")], lj, "Fix hvi/sph needs pair style hvi/sph"),
         (GOOD[GOOD.index("cubic"):], "cubic h variable\npair_coeff * * eos tait 1 10 7 h 1.2\nfix 1 all nve\nrun 1\n",
          "h variable needs fix hvi/sph"),
@@ -183,7 +183,7 @@ def test_scene(attempt):
 def test_compute_hvi_atom(attempt):
     attempt([
         ("hvi/atom p", "hvi/atom", "Illegal compute hvi/atom command: missing argument"),
-        ("hvi/atom p", "hvi/atom pressure", "Unknown compute hvi/atom value pressure: use p, T, c, h or nbonds"),
+        ("hvi/atom p", "hvi/atom pressure", "Unknown compute hvi/atom value pressure: use p, e, T, c, h, eps"),
         ("hvi/atom p", "hvi/atom p t", "Unknown compute hvi/atom value t"),
         ("hvi/atom p", "hvi/atom p nbonds", "nbonds needs an atom style with bonds"),
     ])

@@ -1,0 +1,345 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "fix_hvi_johnson_cook.h"
+
+#include "atom.h"
+#include "error.h"
+#include "hvi_damage.h"
+#include "hvi_material.h"
+#include "hvi_strength_laws.h"
+#include "memory.h"
+#include "modify.h"
+#include "pair_hvi_sph.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+struct FixHVIJohnsonCook::Laws {
+  std::unique_ptr<HVI::Strength> strength;
+  std::unique_ptr<HVI::DamageJohnsonCook> damage;
+  double sigma_p = 0.0;                    // limit of tension, spall
+  double T0 = 0.0, cp = 0.0, chi = 1.0;    // temperature from plastic work
+};
+
+/* ---------------------------------------------------------------------- */
+
+FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), strength_name("johnson-cook"), spall(HVI::Spall::PRINCIPAL),
+    with_damage(1), thermal(1), from_work(0), solid(nullptr), pair(nullptr)
+{
+  int iarg = 3;
+  while (iarg < narg) {
+    const std::string key = arg[iarg];
+    if (iarg + 1 >= narg)
+      utils::missing_cmd_args(FLERR, fmt::format("fix hvi/johnson-cook {}", key), error);
+    const std::string value = arg[iarg + 1];
+    if (key == "strength") {
+      strength_name = value;
+    } else if (key == "damage") {
+      with_damage = utils::logical(FLERR, value, false, lmp);
+    } else if (key == "thermal") {
+      thermal = utils::logical(FLERR, value, false, lmp);
+    } else if (key == "temperature") {
+      if (value != "energy" && value != "work")
+        error->all(FLERR, "Fix hvi/johnson-cook temperature must be energy or work, not {}", value);
+      from_work = value == "work";
+    } else if (key == "spall") {
+      if (value == "none")
+        spall = HVI::Spall::NONE;
+      else if (value == "pressure")
+        spall = HVI::Spall::PRESSURE;
+      else if (value == "principal")
+        spall = HVI::Spall::PRINCIPAL;
+      else if (value == "zero")
+        spall = HVI::Spall::ZERO;
+      else
+        error->all(FLERR,
+                   "Fix hvi/johnson-cook spall must be none, pressure, principal or zero, not {}",
+                   value);
+    } else
+      error->all(FLERR, "Unknown fix hvi/johnson-cook keyword: {}", key);
+    iarg += 2;
+  }
+
+  restart_peratom = 1;
+  maxexchange = NSOLID;
+  create_attribute = 1;
+
+  FixHVIJohnsonCook::grow_arrays(atom->nmax);
+  for (int i = 0; i < atom->nlocal; i++) FixHVIJohnsonCook::set_arrays(i);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixHVIJohnsonCook::~FixHVIJohnsonCook()
+{
+  atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
+  memory->sfree(solid);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixHVIJohnsonCook::setmask()
+{
+  return 0;    // fix hvi/sph calls it
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVIJohnsonCook::init()
+{
+  if (modify->get_fix_by_style("^hvi/johnson-cook$").size() > 1)
+    error->all(FLERR, "More than one fix hvi/johnson-cook: it keeps the stress of all solids");
+  if (modify->get_fix_by_style("^hvi/sph$").empty())
+    error->all(FLERR, "Fix hvi/johnson-cook needs fix hvi/sph, which calls it");
+  pair = PairHVISPH::find(lmp);
+  if (!pair) error->all(FLERR, "Fix hvi/johnson-cook needs pair style hvi/sph");
+
+  laws.clear();
+  laws.resize(atom->ntypes + 1);
+  for (int itype = 1; itype <= atom->ntypes; itype++) {
+    const HVI::Material *const material = pair->material(itype);
+    if (!material) continue;
+    const HVI::Section *const section = material->section("strength", strength_name);
+    if (!section) continue;    // types without strength are fluids
+    auto made = std::make_unique<Laws>();
+    std::string problem;
+    made->strength = HVI::make_strength(*section, problem);
+    if (!made->strength)
+      error->all(FLERR, "Fix hvi/johnson-cook: strength {} of material {} (type {}): {}",
+                 strength_name, material->name, itype, problem);
+    if (with_damage) {
+      const HVI::Section *const d = material->section("damage", "johnson-cook");
+      if (!d)
+        error->all(
+            FLERR,
+            "Fix hvi/johnson-cook: material {} (type {}) has no section damage johnson-cook; "
+            "use damage no",
+            material->name, itype);
+      made->damage = HVI::make_damage(*d, problem);
+      if (!made->damage)
+        error->all(FLERR, "Fix hvi/johnson-cook: damage of material {} (type {}): {}",
+                   material->name, itype, problem);
+    }
+    if (spall != HVI::Spall::NONE) {
+      const HVI::Section *const s = material->section("spall", "limit");
+      if (!s)
+        error->all(FLERR,
+                   "Fix hvi/johnson-cook: material {} (type {}) has no section spall limit; use "
+                   "spall none",
+                   material->name, itype);
+      made->sigma_p = s->values.at("sigma_p");
+    }
+    laws[itype] = std::move(made);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   a new particle, or one that a command has changed since the last run
+------------------------------------------------------------------------- */
+
+void FixHVIJohnsonCook::start(int i, bool anew)
+{
+  const Laws *const law = of(i);
+  Solid &s = solid[i];
+  if (law && s.shear == 0.0 && !failed(i))
+    s.shear = law->strength->shear_modulus(conditions(i, 0.0));    // there is no pressure yet
+  if (anew) send(i, law, s.S);
+}
+
+/* ---------------------------------------------------------------------- */
+
+const FixHVIJohnsonCook::Laws *FixHVIJohnsonCook::of(int i) const
+{
+  return (atom->mask[i] & groupbit) ? laws[atom->type[i]].get() : nullptr;
+}
+
+double FixHVIJohnsonCook::temperature(int i) const
+{
+  const int itype = atom->type[i];
+  if (from_work && laws[itype])
+    return laws[itype]->T0 + laws[itype]->chi * solid[i].heat / laws[itype]->cp;
+  const double m = atom->rmass ? atom->rmass[i] : atom->mass[itype];
+  return pair->material(itype)->eos->temperature(atom->rho[i], atom->esph[i] / m);
+}
+
+HVI::Conditions FixHVIJohnsonCook::conditions(int i, double p) const
+{
+  const double rho0 = pair->material(atom->type[i])->eos->rho0();
+  return {atom->rho[i], rho0, p, thermal ? temperature(i) : NAN};
+}
+
+/* ----------------------------------------------------------------------
+   dS/dt of the last forces' velocity gradient and stress moves S on by dt; radial return and
+   damage.  Rubble bears no shear.
+------------------------------------------------------------------------- */
+
+HVI::Deviator FixHVIJohnsonCook::rate(int i) const
+{
+  return HVI::jaumann_rate(pair->velocity_gradient(i), solid[i].shear, solid[i].sent.S);
+}
+
+static void add(HVI::Deviator &s, double dt, const HVI::Deviator &r)
+{
+  s.xx += dt * r.xx;
+  s.yy += dt * r.yy;
+  s.zz += dt * r.zz;
+  s.xy += dt * r.xy;
+  s.xz += dt * r.xz;
+  s.yz += dt * r.yz;
+}
+
+void FixHVIJohnsonCook::advance(int i, const Laws &law, double dt)
+{
+  Solid &s = solid[i];
+  const HVI::Conditions c = conditions(i, pair->pressure(i));
+  s.shear = law.strength->shear_modulus(c);
+  HVI::Deviator trial = s.S;
+  add(trial, dt, rate(i));
+  const HVI::Plastic plastic = law.strength->radial_return(trial, dt, s.shear, s.eps, c);
+  if (std::isnan(plastic.d_eps))
+    error->one(FLERR, "Fix hvi/johnson-cook: stress of particle {} is not a number", atom->tag[i]);
+  s.S = plastic.S;
+  s.eps += plastic.d_eps;
+  s.heat += plastic.work / c.rho;
+  s.rate = plastic.d_eps / dt;
+  if (law.damage)
+    s.damage += law.damage->increment(plastic.d_eps, dt, c.p, HVI::von_mises(s.S),
+                                      law.strength->homologous_temperature(c));
+  if (s.damage >= 1.0) rubble(i);
+}
+
+void FixHVIJohnsonCook::rubble(int i)
+{
+  solid[i].S = HVI::Deviator();
+  solid[i].shear = solid[i].rate = 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   S goes on to the middle of the step, and is extrapolated to its end for the
+   forces: back to the yield surface there too, but without plastic strain
+------------------------------------------------------------------------- */
+
+void FixHVIJohnsonCook::first_half(double dt)
+{
+  for (int i = 0; i < atom->nlocal; i++) {
+    const Laws *const law = of(i);
+    if (!law) continue;
+    Solid &s = solid[i];
+    if (!failed(i)) {
+      const HVI::Deviator dS = rate(i);
+      advance(i, *law, dt);
+      if (!failed(i)) {
+        HVI::Deviator ahead = s.S;
+        add(ahead, dt, dS);
+        const double stress = HVI::von_mises(ahead);
+        const double yield = law->strength->yield(s.eps, s.rate, conditions(i, pair->pressure(i)));
+        send(i, law, stress > yield ? HVI::scaled(ahead, yield / stress) : ahead);
+        continue;
+      }
+    }
+    send(i, law, s.S);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   what neighbors will know of i
+------------------------------------------------------------------------- */
+
+void FixHVIJohnsonCook::send(int i, const Laws *law, const HVI::Deviator &S)
+{
+  double p_min = -INFINITY;
+  if (law && spall == HVI::Spall::PRESSURE) p_min = -law->sigma_p;
+  if (law && failed(i)) p_min = 0.0;
+  solid[i].sent = {S, p_min, solid[i].shear};
+}
+
+void FixHVIJohnsonCook::second_half(double dt)
+{
+  for (int i = 0; i < atom->nlocal; i++) {
+    const Laws *const law = of(i);
+    if (!law || failed(i)) continue;
+    advance(i, *law, dt);
+    if (!failed(i) && HVI::spalls(spall, pair->pressure(i), solid[i].S, law->sigma_p)) {
+      solid[i].spalled = 1.0;
+      rubble(i);
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVIJohnsonCook::set_arrays(int i)
+{
+  solid[i] = Solid();
+  solid[i].sent.p_min = -INFINITY;
+}
+
+void FixHVIJohnsonCook::grow_arrays(int n)
+{
+  solid = (Solid *) memory->srealloc(solid, n * sizeof(Solid), "hvi/johnson-cook:solid");
+}
+
+void FixHVIJohnsonCook::copy_arrays(int i, int j, int /*delflag*/)
+{
+  solid[j] = solid[i];
+}
+
+int FixHVIJohnsonCook::pack_exchange(int i, double *buf)
+{
+  memcpy(buf, &solid[i], sizeof(Solid));
+  return NSOLID;
+}
+
+int FixHVIJohnsonCook::unpack_exchange(int i, double *buf)
+{
+  memcpy((void *) &solid[i], buf, sizeof(Solid));
+  return NSOLID;
+}
+
+int FixHVIJohnsonCook::pack_restart(int i, double *buf)
+{
+  buf[0] = NSOLID + 1;
+  memcpy(&buf[1], &solid[i], sizeof(Solid));
+  return NSOLID + 1;
+}
+
+void FixHVIJohnsonCook::unpack_restart(int nlocal, int nth)
+{
+  double **stored = atom->extra;
+  int m = 0;
+  for (int i = 0; i < nth; i++) m += static_cast<int>(stored[nlocal][m]);
+  memcpy((void *) &solid[nlocal], &stored[nlocal][m + 1], sizeof(Solid));
+}
+
+int FixHVIJohnsonCook::maxsize_restart()
+{
+  return NSOLID + 1;
+}
+
+int FixHVIJohnsonCook::size_restart(int /*nlocal*/)
+{
+  return NSOLID + 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixHVIJohnsonCook::memory_usage()
+{
+  return (double) atom->nmax * sizeof(Solid);
+}

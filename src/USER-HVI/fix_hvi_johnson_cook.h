@@ -1,0 +1,102 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(hvi/johnson-cook,FixHVIJohnsonCook);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_HVI_JOHNSON_COOK_H
+#define LMP_FIX_HVI_JOHNSON_COOK_H
+
+#include "fix.h"
+#include "hvi_spall.h"
+#include "hvi_sph.h"
+#include "hvi_strength.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixHVIJohnsonCook : public Fix {
+ public:
+  // of a solid particle
+
+  struct Solid {
+    HVI::Deviator S;    // deviatoric stress, of the time of v, rho, e
+    struct {
+      HVI::Deviator S;
+      double p_min, shear;
+    } sent;            // extrapolated to the full step, as in the forces; changes before them only
+    double eps;        // equivalent plastic strain
+    double damage;     // failed from 1 on
+    double spalled;    // 1: spalled for good
+    double heat;       // plastic work per mass
+    double shear;      // modulus
+    double rate;       // of plastic strain
+  };
+
+  FixHVIJohnsonCook(class LAMMPS *, int, char **);
+  ~FixHVIJohnsonCook() override;
+  int setmask() override;
+  void init() override;
+  void set_arrays(int) override;
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int maxsize_restart() override;
+  int size_restart(int) override;
+  double memory_usage() override;
+
+  // called by fix hvi/sph, with half the time step
+
+  void start(int, bool);
+  void first_half(double);
+  void second_half(double);
+
+  // for the pair style and computes; owned particles
+
+  HVI::SphStress stress(int i) const
+  {
+    const HVI::Deviator &S = solid[i].sent.S;
+    return {S.xx, S.yy, S.zz, S.xy, S.xz, S.yz, solid[i].sent.p_min, solid[i].sent.shear};
+  }
+  const Solid &state(int i) const { return solid[i]; }
+  double temperature(int) const;
+  bool failed(int i) const { return solid[i].damage >= 1.0 || solid[i].spalled != 0.0; }
+
+ private:
+  static constexpr int NSOLID = sizeof(Solid) / sizeof(double);
+
+  struct Laws;    // of a type
+  std::vector<std::unique_ptr<Laws>> laws;
+  std::string strength_name;
+  HVI::Spall spall;
+  int with_damage, thermal, from_work;
+
+  Solid *solid;
+  class PairHVISPH *pair;
+
+  const Laws *of(int) const;    // null: no solid
+  HVI::Conditions conditions(int, double) const;
+  HVI::Deviator rate(int) const;
+  void advance(int, const Laws &, double);
+  void rubble(int);
+  void send(int, const Laws *, const HVI::Deviator &);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

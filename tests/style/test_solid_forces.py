@@ -1,0 +1,178 @@
+"""Solids: forces and rates with stress on one state, on every layout; energy of pairs; restart with stress and damage."""
+
+import itertools
+
+import numpy as np
+import pytest
+from sph_scenes import norm, random_fluid, scene, shape
+
+# si-like numbers in lj units: rho0 1, c0 4; strength and damage so that a part yields, some fail
+MATERIAL = """# DATE: 2026-01-01 UNITS: lj CONTRIBUTOR: test CITATION: none
+eos gruneisen
+  rho0 1.0
+  C 4.0
+  S1 1.4
+  g0 2.0
+  a 0.5
+  cp 1.0
+  T0 300
+strength johnson-cook
+  G 6.0
+  A 0.25
+  B 0.4
+  n 0.4
+  C 0.01
+  m 1.0
+  epsdot0 1.0
+  Tref 300
+  Tm 900
+damage johnson-cook
+  D1 0.02
+  D2 0.04
+  D3 -1.5
+  D4 0.01
+  D5 0.5
+  epsdot0 1.0
+spall limit
+  sigma_p {sigma_p}
+"""
+PAIR = "pair_style hvi/sph cubic {words}\npair_coeff 1 1 file {path} h 1.25\npair_coeff 2 2 file {path} h 1.25\n"
+OUT = """compute S all hvi/atom p c eps damage spalled vm sxx syy szz sxy sxz syz
+compute R all property/atom drho desph rho esph
+dump d all custom 1 {0} id type x y z vx vy vz fx fy fz c_R[1] c_R[2] c_R[3] c_R[4] c_S[*]
+dump_modify d format float %.17g sort id
+run 0
+undump d
+uncompute S
+uncompute R
+"""
+
+
+def read(path):
+    lines = path.read_text().splitlines()
+    start = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
+    a = np.array([line.split() for line in lines[start:]], dtype=float)
+    out = dict(type=a[:, 1].astype(int), x=a[:, 2:5], v=a[:, 5:8], f=a[:, 8:11], drho=a[:, 11], de=a[:, 12], rho=a[:, 13], esph=a[:, 14])
+    out.update(zip(("p", "c", "eps", "damage", "spalled", "vm"), a[:, 15:21].T), S=a[:, 21:27])
+    return out
+
+
+def state(seed=21, speed=0.35, **kw):
+    s = random_fluid(8, seed=seed, jitter=0.05, speed=speed, h=1.25, types=2, **kw)
+    s.mass = {1: 1.0, 2: 1.0}
+    s.rho = np.ones(len(s.x))
+    s.esph = np.zeros(len(s.x))
+    s.h = {1: 1.25, 2: 1.25}
+    # a field with shear, compression and stretch, smooth
+    k = 2 * np.pi / s.box[0]
+    s.v += 0.8 * np.stack([np.sin(k * s.x[:, 1]), np.sin(k * s.x[:, 2]) + np.sin(k * s.x[:, 1]), np.cos(k * s.x[:, 0])], -1)
+    return s
+
+
+@pytest.fixture
+def material(tmp_path):
+    path = tmp_path / "test.hvi"
+    path.write_text(MATERIAL.format(sigma_p=3.0))
+    return path
+
+
+def start(s, tmp_path, material, words="viscosity 1 2", tension="yes", more="", steps=40, jc="", **kw):
+    pair = PAIR.format(words=words, path=material) + f"pair_coeff 1 2 tension {tension}\n"
+    text = scene(s, tmp_path / "s.data", pair, **kw) + f"fix jc all hvi/johnson-cook {jc}\ntimestep 0.004\n"
+    return text + more + (f"run {steps}\n" if steps else "")
+
+
+def brute_force(s, d, tension=True, visc=(1.0, 2.0), kernel="cubic", h=1.25):
+    """forces, de, drho of all pairs from the dumped state; c has the shear wave in it (G 6)"""
+    x, v, rho, p = d["x"], d["v"], d["rho"], d["p"]
+    m, V = 1.0, 1.0 / rho
+    G = np.where((d["damage"] >= 1) | (d["spalled"] > 0), 0.0, 6.0)
+    c = np.sqrt(d["c"] ** 2 + 4 / 3 * G / rho)
+    S = np.zeros((len(x), 3, 3))
+    xx, yy, zz, xy, xz, yz = (d["S"] + np.outer(p, [1, 1, 1, 0, 0, 0])).T
+    S[:, 0, 0], S[:, 1, 1], S[:, 2, 2] = xx, yy, zz
+    S[:, 0, 1] = S[:, 1, 0] = xy
+    S[:, 0, 2] = S[:, 2, 0] = xz
+    S[:, 1, 2] = S[:, 2, 1] = yz
+    i, j = np.nonzero(~np.eye(len(x), dtype=bool))
+    r = x[i] - x[j]
+    r -= s.box * np.round(r / s.box)
+    q = np.sqrt((r**2).sum(1))
+    near = q < 2 * h
+    i, j, r, q = i[near], j[near], r[near], q[near]
+    grad = r * (norm(kernel, 3) / h**4 * shape(kernel, q / h)[1] / q)[:, None]
+    vij = v[i] - v[j]
+    g, vr = (vij * grad).sum(1), (vij * r).sum(1)
+    mu = np.where(vr < 0, h * vr / (q**2 + 0.01 * h * h), 0.0)
+    Q = m * m * (-visc[0] * 0.5 * (c[i] + c[j]) * mu + visc[1] * mu**2) / (0.5 * (rho[i] + rho[j]))
+    bonded = np.full(len(i), True) if tension else d["type"][i] == d["type"][j]
+    open_ = bonded | (p[i] + p[j] > 0)
+    VV = V[i] * V[j]
+    f = -((VV * (p[i] + p[j]) * open_ + Q))[:, None] * grad + (VV * bonded)[:, None] * np.einsum("kab,kb->ka", S[i] + S[j], grad)
+    de = VV * p[i] * open_ * g + 0.5 * Q * g - VV * bonded * np.einsum("ka,kab,kb->k", vij, S[i], grad)
+    drho = rho[i] * V[j] * g * (open_ | (vr < 0))
+    n = len(x)
+
+    def total(a):
+        out = np.zeros((n,) + a.shape[1:])
+        np.add.at(out, i, a)
+        return out
+
+    return dict(f=total(f), de=total(de), drho=total(drho))
+
+
+@pytest.mark.parametrize("tension", ["yes", "no"])
+def test_forces(lmp, tmp_path, material, tension):
+    """after 40 steps, with stress, yielding and failed particles: against all pairs in NumPy"""
+    s = state()
+    # a changed velocity starts particles anew: forces are then those of the stress in the output
+    text = start(s, tmp_path, material, tension=tension) + "velocity all ramp vx 0.0 0.3 x 0.0 8.0 sum yes units box\n"
+    lmp(text + OUT.format("f"))
+    d = read(tmp_path / "f")
+    assert (d["eps"] > 0.01).mean() > 0.3 and 0.02 < (d["damage"] >= 1).mean() < 0.9 and d["vm"].max() > 0.2
+    want = brute_force(s, d, tension=tension == "yes")
+    for name in want:
+        assert np.abs(d[name] - want[name]).max() <= 1e-11 * np.abs(want[name]).max(), name
+    assert d["de"].sum() == pytest.approx(-(d["f"] * d["v"]).sum(), rel=1e-11)
+
+
+@pytest.mark.parametrize("nranks", [1, 2, 3, 4])
+def test_layouts(lmp, tmp_path, material, nranks):
+    """newton on and off, brick and tiled, 20 steps with stress: as on one rank"""
+    s = state(seed=22)
+    cases = list(itertools.product(("on", "off"), ("brick", "tiled")))
+    text = "".join("clear\n" + start(s, tmp_path, material, steps=20, newton=newton, comm=comm) + OUT.format(f"f.{k}")
+                   for k, (newton, comm) in enumerate(cases))
+    lmp(start(s, tmp_path, material, steps=20) + OUT.format("one"))
+    lmp(text, nranks=nranks)
+    one = read(tmp_path / "one")
+    assert one["eps"].max() > 0.01
+    for k, case in enumerate(cases):
+        got = read(tmp_path / f"f.{k}")
+        for name in ("x", "v", "f", "S", "eps", "damage", "de"):
+            assert np.abs(got[name] - one[name]).max() <= 1e-9 * np.abs(one[name]).max(), (case, name)
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_restart(lmp, tmp_path, material, nranks):
+    """30 steps, restart, 30 more: the same bits as 60 at once"""
+    s = state(seed=23)
+    lmp(start(s, tmp_path, material, steps=0, sort=False, more="restart 30 half\n") + "run 59\n" + OUT.format("whole"), nranks=nranks)
+    text = "read_restart half.30\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\nfix sph all hvi/sph\n"
+    lmp(text + "fix jc all hvi/johnson-cook\ntimestep 0.004\nrun 29\n" + OUT.format("part"), nranks=nranks)
+    one, two = read(tmp_path / "whole"), read(tmp_path / "part")
+    assert one["damage"].max() >= 1 and one["eps"].max() > 0.05
+    for name in one:
+        assert np.array_equal(one[name], two[name]), name
+
+
+@pytest.mark.parametrize("jc", ["", "damage no spall none", "spall pressure", "spall zero damage no", "temperature work"])
+def test_books_close(lmp, tmp_path, material, jc):
+    """energy to 1e-3, momentum to round-off, whatever the model"""
+    s = state(seed=24)
+    more = "fix step all hvi/dt 0.2\ncompute book all hvi/energy\nthermo 10\nthermo_style custom step c_book[1] c_book[2] c_book[9] c_book[10] c_book[11]\n"
+    t = lmp(start(s, tmp_path, material, steps=0, jc=jc, more=more + "thermo_modify format float %.17g\nrun 300\n")).thermo
+    assert np.abs(t["c_book[9]"] - 1).max() < 1e-3
+    assert t["c_book[1]"][-1] < 0.9 * t["c_book[1]"][0]
+    for k in (10, 11):
+        assert np.abs(t[f"c_book[{k}]"] - t[f"c_book[{k}]"][0]).max() < 1e-11
