@@ -8,6 +8,7 @@
 
 #include "hvi_material.h"
 
+#include "hvi_strength_laws.h"
 #include "hvi_text.h"
 
 #include <cmath>
@@ -17,38 +18,6 @@ namespace HVI {
 namespace {
 
   // ---------------------------------------------------------------- laws beside the equation of state
-
-  // Johnson & Cook, Proc. 7th Int. Symp. Ballistics (1983):
-  // Y = (A + B eps^n)(1 + C ln(epsdot/epsdot0))(1 - T*^m), T* = (T - Tref)/(Tm - Tref)
-
-  constexpr Parameter STRENGTH_JOHNSON_COOK[] = {
-      {"G", PRESSURE, POSITIVE, REQUIRED},     {"A", PRESSURE, POSITIVE, REQUIRED},
-      {"B", PRESSURE, NOT_NEGATIVE, REQUIRED}, {"n", NUMBER, NOT_NEGATIVE, REQUIRED},
-      {"C", NUMBER, NOT_NEGATIVE, REQUIRED},   {"m", NUMBER, POSITIVE, REQUIRED},
-      {"epsdot0", RATE, POSITIVE, 1.0},        {"Tref", TEMPERATURE, POSITIVE, REQUIRED},
-      {"Tm", TEMPERATURE, POSITIVE, REQUIRED},
-  };
-
-  // Steinberg, Cochran & Guinan, J. Appl. Phys. 51 (1980) 1498:
-  // G = G0 [1 + A p/eta^(1/3) - B (T - 300)], Y = min(Y0 (1 + beta eps)^n, Ymax) G/G0,
-  // Tm = Tm0 exp[2 a (1 - 1/eta)] eta^(2 (g0 - a - 1/3)), eta = rho/rho0
-
-  constexpr Parameter STRENGTH_STEINBERG_GUINAN[] = {
-      {"G0", PRESSURE, POSITIVE, REQUIRED},           {"Y0", PRESSURE, POSITIVE, REQUIRED},
-      {"Ymax", PRESSURE, POSITIVE, REQUIRED},         {"beta", NUMBER, NOT_NEGATIVE, REQUIRED},
-      {"n", NUMBER, NOT_NEGATIVE, REQUIRED},          {"A", PER_PRESSURE, NOT_NEGATIVE, REQUIRED},
-      {"B", PER_TEMPERATURE, NOT_NEGATIVE, REQUIRED}, {"Tm0", TEMPERATURE, POSITIVE, REQUIRED},
-      {"a", NUMBER, NOT_NEGATIVE, REQUIRED},
-  };
-
-  // Johnson & Cook, Eng. Fract. Mech. 21 (1985) 31, s* positive in tension:
-  // eps_f = [D1 + D2 exp(D3 s*)][1 + D4 ln(epsdot/epsdot0)][1 + D5 T*]
-
-  constexpr Parameter DAMAGE_JOHNSON_COOK[] = {
-      {"D1", NUMBER, ANY, REQUIRED}, {"D2", NUMBER, ANY, REQUIRED},
-      {"D3", NUMBER, ANY, REQUIRED}, {"D4", NUMBER, ANY, REQUIRED},
-      {"D5", NUMBER, ANY, REQUIRED}, {"epsdot0", RATE, POSITIVE, 1.0},
-  };
 
   // the tension, of pressure or of the largest principal stress, that the material bears
 
@@ -70,13 +39,17 @@ namespace {
     return {kind, name, N, params};
   }
 
+  template <class L> constexpr Law law(const char *kind)
+  {
+    return law(kind, L::name, L::params);
+  }
+
   // the only list of laws beside those of hvi_eos.cpp
 
   constexpr Law LAWS[] = {
-      law("strength", "johnson-cook", STRENGTH_JOHNSON_COOK),
-      law("strength", "steinberg-guinan", STRENGTH_STEINBERG_GUINAN),
-      law("damage", "johnson-cook", DAMAGE_JOHNSON_COOK),
-      law("spall", "limit", SPALL_LIMIT),
+      law<StrengthJohnsonCook>("strength"),   law<StrengthSteinbergGuinan>("strength"),
+      law<StrengthCowperSymonds>("strength"), law<StrengthPerfect>("strength"),
+      law<DamageJohnsonCook>("damage"),       law("spall", "limit", SPALL_LIMIT),
       law("thermal", "work", THERMAL_WORK),
   };
 

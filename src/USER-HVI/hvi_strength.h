@@ -1,0 +1,175 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_HVI_STRENGTH_H
+#define LMP_HVI_STRENGTH_H
+
+#include "hvi_parameter.h"
+#include "hvi_stress.h"
+
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace HVI {
+
+/* ----------------------------------------------------------------------
+   Strength of a solid: shear modulus G and flow stress Y of von Mises's
+   yield surface, sqrt(3/2 S:S) <= Y(eps, epsdot, p, T).
+
+   A law is a plain struct with
+     name
+     params[]                     its table of parameters
+     problem(const double *)      what is wrong with values that are right one by one
+     make(const double *)         from values in the order of params
+     Tref                         where T* is 0
+     modulus(conditions)          G below melt
+     melt(conditions)             melting temperature, infinite if there is none
+     scale(conditions)            the factor of Y that is constant in a step
+     flow(eps, rate)              the rest of Y; must not fall with eps or rate.
+                                  A rate that is NaN: without rate terms.
+   Thermal terms are off where T is NaN.  Guards are here, once for all laws.
+   All in any consistent units, but T in K.
+------------------------------------------------------------------------- */
+
+struct Conditions {
+  double rho, rho0, p, T;
+};
+
+// What became of a trial stress: the stress on the yield surface, the plastic strain of the step, and
+// the plastic work per volume, Y d_eps, with the Y at the end of the step
+
+struct Plastic {
+  Deviator S;
+  double d_eps, work;
+};
+
+class Strength {
+ public:
+  virtual ~Strength() = default;
+  virtual const char *name() const = 0;
+
+  // G and Y are zero at and above melt
+
+  virtual double shear_modulus(const Conditions &) const = 0;
+  virtual double yield(double eps, double rate, const Conditions &) const = 0;
+  virtual double melt_temperature(const Conditions &) const = 0;
+
+  // T* = (T - Tref)/(Tm - Tref) in [0, 1]; 0 if T is NaN or nothing melts
+
+  virtual double homologous_temperature(const Conditions &) const = 0;
+
+  // Radial return of the trial stress after a step dt, eps being the plastic strain before it.
+  // G = 0 (melt) takes away stress without plastic strain; dt = 0 means without rate terms.  From
+  // what is not a number comes NaN.
+
+  virtual Plastic radial_return(const Deviator &trial, double dt, double G, double eps,
+                                const Conditions &) const = 0;
+
+  virtual std::unique_ptr<Strength> clone() const = 0;
+};
+
+/* ----------------------------------------------------------------------
+   The stress y with  y = Y(d_eps),  d_eps = (trial - y)/(3 G),  for a Y that
+   does not fall and trial > y0 = Y(0): one root, between y0 and the trial.
+   In y, not in d_eps, both are precise, for large trials and steep Y too.
+   Chandrupatla's method, Adv. Eng. Softw. 28 (1997) 145: inverse quadratic
+   interpolation where that is safe, else bisection.
+------------------------------------------------------------------------- */
+
+template <class Yield> double solve_return(double trial, double G, double y0, const Yield &Y)
+{
+  auto excess = [&](double y) {
+    return Y((trial - y) / (3.0 * G)) - y;
+  };
+  double x1 = y0, f1 = excess(y0), x2 = trial, f2 = y0 - trial;
+  if (f1 < trial - y0) {    // the flow stress of the largest d_eps is an upper bound too
+    x2 = x1;
+    f2 = f1;
+    x1 = y0 + f1;
+    f1 = excess(x1);
+  }
+  double t = f1 / (f1 - f2);
+  for (int k = 0; k < 200; k++) {
+    if (std::fabs(f1) <= 1e-15 * x1 || std::fabs(x1 - x2) <= 1e-15 * x1) break;
+    if (!(t > 1e-15 && t < 1.0 - 1e-15)) t = 0.5;
+    const double x = x1 + t * (x2 - x1), f = excess(x);
+    double x3 = x1, f3 = f1;
+    if ((f > 0.0) != (f1 > 0.0)) {
+      x3 = x2;
+      f3 = f2;
+      x2 = x1;
+      f2 = f1;
+    }
+    x1 = x;
+    f1 = f;
+    const double xi = (x1 - x2) / (x3 - x2), phi = (f1 - f2) / (f3 - f2);
+    t = 0.5;
+    if (phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)
+      t = f1 / (f2 - f1) * f3 / (f2 - f3) + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2);
+  }
+  return x1;
+}
+
+template <class Law> class StrengthModel final : public Strength {
+ public:
+  explicit StrengthModel(const Law &law) : law(law) {}
+
+  const char *name() const override { return law.name; }
+
+  double shear_modulus(const Conditions &c) const override
+  {
+    return molten(c) ? 0.0 : positive(law.modulus(c));
+  }
+
+  double yield(double eps, double rate, const Conditions &c) const override
+  {
+    return scale(c) * law.flow(eps, rate);
+  }
+
+  double melt_temperature(const Conditions &c) const override { return law.melt(c); }
+
+  double homologous_temperature(const Conditions &c) const override
+  {
+    if (molten(c)) return 1.0;
+    return c.T > law.Tref ? (c.T - law.Tref) / (law.melt(c) - law.Tref) : 0.0;
+  }
+
+  Plastic radial_return(const Deviator &trial, double dt, double G, double eps,
+                        const Conditions &c) const override
+  {
+    const double stress = von_mises(trial), factor = scale(c);
+    const double y0 = factor * law.flow(eps, dt > 0.0 ? 0.0 : NOT_A_NUMBER);
+    if (stress <= y0) return {trial, 0.0, 0.0};
+    if (!(stress > y0 && stress < NO_LIMIT && G >= 0.0))
+      return {scaled(trial, NOT_A_NUMBER), NOT_A_NUMBER, NOT_A_NUMBER};
+    if (3.0 * G < 1e-100 * stress) return {scaled(trial, y0 / stress), 0.0, 0.0};
+    const double y = solve_return(stress, G, y0, [&](double x) {
+      return factor * law.flow(eps + x, dt > 0.0 ? std::min(x / dt, 1e300) : NOT_A_NUMBER);
+    });
+    const double d_eps = (stress - y) / (3.0 * G);
+    return {scaled(trial, y / stress), d_eps, y * d_eps};
+  }
+
+  std::unique_ptr<Strength> clone() const override
+  {
+    return std::make_unique<StrengthModel>(*this);
+  }
+
+ private:
+  static constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+  Law law;
+
+  bool molten(const Conditions &c) const { return c.T >= law.melt(c); }
+  static double positive(double x) { return x < 0.0 ? 0.0 : x; }    // NaN stays
+  double scale(const Conditions &c) const { return molten(c) ? 0.0 : positive(law.scale(c)); }
+};
+
+}    // namespace HVI
+
+#endif
