@@ -19,7 +19,7 @@ def styles(headers):
 
 
 def page_name(kind, name):
-    return (name if kind == "command" else f"{kind}_{name}").replace("/", "_")
+    return (name if kind == "command" else f"{kind}_{name}").replace("/", "_").replace("-", "_")
 
 
 def problems(source, headers):

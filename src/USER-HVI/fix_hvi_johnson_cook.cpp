@@ -111,12 +111,14 @@ void FixHVIJohnsonCook::init()
   if (!pair) error->all(FLERR, "Fix hvi/johnson-cook needs pair style hvi/sph");
 
   laws.clear();
+  bool found = false;
   laws.resize(atom->ntypes + 1);
   for (int itype = 1; itype <= atom->ntypes; itype++) {
     const HVI::Material *const material = pair->material(itype);
     if (!material) continue;
     const HVI::Section *const section = material->section("strength", strength_name);
     if (!section) continue;    // types without strength are fluids
+    found = true;
     auto made = std::make_unique<Laws>();
     std::string problem;
     made->strength = HVI::make_strength(*section, problem);
@@ -145,8 +147,22 @@ void FixHVIJohnsonCook::init()
                    material->name, itype);
       made->sigma_p = s->values.at("sigma_p");
     }
+    const HVI::Eos &eos = *material->eos;
+    made->T0 = eos.temperature(eos.rho0(), 0.0);
+    const double little = 1.0e-4 * eos.c0() * eos.c0();
+    made->cp = little / (eos.temperature(eos.rho0(), little) - made->T0);
+    const HVI::Section *const heat = material->section("thermal", "work");
+    if (heat) made->chi = heat->values.at("chi");
+    if (from_work && !(made->cp > 0.0))
+      error->all(
+          FLERR,
+          "Fix hvi/johnson-cook temperature work: the equation of state of material {} (type "
+          "{}) has no heat capacity",
+          material->name, itype);
     laws[itype] = std::move(made);
   }
+  if (!found)
+    error->all(FLERR, "Fix hvi/johnson-cook: no material has a section strength {}", strength_name);
 }
 
 /* ----------------------------------------------------------------------
