@@ -13,6 +13,7 @@
 #include "fix_hvi_johnson_cook.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "hvi_damage.h"
 #include "hvi_material.h"
@@ -140,12 +141,12 @@ void FixHVIJohnsonCook::init()
     }
     if (spall != HVI::Spall::NONE) {
       const HVI::Section *const s = material->section("spall", "limit");
-      if (!s)
-        error->all(FLERR,
-                   "Fix hvi/johnson-cook: material {} (type {}) has no section spall limit; use "
-                   "spall none",
-                   material->name, itype);
-      made->sigma_p = s->values.at("sigma_p");
+      if (!s && comm->me == 0)
+        error->warning(FLERR,
+                       "Fix hvi/johnson-cook: material {} (type {}) has no section spall limit and "
+                       "does not spall",
+                       material->name, itype);
+      made->sigma_p = s ? s->values.at("sigma_p") : INFINITY;
     }
     const HVI::Eos &eos = *material->eos;
     made->T0 = eos.temperature(eos.rho0(), 0.0);
