@@ -50,7 +50,8 @@ class Run:
 
     @staticmethod
     def sod(r, table):
-        case = scenes.Tube("sod", r["left"], r["right"], r["time"], (), (), equal=r["masses"] == "equal", at=r["n"])
+        left, right = (tuple(float(a) for a in r[k]) for k in ("left", "right"))
+        case = scenes.Tube("sod", left, right, r["time"], (), (), equal=r["masses"] == "equal", at=r["n"])
         return case, frame_of(table[np.argsort(table[:, 0])])
 
     @staticmethod
@@ -68,7 +69,7 @@ class Run:
         class Plates(scenes.Plates):
             length = 1e-3 * r["thickness_mm"]
 
-        case = Plates("flyer", *(impedance.Metal(*r[f"Hugoniot_{a}"]) for a in ("flyer", "target")), float(r["v0_m_s"]), (r["n"],), ())
+        case = Plates("flyer", *(impedance.Metal(*(float(b) for b in r[f"Hugoniot_{a}"])) for a in ("flyer", "target")), float(r["v0_m_s"]), (r["n"],), ())
         frame = frame_of(table[np.argsort(table[:, 0])])
         frame["v"][:, 0] += case.solution.shift
         frame["x"][:, 0] += case.solution.shift * 1e-6 * r["time_us"]
