@@ -174,8 +174,8 @@ def table(runs):
     print("| run | L1(rho) % | L1(u) % | L1(p) % | order | energy - 1 | momentum error | steps | time s |\n|" + 9 * "---|")
     last = None
     for name, run in runs.items():
-        r, kind, orders = run.result, name.rsplit("-", 1)[0], ""
-        if last and last[0] == kind and run.n > last[1].n:
+        r, kind, orders = run.result, name.removesuffix(f"-{run.n}"), ""
+        if last and last[0] == kind:
             orders = ", ".join("%.2f" % (np.log(last[1].l1[k] / run.l1[k]) / np.log(run.n / last[1].n)) for k in run.l1)
         print("| %s | %s | %s | %.1e | %s | %d | %.2f |" % (name, " | ".join("%.2f" % (100 * a) for a in run.l1.values()), orders,
                                                         r["energy_ratio"] - 1, r["momentum_error"], r["steps"], r["wall_s"]))
@@ -195,7 +195,7 @@ def main():
     if not folders:
         sys.exit("no runs: sh run.sh first, see README.md")
     runs = {os.path.basename(os.path.normpath(f)): Run(f) for f in folders}
-    runs = dict(sorted(runs.items(), key=lambda a: (a[0].rsplit("-", 1)[0], a[1].n)))
+    runs = dict(sorted(runs.items(), key=lambda a: (a[0].removesuffix(f"-{a[1].n}"), a[1].n)))
     if sys.argv[1:]:
         for run in runs.values():
             single(run)
