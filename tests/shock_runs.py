@@ -140,13 +140,16 @@ def read_frame(path, mass):
 
 
 def read_log(text):
-    rows, loops, steps, reading = [], 0.0, 0, False
+    """thermo rows, seconds on a core (the machine may have other things to do: its share of the loops' time), steps"""
+    rows, loops, last, steps, reading = [], 0.0, 0.0, 0, False
     for line in text.splitlines():
         w = line.split()
         if w[:2] == ["Step", "Time"]:
             reading = True
         elif line.startswith("Loop time"):
-            loops, steps, reading = loops + float(w[3]), steps + int(w[8]), False
+            last, steps, reading = float(w[3]), steps + int(w[8]), False
+        elif "% CPU use with" in line:
+            loops += last * float(w[0].rstrip("%")) / 100
         elif reading and len(w) == 11:
             try:
                 rows.append([float(a) for a in w])

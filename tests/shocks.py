@@ -3,6 +3,7 @@
 
     python3 tests/shocks.py --out build/verify      all methods, the resolutions of the long form: report.md, shocks.csv, pictures
     python3 tests/shocks.py --bounds FILE           the bounds, without running anything
+    python3 tests/shocks.py --table                 the table of doc/src/Howto_sph.rst from tests/verify/shocks.csv
 """
 
 import argparse
@@ -107,6 +108,40 @@ def report(rows, path, head):
                     f"{r['missed']} | {theirs[0]} | {theirs[1]} |\n")
 
 
+SHOWN = {"sod": "a", "sod-spacing": "a", "blast-left": "a b", "blast-right": "a b", "sjoegreen": "a", "woodward-colella": "a", "noh-1d": "",
+         "noh-2d": "c", "noh-3d": "c", "sedov-2d": "d", "sedov-3d": "d", "interface-10": "", "interface-100": "", "sound": "e", "al-al-1000": "",
+         "al-al-5000": "", "al-al-10000": "", "al-cu-5750": ""}
+
+
+def table(path=HERE / "verify" / "shocks.csv"):
+    """reST: the finest n of monaghan, riemann and stock: error, order, time; what misses its bound in brackets"""
+    with open(path) as f:
+        rows = {(r["case"], r["method"], int(r["n"])): r for r in csv.DictReader(line for line in f if line[0] != "#")}
+    body = []
+    for name, why in SHOWN.items():
+        n = max(k for c, _, k in rows if c == name)
+        cells = [name, str(n)]
+        for method in ("monaghan", "riemann", "stock"):
+            r = rows.get((name, method, n))
+            if not r or r["error"]:
+                cells += ["stops" if r else "cannot", "", ""]
+                continue
+            lost = r["missed"].split()
+            show = lambda what, number: f"({number})" if what in lost else number  # noqa: E731
+            error = [show(f"l1_{f}", f"{100 * float(r[f'l1_{f}']):.2f}") if r[f"l1_{f}"] else "-" for f in FIELDS]
+            order = [show(f"order_{f}", f"{round(float(r[f'order_{f}']), 1) + 0.0:.1f}") if r[f"order_{f}"] else "-" for f in FIELDS]
+            cells += [" ".join(error), " ".join(order), f"{float(r['seconds']):.1f}"]
+        body.append([*cells, why])
+    head = [["problem", "n", "monaghan", "", "", "riemann", "", "", "stock", "", "", "missed"], ["", "", *["error %", "order", "s"] * 3, ""]]
+    width = [max(len(r[k]) for r in head + body) for k in range(12)]
+    spans = ((0, 0), (1, 1), (2, 4), (5, 7), (8, 10), (11, 11))
+    line = lambda r: " ".join(c.ljust(w) for c, w in zip(r, width)).rstrip()  # noqa: E731
+    rule = " ".join("=" * w for w in width)
+    joined = " ".join("-" * (sum(width[a:b + 1]) + b - a) for a, b in spans)
+    # an empty first cell would go on with the line above
+    return "\n".join([rule, line(head[0]), joined, line(["\\", *head[1][1:]]), rule, *(line(r) for r in body), rule]) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--lmp", default=str(HERE.parent / "build" / "lmp"))
@@ -119,7 +154,10 @@ def main():
     parser.add_argument("--again", action="store_true", help="run nothing, measure what is in --out")
     parser.add_argument("--timeout", type=float, default=1800)
     parser.add_argument("--bounds", metavar="FILE", help="write the bounds to FILE and stop")
+    parser.add_argument("--table", action="store_true", help="print the table of the Howto and stop")
     args = parser.parse_args()
+    if args.table:
+        return print(table(), end="")
     if args.bounds:
         return table_of_bounds(args.bounds)
     out = pathlib.Path(args.out).resolve()

@@ -49,6 +49,8 @@ def test_shock(name, method, methods, lmp_exe, tmp_path):
         order = shocks.order_of(last, o) if last and not o.error else {}
         row = table.get((name, method, n))
         old = row["missed"].split() if row else []
+        if row and float(row["symmetry"]) > 0.1 * shocks.SYMMETRY:  # grown from round-off, which other machines have otherwise
+            old.append("symmetry")
         if row and lost(case, row):
             expected.append(f"n = {n}: " + (o.error or "far off"))
             last = o if not o.error else last
@@ -61,6 +63,22 @@ def test_shock(name, method, methods, lmp_exe, tmp_path):
         last = o if not o.error else last
     if expected:
         pytest.xfail("; ".join(expected))
+
+
+def test_riemann_gets_through_everything():
+    """and where it is known to converge, density meets its bound at every resolution"""
+    rows = [r for (_, method, _), r in known_misses().items() if method == "riemann"]
+    assert len(rows) == sum(len(c.long) for c in shocks.ALL) and not any(r["error"] for r in rows)
+    met = [r for r in rows if r["case"].startswith(("al-", "interface-", "noh-1d"))]
+    assert len(met) == 40 and not any(r["missed"] for r in met)
+    strong = [r for r in rows if r["case"].startswith(("blast-", "woodward-", "noh-2d"))]
+    assert len(strong) == 14 and not any("l1_rho" in r["missed"] for r in strong)
+
+
+def test_the_table_of_the_howto():
+    """is that of shocks.csv: python3 tests/shocks.py --table"""
+    text = (HERE.parents[1] / "doc" / "src" / "Howto_sph.rst").read_text()
+    assert "".join(f"   {line}\n" for line in shocks.table().splitlines()) in text
 
 
 def test_bounds_are_those_written_down():

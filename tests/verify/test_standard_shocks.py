@@ -1,0 +1,90 @@
+"""examples/standard-shocks: the inputs run, measure what they say, and agree with the scenes of tests/shocks.py"""
+
+import re
+import sys
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def example(root):
+    sys.path.insert(0, str(root / "examples" / "standard-shocks"))
+    return root / "examples" / "standard-shocks"
+
+
+@pytest.fixture
+def run(lmp, root, example, tmp_path):
+    """what plot.py makes of a run of an input of the example"""
+
+    def one(script, **variables):
+        import plot
+
+        folder = tmp_path / "-".join([script, *(str(a) for a in variables.values())])
+        folder.mkdir()
+        lmp(example / script, vars={**variables, "out": folder}, cwd=folder, env={"LAMMPS_POTENTIALS": str(root / "potentials")})
+        done = plot.Run(str(folder))
+        plot.single(done)
+        assert (folder / "profile.png").stat().st_size > 10000
+        assert done.result["energy_ratio"] == pytest.approx(1, abs=1e-3)
+        assert done.result["momentum_error"] < 1e-12 and done.result["mass_error"] == 0.0
+        return done
+
+    return one
+
+
+@pytest.mark.parametrize("script, variables, case, n", [
+    ("in.sod", dict(n=400), "sod", 400),
+    ("in.sod", dict(n=200, masses="unequal", dissipation="monaghan"), "sod-spacing", 200),
+    ("in.sod", dict(n=100, p_l=1000.0, p_r=0.01, rho_r=1.0, tstop=0.012), "blast-left", 100),
+    ("in.noh", dict(n=100), "noh-1d", 100),
+    ("in.noh", dict(n=25, dim=2), "noh-2d", 25),
+    ("in.noh", dict(n=8, dim=3, dissipation="auto"), "noh-3d", 8),
+    ("in.flyer", dict(n=100, v0=5000), "al-al-5000", 100),
+    ("in.flyer", dict(n=100, v0=5750, flyer="Al2024", target="Cu"), "al-cu-5750", 100),
+])
+def test_as_the_scene(run, lmp_exe, tmp_path, script, variables, case, n):
+    """the same problem as in tests/shock_scenes.py, set up in LAMMPS's own words: the same errors"""
+    import shock_runs
+    import shock_scenes
+
+    method = {"auto": "interface"}.get(variables.get("dissipation"), variables.get("dissipation", "riemann"))
+    got = run(script, **variables)
+    scene = shock_runs.run(shock_scenes.CASES[case], method, n, lmp_exe, tmp_path / "scene")
+    assert got.result["particles"] == scene.particles
+    assert got.l1 == pytest.approx(scene.l1, rel=5e-3)  # limits of h are rounder, plates have another frame
+
+
+def test_plateau(run):
+    """exact values by hand (u = v0/2; u and P of Al 2024 on Cu as in tests/verify/test_shock_references.py), measured within 0.1 %"""
+    r = run("in.flyer", n=100, v0=2000).result
+    assert r["velocity_exact_m_s"] == pytest.approx(1000) and r["shock_speed_exact_m_s"] == pytest.approx(5240 + 1.4 * 1000)
+    assert r["pressure_exact_Pa"] == pytest.approx(2703 * 6640 * 1000)
+    assert r["density_exact_kg_m3"] == pytest.approx(2703 * 6640 / 5640, rel=1e-6)
+    for k in ("pressure", "density", "velocity", "shock_speed"):
+        unit = dict(pressure="Pa", density="kg_m3", velocity="m_s", shock_speed="m_s")[k]
+        assert r[f"{k}_error"] == pytest.approx(r[f"{k}_{unit}"] / r[f"{k}_exact_{unit}"] - 1, abs=1e-5)
+        assert abs(r[f"{k}_error"]) < 1e-3
+    from reference import impedance
+
+    u, p = impedance.match(impedance.AL2024, impedance.COPPER, 5750.0)
+    r = run("in.flyer", n=50, v0=5750, flyer="Al2024", target="Cu").result
+    assert r["velocity_exact_m_s"] == pytest.approx(u, rel=1e-6) and r["pressure_exact_Pa"] == pytest.approx(p, rel=1e-6)
+
+
+def test_hugoniots_are_those_of_the_files(root, example):
+    found = re.findall(r'file_(\w) index (\S+)" "variable rho_\1 index (\S+)" "variable c_\1 index (\S+)" "variable s_\1 index (\S+)"',
+                       (example / "in.flyer").read_text())
+    assert len(found) == 6
+    for _, name, *values in found:
+        eos = (root / "potentials" / name).read_text().split("eos gruneisen")[1].split("\n\n")[0]
+        assert [float(v) for v in values] == [float(re.search(rf"^ *{k} +(\S+)", eos, re.M).group(1)) for k in ("rho0", "C", "S1")]
+
+
+@pytest.mark.parametrize("script, variables, text", [
+    ("in.sod", dict(n=401), "whole number of spacings"),
+    ("in.sod", dict(dissipation="none"), "monaghan, auto or riemann, not none"),
+    ("in.noh", dict(dim=4), "dim must be 1, 2 or 3"),
+    ("in.flyer", dict(target="cheese"), "unknown target cheese"),
+])
+def test_wrong_variables(lmp, example, script, variables, text):
+    assert text in lmp(example / script, vars=variables, expect_fail=True).stdout
