@@ -70,7 +70,7 @@ def measure_piston(n, frames, exact):
     dt = b["t"] - a["t"]
     t = b["t"]
     gap = (exact["D1"] - exact["D2"]) * t
-    one = (b["x"] > exact["D2"] * t + 0.4 * gap) & (b["x"] < exact["D1"] * t - 0.25 * gap)
+    one = (b["x"] > exact["D2"] * t + 0.45 * gap) & (b["x"] < exact["D1"] * t - 0.3 * gap)
     two = (b["x"] > 0.2 * exact["D2"] * t) & (b["x"] < 0.85 * exact["D2"] * t)
     inside = b["x"] < 1.05 * exact["D1"] * t
     return dict(D1=(x1[1] - x1[0]) / dt, D2=(x2[1] - x2[0]) / dt, u1=b["u"][one].mean(), p1=b["p"][one].mean(), rho1=b["rho"][one].mean(),
@@ -80,7 +80,7 @@ def measure_piston(n, frames, exact):
 
 def test_piston(lmp, tmp_path):
     exact, last = piston(EOS, G, Y, UP), None
-    for n in (100, 200):
+    for n in (100, 200, 400):
         r, frames = piston_row(lmp, tmp_path, n, name=f"f{n}")
         m = measure_piston(n, frames, exact)
         print(n, {k: f"{v / exact[k] - 1:+.2e}" for k, v in m.items() if k in exact}, {k: m[k] for k in ("vm1", "vm2", "S2", "l1")})
@@ -91,12 +91,193 @@ def test_piston(lmp, tmp_path):
         assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
         assert max(momentum_error(r.thermo)) < 1e-12
         if last:
-            assert m["l1"] < 0.62 * last["l1"]  # first order, discontinuities
+            assert m["l1"] < 0.75 * last["l1"]  # order 1/2: the precursor is so weak that it spreads as sqrt(viscosity t)
         last = m
     # plateaus: what the kernel gives, and half a percent for what is left of the oscillations
     for k in ("rho1", "rho2"):
         assert last[k] - EOS.rho0 == pytest.approx(exact[k] - EOS.rho0, rel=0.01), k
     for k in ("u1", "p1", "u2", "p2"):
         assert last[k] == pytest.approx(exact[k], rel=0.01), k
-    assert last["vm2"] == pytest.approx(Y, rel=1e-9)
-    assert last["S2"] == pytest.approx(-2 / 3 * Y, rel=1e-9)
+    assert last["vm2"] == pytest.approx(Y, rel=0.01)
+    assert last["S2"] == pytest.approx(-2 / 3 * Y, rel=0.01)
+
+
+def test_elastic_bars(lmp, tmp_path):
+    """two bars meet at +-V below yield: they part at 2 L/c, stress-free, with speeds V"""
+    V, L = 1e-3, 1.0
+    path = material(tmp_path / "metal.hvi", EOS_TEXT, f"strength perfect G {G} Y {Y}")
+    c = np.sqrt(EOS.c0**2 + 4 / 3 * G / EOS.rho0)
+    for n in (100, 200):
+        s = row(2 * L, 2 * n, margin=0.1, rho=EOS.rho0)
+        left = s.x[:, 0] < 0.5 * s.box[0]
+        s.type = np.where(left, 1, 2)
+        s.mass, s.h = {1: s.mass[1], 2: s.mass[1]}, {1: s.h[1], 2: s.h[1]}
+        s.v[:, 0] = np.where(left, V, -V)
+        T = 2 * L / c
+        steps = int(round(T / (0.2 / n / c)))
+        dt = T / steps
+        r = run(lmp, tmp_path, s, pair(path, h=s.h, types=2, words="viscosity 0.1 0.1"), "strength perfect damage no spall none", 2 * steps, dt=dt,
+                frames=steps // 40, name=f"b{n}")
+        m = s.m
+        t = np.array([f["time"] for f in r.frames])
+        u = np.array([(m * f["v"][:, 0])[left].sum() / m[left].sum() for f in r.frames]) / V
+        half = crossings(t, u, 0.0)[0]
+        end = r.frames[-1]
+        k = np.array([0.5 * (m * (f["v"] ** 2).sum(1)).sum() for f in r.frames]) / (0.5 * m.sum() * V**2)
+        stress = np.abs(end["sxx"]).max() / (EOS.rho0 * c * V)
+        print(n, "turns at t/(L/c)", half / (L / c), "end u/V", u[-1], "kinetic", k.min(), k[-1], "stress", stress, "eps", end["eps"].max(),
+              "drift", np.abs(r.thermo["c_book[9]"] - 1).max(), "gap", end["x"][~left, 0].min() - end["x"][left, 0].max())
+        near = np.argsort(-np.abs(end["sxx"]))[:12]
+        print([(round((end["x"][i,0] - end["x"][left,0].max())*n, 1), round(end["sxx"][i]/(EOS.rho0*c*V),3), round(end["p"][i]/(EOS.rho0*c*V),3), round((end["rho"][i]/EOS.rho0-1)/(V/c),3), round(end["v"][i,0]/V,3)) for i in near], "rms", np.sqrt((end["sxx"]**2).mean())/(EOS.rho0*c*V))
+        last = dict(half=half, u=u[-1], stress=stress, k=k[-1])
+        assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
+        assert max(momentum_error(r.thermo)) < 1e-12
+        assert end["eps"].max() == 0.0
+    assert last["half"] == pytest.approx(L / c, rel=0.01)
+    assert last["u"] == pytest.approx(-1.0, abs=0.02)
+    assert last["stress"] < 0.05
+
+
+# kinematics: velocities are given, stress follows
+
+
+def block(n, dim=2, h=2.0, rho=1.0, margin=6):
+    """a block of n^dim particles of spacing 1, its middle in the middle of the box"""
+    x = np.zeros((n**dim, 3))
+    x[:, :dim] = np.stack(np.meshgrid(*[np.arange(n)] * dim, indexing="ij"), -1).reshape(-1, dim) + 0.5 + margin
+    box = np.full(3, n + 2.0 * margin)
+    if dim == 2:
+        box[2] = 1.0
+    k = len(x)
+    return Fluid(x, np.zeros((k, 3)), np.full(k, rho), np.zeros(k), np.ones(k, int), {1: rho}, {1: h}, box, (False, False, dim == 2), dim)
+
+
+def turned(S, angle):
+    c, s = np.cos(angle), np.sin(angle)
+    R = np.array([[c, -s], [s, c]])
+    return R @ S @ R.T
+
+
+def plane(f, k):
+    """deviator in the plane of the particles k"""
+    m = (f["sxx"] + f["syy"] + f["szz"])[k] / 3
+    return np.array([[(f["sxx"][k] - m).mean(), f["sxy"][k].mean()], [f["sxy"][k].mean(), (f["syy"][k] - m).mean()]])
+
+
+LINEAR = ("eos linear rho0 1 K 16", "strength perfect G 6 Y 1000")
+
+
+def test_rotated_stress(lmp, tmp_path):
+    """a block is stretched and sheared by 1 %, then turned by 100 degrees about its middle: S becomes R S R^T, no energy is taken up"""
+    path = material(tmp_path / "metal.hvi", *LINEAR)
+    s = block(20, h=2.0)
+    mid = s.box[0] / 2
+    d = s.x - mid
+    d[:, 2] = 0
+    s.v[:, 0] = 0.01 * d[:, 0] + 0.006 * d[:, 1]
+    s.v[:, 1] = 0.006 * d[:, 0] - 0.004 * d[:, 1]
+    drift = []
+    for dt in (0.01, 0.005):
+        first, w = int(round(1 / dt)), 0.5
+        turn = int(round(np.radians(100) / w / dt))
+        more = (f"fix hold all setforce 0 0 0\nrun {first}\nunfix hold\n"
+                f"variable vx atom -{w}*(y-{mid:.17g})\nvariable vy atom {w}*(x-{mid:.17g})\nvelocity all set v_vx v_vy 0\n"
+                f"variable fx atom -mass*{w * w}*(x-{mid:.17g})\nvariable fy atom -mass*{w * w}*(y-{mid:.17g})\nfix turn all setforce v_fx v_fy 0\n"
+                f"run {turn}\n")
+        r = run(lmp, tmp_path, s, pair(path, "quintic", s.h, dim=2, words="viscosity 0 0"), "strength perfect damage no spall none", 0, dt=dt,
+                frames=10, more=more, ledger="clamps all", every=100)
+        inside = np.abs(d).max(1) < 3
+        a, b = r.frames[first // 10], r.frames[-1]
+        S0, S1 = plane(a, inside), plane(b, inside)
+        angle = w * turn * dt
+        M = consistency("quintic", 2.0, 2)[0, 0]
+        want = turned(S0, angle * M)
+        size = np.abs(S0).max()
+        vm = np.array([f["vm"][inside].mean() for f in r.frames[first // 10:]])
+        e = np.array([f["e"][inside].mean() for f in r.frames[first // 10:]])
+        print("M - 1", M - 1, "S0", S0.tolist(), "S1", S1.tolist(), "error", np.abs(S1 - want).max() / size, "with M = 1", np.abs(S1 - turned(S0, angle)).max() / size,
+              "vm", vm[-1] / vm[0] - 1, "e", e[-1] / e[0] - 1, "wrong sign would be", np.abs(turned(S0, -angle) - want).max() / size)
+        drift.append((np.abs(S1 - want).max() / size, abs(vm[-1] / vm[0] - 1), np.ptp(e) / e[0]))
+    # the lattice has M instead of 1, so turning by an angle makes a strain of |M - 1| angle
+    F = np.eye(2) + [[0.01, 0.006], [0.006, -0.004]]
+    bound = 2 * 6 * np.radians(100) * np.abs(consistency("quintic", 2.0, 2, F) - np.eye(2)).max() / size
+    print("bound", bound)
+    assert drift[-1][0] < bound and drift[-1][1] < bound
+    assert drift[-1][2] < 2 * bound  # quadratic in S
+
+
+@pytest.mark.parametrize("kind", ["elastic", "johnson-cook"])
+def test_simple_shear(lmp, tmp_path, kind):
+    """v_x = y up to gamma 1.5: the constitutive law integrated by itself, with L = M from the sheared lattice"""
+    sections = dict(elastic=("eos linear rho0 1 K 16", "strength johnson-cook G 6 A 1e6 B 0 n 1 C 0 m 1 epsdot0 1 Tref 300 Tm 900"))
+    sections["johnson-cook"] = ("eos gruneisen rho0 1 C 4 S1 1.4 g0 2 a 0 cp 0.001 T0 300",
+                                "strength johnson-cook G 6 A 0.1 B 0.2 n 0.4 C 0.02 m 1 epsdot0 0.01 Tref 300 Tm 900")
+    path = material(tmp_path / "metal.hvi", *sections[kind])
+    s = block(28, h=2.0)
+    mid = s.box[0] / 2
+    s.box[0] += 60
+    s.x[:, 0] += 30
+    rate, end, h = 1.0, 1.5, 2.0
+    s.v[:, 0] = rate * (s.x[:, 1] - mid)
+    dt = 0.002
+    r = run(lmp, tmp_path, s, pair(path, "quintic", s.h, dim=2, words="viscosity 0 0"), "strength johnson-cook damage no spall none",
+            int(round(end / dt)), dt=dt, frames=50, more="fix hold all setforce 0 0 0", ledger="clamps all")
+    d = s.x - [mid + 30, mid, 0]
+    inside = (np.abs(d[:, 0]) < 4) & (np.abs(d[:, 1]) < 1.1)
+    got = [dict(gamma=rate * f["time"], rho=f["rho"][inside].mean(), e=f["e"][inside].mean(), eps=f["eps"][inside].mean(), T=f["T"][inside].mean(),
+                S=plane(f, inside), vm=f["vm"][inside].mean()) for f in r.frames]
+
+    # the law, by small steps
+    S, eps, rho, e, work = np.zeros((3, 3)), 0.0, 1.0, 0.0, 0.0
+    eos, G_ = Gruneisen(1.0, 4.0, 1.4, 2.0), 6.0
+    n, steps, want = 4, int(round(end / dt)), []
+    worst = 0.0
+    for k in range(steps * n + 1):
+        gamma = k * dt / n * rate
+        if k % (10 * n) == 0:
+            M = consistency("quintic", h, 2, [[1, gamma], [0, 1]])
+            worst = max(worst, np.abs(M - np.eye(2)).max())
+        if k % (50 * n) == 0:
+            want.append(dict(gamma=gamma, S=S[:2, :2].copy(), eps=eps, e=e, rho=rho, work=work))
+        L = np.zeros((3, 3))
+        L[0, :2] = rate * M[1]
+        D, W = 0.5 * (L + L.T), 0.5 * (L - L.T)
+        trial = S + dt / n * (2 * G_ * (D - np.trace(D) / 3 * np.eye(3)) + W @ S - S @ W)
+        vm = np.sqrt(1.5 * (trial**2).sum())
+        new = trial
+        if kind != "elastic":
+            T = 300 + e / 0.001
+            heat = 1 - np.clip((T - 300) / 600, 0, 1)
+
+            def yield_(de):
+                x = de / (dt / n) / 0.01
+                return (0.1 + 0.2 * (eps + de) ** 0.4) * (1 + 0.02 * np.log(max(x, 1))) * heat
+
+            if vm > yield_(0):
+                lo, hi = 0.0, vm / (3 * G_)
+                for _ in range(60):
+                    m = 0.5 * (lo + hi)
+                    lo, hi = (m, hi) if vm - 3 * G_ * m > yield_(m) else (lo, m)
+                y = yield_(lo)
+                eps, new, work = eps + lo, trial * (y / vm), work + lo * y / rho
+        p = 16 * (rho - 1) if kind == "elastic" else eos.p(rho, e)
+        e += dt / n * ((0.5 * (S + new) * D).sum() - p * np.trace(D)) / rho
+        rho -= dt / n * rho * np.trace(D)
+        S = new
+    size = max(np.abs(w["S"]).max() for w in want)
+    error = max(np.abs(g["S"] - w["S"]).max() for g, w in zip(got, want)) / size
+    g, w = got[-1], want[-1]
+    ideal = 6 * np.sin(g["gamma"]) if kind == "elastic" else np.nan
+    print(kind, "M - 1 at most", worst, "S error", error, "Sxy", g["S"][0, 1], "ODE", w["S"][0, 1], "ideal", ideal, "eps", g["eps"], w["eps"], "e", g["e"], w["e"],
+          "work", w["work"], "T", g["T"], 300 + w["e"] / 0.001, "rho", g["rho"], w["rho"])
+    assert len(got) == len(want)
+    assert error < 2e-3
+    assert g["e"] == pytest.approx(w["e"], rel=2e-3)
+    if kind == "elastic":
+        assert g["S"][0, 1] == pytest.approx(ideal, rel=3 * worst + 2e-3)
+    else:
+        assert g["eps"] == pytest.approx(w["eps"], rel=2e-3)
+        # adiabatic: all but the elastic energy, S:S/4G, is plastic work, and heats
+        elastic = g["vm"] ** 2 / 6 / G_
+        assert g["e"] == pytest.approx(w["work"] + elastic, rel=5e-3)
+        assert g["T"] - 300 == pytest.approx((w["work"] + elastic) / 0.001, rel=5e-3)
