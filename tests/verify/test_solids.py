@@ -103,39 +103,33 @@ def test_piston(lmp, tmp_path):
 
 
 def test_elastic_bars(lmp, tmp_path):
-    """two bars meet at +-V below yield: they part at 2 L/c, stress-free, with speeds V"""
+    """two bars meet at +-V below yield: they part at 2 L/c, stress-free, with speeds V; viscosity keeps a part, of order 1/2 in spacing"""
     V, L = 1e-3, 1.0
     path = material(tmp_path / "metal.hvi", EOS_TEXT, f"strength perfect G {G} Y {Y}")
     c = np.sqrt(EOS.c0**2 + 4 / 3 * G / EOS.rho0)
-    for n in (100, 200):
+    loss = []
+    for n in (100, 400):
         s = row(2 * L, 2 * n, margin=0.1, rho=EOS.rho0)
         left = s.x[:, 0] < 0.5 * s.box[0]
         s.type = np.where(left, 1, 2)
         s.mass, s.h = {1: s.mass[1], 2: s.mass[1]}, {1: s.h[1], 2: s.h[1]}
         s.v[:, 0] = np.where(left, V, -V)
-        T = 2 * L / c
-        steps = int(round(T / (0.2 / n / c)))
-        dt = T / steps
-        r = run(lmp, tmp_path, s, pair(path, h=s.h, types=2, words="viscosity 0.1 0.1"), "strength perfect damage no spall none", 2 * steps, dt=dt,
+        steps = 40 * int(round(2 * L / (0.2 / n) / 40))
+        r = run(lmp, tmp_path, s, pair(path, h=s.h, types=2), "strength perfect damage no spall none", 2 * steps, dt=2 * L / c / steps,
                 frames=steps // 40, name=f"b{n}")
-        m = s.m
-        t = np.array([f["time"] for f in r.frames])
-        u = np.array([(m * f["v"][:, 0])[left].sum() / m[left].sum() for f in r.frames]) / V
-        half = crossings(t, u, 0.0)[0]
+        t = np.array([f["time"] for f in r.frames]) * c / L
+        u = np.array([f["v"][left, 0].mean() for f in r.frames]) / V
         end = r.frames[-1]
-        k = np.array([0.5 * (m * (f["v"] ** 2).sum(1)).sum() for f in r.frames]) / (0.5 * m.sum() * V**2)
-        stress = np.abs(end["sxx"]).max() / (EOS.rho0 * c * V)
-        print(n, "turns at t/(L/c)", half / (L / c), "end u/V", u[-1], "kinetic", k.min(), k[-1], "stress", stress, "eps", end["eps"].max(),
-              "drift", np.abs(r.thermo["c_book[9]"] - 1).max(), "gap", end["x"][~left, 0].min() - end["x"][left, 0].max())
-        near = np.argsort(-np.abs(end["sxx"]))[:12]
-        print([(round((end["x"][i,0] - end["x"][left,0].max())*n, 1), round(end["sxx"][i]/(EOS.rho0*c*V),3), round(end["p"][i]/(EOS.rho0*c*V),3), round((end["rho"][i]/EOS.rho0-1)/(V/c),3), round(end["v"][i,0]/V,3)) for i in near], "rms", np.sqrt((end["sxx"]**2).mean())/(EOS.rho0*c*V))
-        last = dict(half=half, u=u[-1], stress=stress, k=k[-1])
+        stress = np.sqrt((end["sxx"] ** 2).mean()) / (EOS.rho0 * c * V)
+        loss.append(1 + u[-1])
+        print(n, "u = 0 at", crossings(t, u, 0.0)[0], "end u/V", u[-1], "rms stress", stress, "kinetic", (end["v"] ** 2).mean() * 3 / 3 / V**2)
         assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
         assert max(momentum_error(r.thermo)) < 1e-12
-        assert end["eps"].max() == 0.0
-    assert last["half"] == pytest.approx(L / c, rel=0.01)
-    assert last["u"] == pytest.approx(-1.0, abs=0.02)
-    assert last["stress"] < 0.05
+        assert end["eps"].max() == 0.0 and not end["damage"].any()
+    assert crossings(t, u, 0.0)[0] == pytest.approx(1.0, abs=1 / 400 + abs(consistency("quintic", 1.2, 1)[0, 0] - 1))
+    assert loss[1] < 0.65 * loss[0] and abs(2 * loss[1] - loss[0]) < 0.01  # n^(-1/2), to nothing
+    assert stress < 0.03
+    assert end["x"][~left, 0].min() - end["x"][left, 0].max() == pytest.approx(1 / 400 + 2 * V * 2 * L / c, rel=0.05)
 
 
 # kinematics: velocities are given, stress follows
@@ -179,7 +173,7 @@ def test_rotated_stress(lmp, tmp_path):
     drift = []
     for dt in (0.01, 0.005):
         first, w = int(round(1 / dt)), 0.5
-        turn = int(round(np.radians(100) / w / dt))
+        turn = 10 * int(round(np.radians(100) / w / dt / 10))
         more = (f"fix hold all setforce 0 0 0\nrun {first}\nunfix hold\n"
                 f"variable vx atom -{w}*(y-{mid:.17g})\nvariable vy atom {w}*(x-{mid:.17g})\nvelocity all set v_vx v_vy 0\n"
                 f"variable fx atom -mass*{w * w}*(x-{mid:.17g})\nvariable fy atom -mass*{w * w}*(y-{mid:.17g})\nfix turn all setforce v_fx v_fy 0\n"
@@ -281,3 +275,32 @@ def test_simple_shear(lmp, tmp_path, kind):
         elastic = g["vm"] ** 2 / 6 / G_
         assert g["e"] == pytest.approx(w["work"] + elastic, rel=5e-3)
         assert g["T"] - 300 == pytest.approx((w["work"] + elastic) / 0.001, rel=5e-3)
+
+
+def disc(lmp, folder, R, speed, kernel="quintic", h=1.6, turns=0.25, words="viscosity 0 0", dt=None, name="disc", visc=None):
+    """a free elastic disc that is set spinning; tip speed in units of c = sqrt(K/rho + 4/3 G/rho) = sqrt(24)"""
+    path = material(folder / "metal.hvi", *LINEAR)
+    s = block(2 * R, h=h, margin=R)
+    d = s.x - s.box / 2
+    d[:, 2] = 0
+    keep = (d**2).sum(1) < R * R
+    d = d[keep]
+    n = len(d)
+    s.x, s.v, s.rho, s.esph, s.type = s.x[keep], np.zeros((n, 3)), np.ones(n), np.zeros(n), np.ones(n, int)
+    w = speed * np.sqrt(24) / R
+    s.v[:, 0], s.v[:, 1] = -w * d[:, 1], w * d[:, 0]
+    dt = 0.2 * h / np.sqrt(24)
+    steps = int(round(turns * 2 * np.pi / w / dt))
+    r = run(lmp, folder, s, pair(path, kernel, s.h, dim=2, words=words), "strength perfect damage no spall none", steps, dt=dt, frames=max(1, steps // 40), name=name)
+
+    def spin(f):
+        x = f["x"] - f["x"].mean(0)
+        return (x[:, 0] * f["v"][:, 1] - x[:, 1] * f["v"][:, 0]).sum()
+
+    J = np.array([spin(f) for f in r.frames])
+    kinetic = np.array([(f["v"] ** 2).sum() for f in r.frames])
+    # how far it turned: best rotation of the places
+    x0, x1 = r.frames[0]["x"][:, :2], r.frames[-1]["x"][:, :2]
+    A = (x1 - x1.mean(0)).T @ (x0 - x0.mean(0))
+    turned_by = np.degrees(np.arctan2(A[1, 0] - A[0, 1], A[0, 0] + A[1, 1]))
+    return r, J / J[0], kinetic / kinetic[0], turned_by
