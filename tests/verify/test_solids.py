@@ -304,3 +304,77 @@ def disc(lmp, folder, R, speed, kernel="quintic", h=1.6, turns=0.25, words="visc
     A = (x1 - x1.mean(0)).T @ (x0 - x0.mean(0))
     turned_by = np.degrees(np.arctan2(A[1, 0] - A[0, 1], A[0, 0] + A[1, 1]))
     return r, J / J[0], kinetic / kinetic[0], turned_by
+
+
+DUCTILE = dict(D1=0.02, D2=0.04, D3=-1.5, D4=0.01, D5=0.0)
+
+
+def test_damage(lmp, tmp_path):
+    """a row is stretched until it fails: D is the integral of d_eps/eps_f; then no S, no tension, but compression"""
+    path = material(tmp_path / "metal.hvi", "eos gruneisen rho0 1 C 4 S1 1.4 g0 2 a 0 T0 300",
+                    "strength johnson-cook G 6 A 0.1 B 0.2 n 0.4 C 0.02 m 1 epsdot0 0.01 Tref 300 Tm 900",
+                    "damage johnson-cook epsdot0 0.01 " + " ".join(f"{k} {v}" for k, v in DUCTILE.items()))
+    s = row(40.0, 40, margin=5.0)
+    d = s.x[:, 0] - s.box[0] / 2
+    rate, dt = 0.1, 0.001
+    s.v[:, 0] = rate * d
+    mid = s.box[0] / 2
+    free = "unfix hold\nvelocity all set 0 0 0\nrun 200\n"
+    squeeze = f"fix hold all setforce 0 0 0\nvariable v atom -{rate}*(x-{mid:.17g})\nvelocity all set v_v 0 0\nrun 700\n"
+    push = "unfix hold\nvelocity all set 0 0 0\nrun 200\n"
+    r = run(lmp, tmp_path, s, pair(path, h=s.h, words="viscosity 0 0"), "strength johnson-cook damage yes spall none", 0, dt=dt, frames=1, every=100,
+            more="fix hold all setforce 0 0 0\nrun 500\n" + free + squeeze + push)
+    inside = np.abs(d) < 6
+    stretch, still, pressed, end = r.frames[:501], r.frames[501:702], r.frames[702:1402], r.frames[-1]
+    eps, damage, p, vm, epsdot = (np.array([f[k][inside].mean() for f in stretch]) for k in ("eps", "damage", "p", "vm", "epsdot"))
+    alive = damage < 1
+    star = np.clip(-p / np.maximum(vm, 1e-300), -10, 10)
+    D = DUCTILE
+    eps_f = (D["D1"] + D["D2"] * np.exp(D["D3"] * star)) * (1 + D["D4"] * np.log(np.maximum(epsdot / 0.01, 1)))
+    want = np.append(0, np.cumsum(np.diff(eps) * 0.5 * (1 / eps_f[1:] + 1 / eps_f[:-1])))
+    k = np.nonzero(alive)[0][-1]
+    print("failed at step", k + 1, "strain", rate * (k + 1) * dt, "eps", eps[k], "s* from", star[eps > 0][0], "to", star[k], "D", damage[k], "integral", want[k],
+          "worst", np.abs(want - damage)[:k].max())
+    assert 50 < k < 480
+    assert np.abs(want - damage)[:k].max() < 0.005  # d_eps of a step/eps_f
+    assert star[k] > 2 and np.all(np.diff(damage) >= 0)
+    # failed: no stress, nothing moves
+    last = stretch[-1]
+    assert last["rho"][inside].max() < 0.99 and not last["vm"][inside].any() and not last["sxx"][inside].any()
+    whole = np.abs(still[-1]["v"][inside]).max()
+    print("failed particles at rest move with", whole, "edge", np.abs(still[-1]["v"]).max(), "damaged", (last["damage"] >= 1).sum())
+    assert whole == 0.0
+    # compression is borne, and pushes apart again
+    dense = pressed[-1]
+    print("compressed to", dense["rho"][inside].mean(), "p", dense["p"][inside].mean(), "then ends move", end["v"][0, 0], end["v"][-1, 0])
+    assert dense["rho"][inside].min() > 1.01
+    assert dense["sxx"][inside].mean() == pytest.approx(-16 * (dense["rho"][inside].mean() - 1), rel=0.1)
+    assert not dense["vm"][inside].any()
+    assert end["v"][-1, 0] > 0.01 and end["v"][0, 0] < -0.01
+
+
+# spall, SI
+
+
+def flyer(lmp, folder, root, V, n, jc="strength johnson-cook damage no spall principal", a=2e-3, words="viscosity 1 2", t_end=2.2e-6, name="s"):
+    path = root / "potentials" / "Al6061-T6.hvi"
+    s = row(3 * a, 3 * n, margin=2 * a, rho=2703.0)
+    dx = a / n
+    first = s.x[:, 0] < 2 * a + a
+    s.type = np.where(first, 1, 2)
+    s.mass, s.h = {1: s.mass[1], 2: s.mass[1]}, {1: s.h[1], 2: s.h[1]}
+    s.v[:, 0] = np.where(first, V, 0.0)
+    dt = 0.12 * dx / 6500
+    steps = int(t_end / dt)
+    r = run(lmp, folder, s, pair(path, h=s.h, words=words, types=2), jc, steps, dt=dt, frames=max(1, steps // 400), units="si", name=name)
+    return s, r, first, a, dx
+
+
+def pull_back(s, r):
+    t = np.array([f["time"] for f in r.frames])
+    u = np.array([f["v"][-1, 0] for f in r.frames])
+    spalled = np.array([f["spalled"].any() or (f["damage"] >= 1).any() for f in r.frames])
+    up = np.nonzero(u > 0.9 * u.max())[0][0]
+    first = np.nonzero(spalled)[0]
+    t_sp = t[first[0]] if len(first) else np.nan
+    return t, u, up, t_sp
