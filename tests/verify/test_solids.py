@@ -325,7 +325,7 @@ def test_damage(lmp, tmp_path):
     r = run(lmp, tmp_path, s, pair(path, h=s.h, words="viscosity 0 0"), "strength johnson-cook damage yes spall none", 0, dt=dt, frames=1, every=100,
             more="fix hold all setforce 0 0 0\nrun 500\n" + free + squeeze + push)
     inside = np.abs(d) < 6
-    stretch, still, pressed, end = r.frames[:501], r.frames[501:702], r.frames[702:1402], r.frames[-1]
+    stretch, still, pressed, end = r.frames[:501], r.frames[501:701], r.frames[701:1401], r.frames[-1]
     eps, damage, p, vm, epsdot = (np.array([f[k][inside].mean() for f in stretch]) for k in ("eps", "damage", "p", "vm", "epsdot"))
     alive = damage < 1
     star = np.clip(-p / np.maximum(vm, 1e-300), -10, 10)
@@ -378,3 +378,55 @@ def pull_back(s, r):
     first = np.nonzero(spalled)[0]
     t_sp = t[first[0]] if len(first) else np.nan
     return t, u, up, t_sp
+
+
+# impacts: coarse, of all speeds
+
+
+def impact(lmp, folder, root, V, metal="Al6061-T6", tD=1.0, angle=0.0, N=8, end=3.0, C=0.2, jc="", words="viscosity 1 2", name="i"):
+    """sphere (N spacings across) of a metal on a plate of Al 6061-T6, thickness tD diameters; debris leaves through the faces"""
+    D, rho = 8e-3, {"Al6061-T6": 2703.0, "Cu-OFHC": 8930.0}[metal]
+    file = folder / "sphere.hvi"
+    text = (root / "potentials" / f"{metal}.hvi").read_text()
+    file.write_text(text if "spall limit" in text else text + "\nspall limit\n  sigma_p 1.2e9\n")
+    dx = D / N
+    dp = min(dx, tD * D)
+    layers = int(round(tD * D / dp))
+    k = np.arange(N) - 0.5 * (N - 1)
+    ball = dx * np.stack(np.meshgrid(k, k, k, indexing="ij"), -1).reshape(-1, 3)
+    ball = ball[(ball**2).sum(1) <= (D / 2) ** 2]
+    w = int(round(2 * D / dp))
+    q = dp * (np.arange(w) - 0.5 * (w - 1))
+    plate = np.stack(np.meshgrid(dp * (np.arange(layers) + 0.5), q, q, indexing="ij"), -1).reshape(-1, 3)
+    ball[:, 0] -= ball[:, 0].max() + 0.5 * (dx + dp) - 0.5 * dp
+    ball[:, 1] -= np.tan(angle) * 0.5 * D
+    x = np.concatenate([ball, plate])
+    half = 1.3 * D
+    x += [1.6 * D, half, half]
+    n = len(ball)
+    s = Fluid(x, np.zeros_like(x), np.where(np.arange(len(x)) < n, rho, 2703.0), np.zeros(len(x)), np.where(np.arange(len(x)) < n, 1, 2),
+              {1: rho * dx**3, 2: 2703.0 * dp**3}, {1: 1.2 * dx, 2: 1.2 * dp}, np.array([(3.2 + tD) * D, 2 * half, 2 * half]), (False,) * 3)
+    s.v[:n] = V * np.array([np.cos(angle), np.sin(angle), 0])
+    pairs = (f"pair_style hvi/sph cubic form sum {words} h constant\npair_coeff 1 1 file {file} h {s.h[1]:.17g}\n"
+             f"pair_coeff 2 2 file {root}/potentials/Al6061-T6.hvi h {s.h[2]:.17g}\n")
+    t_end = end * D / V
+    more = f"variable t equal time\nfix stop all halt 1 v_t > {t_end:.17g} error continue\n"
+    r = run(lmp, folder, s, pairs, jc, 20000, frames=20000, every=20, units="si", lost="ignore", more=more, name=name)
+    t = r.thermo
+    momentum = s.m @ np.abs(s.v).sum(1)
+    return dict(steps=t["Step"][-1], time=t["Time"][-1] / t_end, drift=np.abs(t["c_book[9]"] - 1).max(), momentum=max(momentum_error(t)) / momentum,
+                left=t["c_book[21]"][-1], atoms=t["Atoms"][-1], n=len(x), dt=(t["Dt"].min(), t["Dt"].max()), result=r)
+
+
+IMPACTS = [(1e3, "Al6061-T6", 1.0, 0), (3e3, "Cu-OFHC", 0.05, 0), (7e3, "Al6061-T6", 0.05, 0), (7e3, "Cu-OFHC", 1.0, 45), (12e3, "Al6061-T6", 1.0, 0),
+           (20e3, "Cu-OFHC", 1.0, 0), (20e3, "Al6061-T6", 0.05, 45)]
+
+
+@pytest.mark.parametrize("V, metal, tD, angle", IMPACTS)
+def test_impacts(lmp, tmp_path, root, V, metal, tD, angle):
+    """any speed, thin and thick plates, heavy spheres, obliquely: it ends, and the ledger closes"""
+    o = impact(lmp, tmp_path, root, V, metal, tD, np.radians(angle))
+    print(V, metal, tD, angle, {k: v for k, v in o.items() if k != "result"})
+    assert o["time"] > 0.8 and o["left"] > 0  # the last line of output before the end
+    assert o["drift"] <= ENERGY
+    assert o["momentum"] < 1e-11
