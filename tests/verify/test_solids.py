@@ -348,7 +348,9 @@ def test_damage(lmp, tmp_path):
     dense = pressed[-1]
     print("compressed to", dense["rho"][inside].mean(), "p", dense["p"][inside].mean(), "then ends move", end["v"][0, 0], end["v"][-1, 0])
     assert dense["rho"][inside].min() > 1.01
-    assert dense["sxx"][inside].mean() == pytest.approx(-16 * (dense["rho"][inside].mean() - 1), rel=0.1)
+    want = -Gruneisen(1.0, 4.0, 1.4, 2.0).p(dense["rho"], dense["e"])
+    assert dense["sxx"][inside] == pytest.approx(want[inside], rel=1e-9)
+    assert np.array_equal(dense["p"][inside], -dense["sxx"][inside])
     assert not dense["vm"][inside].any()
     assert end["v"][-1, 0] > 0.01 and end["v"][0, 0] < -0.01
 
@@ -430,3 +432,54 @@ def test_impacts(lmp, tmp_path, root, V, metal, tD, angle):
     assert o["time"] > 0.8 and o["left"] > 0  # the last line of output before the end
     assert o["drift"] <= ENERGY
     assert o["momentum"] < 1e-11
+
+
+# spall, and what free bodies that turn lose
+
+
+def test_spall(lmp, tmp_path, root):
+    """Al 6061-T6 at 300 m/s: speed of the free surface, pull-back, place of the spall
+
+    Elastic fronts run at c_l, plastic ones at c0. By characteristics the free surface comes to V - s_H (1/(rho c0) - 1/(rho c_l)), s_H being
+    the Hugoniot elastic limit, and falls back by du = s_p (1/(rho c0) + 1/(rho c_l)) (Stepanov 1976): release at c0, the wave from the spall at c_l.
+    """
+    V, G_, Y0, sigma, rho0, c0, a = 300.0, 27.6e9, 324.1e6 * (1 + 0.002 * np.log(1e6)), 1.2e9, 2703.0, 5240.0, 2e-3
+    cl = np.sqrt(c0**2 + 4 / 3 * G_ / rho0)
+    hel = Y0 * rho0 * cl**2 / (2 * G_)
+    stepanov = sigma / rho0 * (1 / c0 + 1 / cl)
+    found = []
+    for n in (50, 100):
+        s, r, first, a, dx = flyer(lmp, tmp_path, root, V, n, a=a, t_end=1.6e-6, name=f"s{n}")
+        t, u, up, t_sp = pull_back(s, r)
+        top = up + u[up:].argmax()
+        low = top + next(k for k in range(3, len(u) - top - 3) if u[top + k] == u[top + k - 3:top + k + 4].min() and u[top + k] < u[top] - 20)
+        depth = s.x[-1, 0] + 0.5 * dx - s.x[r.frames[-1]["spalled"] > 0, 0]
+        assert len(depth) and np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
+        found.append(dict(top=u[top], du=u[top] - u[low], near=depth.min(), far=depth.max(), pull=max(f["sxx"].max() for f in r.frames)))
+        o = found[-1]
+        print(n, o, "top by theory", V - hel / rho0 * (1 / c0 - 1 / cl), "du by theory", stepanov, "ratio", o["du"] / stepanov,
+              "half rho c0 du/s_p", 0.5 * rho0 * c0 * o["du"] / sigma, "half rho c_l du/s_p", 0.5 * rho0 * cl * o["du"] / sigma)
+    fine = found[1]
+    assert fine["top"] == pytest.approx(V - hel / rho0 * (1 / c0 - 1 / cl), rel=0.01)
+    assert fine["pull"] <= sigma
+    # the pull-back is blunted over some kernels; it comes closer with resolution, and from below
+    assert 1 - fine["du"] / stepanov < 0.7 * (1 - found[0]["du"] / stepanov) < 0.12
+    assert fine["du"] == pytest.approx(stepanov, rel=0.1)
+    # acoustics: the releases of both faces meet a flyer's thickness from the free surface, to half the width of the front that arrives there
+    rise = t[u > 0.9 * fine["top"]][0] - t[u > 0.1 * fine["top"]][0]
+    print("width of the front", c0 * rise)
+    assert abs(fine["near"] - a) < 0.5 * c0 * rise and abs(fine["far"] - a) < 0.5 * c0 * rise
+
+
+def test_spinning_disc(lmp, tmp_path):
+    """a free elastic disc spins: momentum and energy are kept; angular momentum is not, as the gradient of a surface is not that of a rotation"""
+    lost = []
+    for R in (6, 12):
+        r, J, K, angle = disc(lmp, tmp_path, R, 0.1, name=f"d{R}")
+        print(R, "J", J[-1], "kinetic", K[-1], "turned", angle, "vm", r.frames[-1]["vm"].max())
+        lost.append(1 - J[-1])
+        assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
+        assert max(momentum_error(r.thermo)) < 1e-12 * np.abs(J).max() * R**2
+    assert lost[1] < 0.6 * lost[0]  # of the surface: first order
+    if max(lost) > 1e-3:
+        pytest.xfail(f"angular momentum lost in a quarter of a turn: {lost[0]:.1%}, {lost[1]:.1%} with 6, 12 spacings in the radius")
