@@ -154,7 +154,8 @@ def test_elastic_bars(lmp, tmp_path):
         end = r.frames[-1]
         stress = np.sqrt((end["sxx"] ** 2).mean()) / (EOS.rho0 * c * V)
         loss.append(1 + u[-1])
-        print(n, "u = 0 at", crossings(t, u, 0.0)[0], "end u/V", u[-1], "rms stress", stress, "kinetic", (end["v"] ** 2).mean() * 3 / 3 / V**2)
+        print(n, "u = 0 at", crossings(t, u, 0.0)[0], "end u/V", u[-1], "rms stress", stress, "kinetic",
+              (end["v"] ** 2).sum(1).mean() / V**2)
         assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
         assert max(momentum_error(r.thermo)) < 1e-12
         assert end["eps"].max() == 0.0 and not end["damage"].any()
@@ -232,12 +233,13 @@ def test_rotated_stress(lmp, tmp_path):
     assert drift[-1][2] < 2 * bound  # quadratic in S
 
 
-@pytest.mark.parametrize("kind", ["elastic", "johnson-cook"])
+@pytest.mark.parametrize("kind", ["elastic", "johnson-cook", "temperature work"])
 def test_simple_shear(lmp, tmp_path, kind):
     """v_x = y up to gamma 1.5: the constitutive law integrated by itself, with L = M from the sheared lattice"""
     sections = dict(elastic=("eos linear rho0 1 K 16", "strength johnson-cook G 6 A 1e6 B 0 n 1 C 0 m 1 epsdot0 1 Tref 300 Tm 900"))
     sections["johnson-cook"] = ("eos gruneisen rho0 1 C 4 S1 1.4 g0 2 a 0 cp 0.001 T0 300",
                                 "strength johnson-cook G 6 A 0.1 B 0.2 n 0.4 C 0.02 m 1 epsdot0 0.01 Tref 300 Tm 900")
+    sections["temperature work"] = sections["johnson-cook"]
     path = material(tmp_path / "metal.hvi", *sections[kind])
     s = block(28, h=2.0)
     mid = s.box[0] / 2
@@ -246,7 +248,7 @@ def test_simple_shear(lmp, tmp_path, kind):
     rate, end, h = 1.0, 1.5, 2.0
     s.v[:, 0] = rate * (s.x[:, 1] - mid)
     dt = 0.002
-    r = run(lmp, tmp_path, s, pair(path, "quintic", s.h, dim=2, words="viscosity 0 0"), "strength johnson-cook damage no spall none",
+    r = run(lmp, tmp_path, s, pair(path, "quintic", s.h, dim=2, words="viscosity 0 0"), f"damage no spall none {kind if ' ' in kind else ''}",
             int(round(end / dt)), dt=dt, frames=50, more="fix hold all setforce 0 0 0", ledger="clamps all")
     d = s.x - [mid + 30, mid, 0]
     inside = (np.abs(d[:, 0]) < 4) & (np.abs(d[:, 1]) < 1.1)
@@ -272,7 +274,7 @@ def test_simple_shear(lmp, tmp_path, kind):
         vm = np.sqrt(1.5 * (trial**2).sum())
         new = trial
         if kind != "elastic":
-            T = 300 + e / 0.001
+            T = 300 + (work if kind == "temperature work" else e) / 0.001
             heat = 1 - np.clip((T - 300) / 600, 0, 1)
 
             def yield_(de):
@@ -309,7 +311,7 @@ def test_simple_shear(lmp, tmp_path, kind):
         assert g["T"] - 300 == pytest.approx((w["work"] + elastic) / 0.001, rel=5e-3)
 
 
-def disc(lmp, folder, R, speed, kernel="quintic", h=1.6, turns=0.25, words="viscosity 0 0", dt=None, name="disc", visc=None):
+def disc(lmp, folder, R, speed, kernel="quintic", h=1.6, turns=0.25, words="viscosity 0 0", name="disc"):
     """a free elastic disc that is set spinning; tip speed in units of c = sqrt(K/rho + 4/3 G/rho) = sqrt(24)"""
     path = material(folder / "metal.hvi", *LINEAR)
     s = block(2 * R, h=h, margin=R)
@@ -497,10 +499,11 @@ def test_spall(lmp, tmp_path, root):
     # the pull-back is blunted over some kernels; it comes closer with resolution, and from below
     assert 1 - fine["du"] / stepanov < 0.7 * (1 - found[0]["du"] / stepanov) < 0.12
     assert fine["du"] == pytest.approx(stepanov, rel=0.1)
-    # acoustics: the releases of both faces meet a flyer's thickness from the free surface, to half the width of the front that arrives there
-    rise = t[u > 0.9 * fine["top"]][0] - t[u > 0.1 * fine["top"]][0]
+    # acoustics: the releases of both faces meet a flyer's thickness from the free surface, to the width of the plastic front that
+    # arrives there (the elastic one moves the surface by 2 s_H/(rho c_l), a quarter of the whole)
+    rise = t[u > 0.9 * fine["top"]][0] - t[u > 0.35 * fine["top"]][0]
     print("width of the front", c0 * rise)
-    assert abs(fine["near"] - a) < 0.5 * c0 * rise and abs(fine["far"] - a) < 0.5 * c0 * rise
+    assert abs(fine["near"] - a) < c0 * rise and abs(fine["far"] - a) < c0 * rise
 
 
 def test_spinning_disc(lmp, tmp_path):
