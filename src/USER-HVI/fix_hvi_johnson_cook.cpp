@@ -13,6 +13,7 @@
 #include "fix_hvi_johnson_cook.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "hvi_damage.h"
 #include "hvi_material.h"
@@ -140,12 +141,12 @@ void FixHVIJohnsonCook::init()
     }
     if (spall != HVI::Spall::NONE) {
       const HVI::Section *const s = material->section("spall", "limit");
-      if (!s)
-        error->all(FLERR,
-                   "Fix hvi/johnson-cook: material {} (type {}) has no section spall limit; use "
-                   "spall none",
-                   material->name, itype);
-      made->sigma_p = s->values.at("sigma_p");
+      if (!s && comm->me == 0)
+        error->warning(FLERR,
+                       "Fix hvi/johnson-cook: material {} (type {}) has no section spall limit and "
+                       "does not spall",
+                       material->name, itype);
+      made->sigma_p = s ? s->values.at("sigma_p") : INFINITY;
     }
     const HVI::Eos &eos = *material->eos;
     made->T0 = eos.temperature(eos.rho0(), 0.0);
@@ -225,8 +226,8 @@ void FixHVIJohnsonCook::advance(int i, const Laws &law, double dt)
   Solid &s = solid[i];
   const HVI::Conditions c = conditions(i, pair->pressure(i));
   s.shear = law.strength->shear_modulus(c);
-  HVI::Deviator trial = s.S;
-  add(trial, dt, rate(i));
+  HVI::Deviator trial = s.middle;
+  add(trial, 0.5 * dt, rate(i));
   const HVI::Plastic plastic = law.strength->radial_return(trial, dt, s.shear, s.eps, c);
   if (std::isnan(plastic.d_eps))
     error->one(FLERR, "Fix hvi/johnson-cook: stress of particle {} is not a number", atom->tag[i]);
@@ -234,7 +235,7 @@ void FixHVIJohnsonCook::advance(int i, const Laws &law, double dt)
   s.eps += plastic.d_eps;
   s.heat += plastic.work / c.rho;
   s.rate = plastic.d_eps / dt;
-  if (law.damage)
+  if (law.damage && plastic.d_eps > 0.0)
     s.damage += law.damage->increment(plastic.d_eps, dt, c.p, HVI::von_mises(s.S),
                                       law.strength->homologous_temperature(c));
   if (s.damage >= 1.0) rubble(i);
@@ -247,8 +248,9 @@ void FixHVIJohnsonCook::rubble(int i)
 }
 
 /* ----------------------------------------------------------------------
-   S goes on to the middle of the step, and is extrapolated to its end for the
-   forces: back to the yield surface there too, but without plastic strain
+   Half of the elastic trial stress; and S extrapolated to the end of the step for the
+   forces, back to the yield surface, without plastic strain.  The second half, with
+   the new velocity gradient, brings the radial return.
 ------------------------------------------------------------------------- */
 
 void FixHVIJohnsonCook::first_half(double dt)
@@ -257,19 +259,19 @@ void FixHVIJohnsonCook::first_half(double dt)
     const Laws *const law = of(i);
     if (!law) continue;
     Solid &s = solid[i];
+    HVI::Deviator ahead = s.S;
     if (!failed(i)) {
       const HVI::Deviator dS = rate(i);
-      advance(i, *law, dt);
-      if (!failed(i)) {
-        HVI::Deviator ahead = s.S;
-        add(ahead, dt, dS);
-        const double stress = HVI::von_mises(ahead);
-        const double yield = law->strength->yield(s.eps, s.rate, conditions(i, pair->pressure(i)));
-        send(i, law, stress > yield ? HVI::scaled(ahead, yield / stress) : ahead);
-        continue;
-      }
+      s.middle = s.S;
+      add(s.middle, 0.5 * dt, dS);
+      add(ahead, dt, dS);
+      const double stress = HVI::von_mises(ahead);
+      const double yield = s.rate > 0.0
+          ? HVI::von_mises(s.S)
+          : law->strength->yield(s.eps, 0.0, conditions(i, pair->pressure(i)));
+      if (stress > yield) ahead = HVI::scaled(ahead, yield / stress);
     }
-    send(i, law, s.S);
+    send(i, law, ahead);
   }
 }
 

@@ -35,13 +35,14 @@ class FixHVIJohnsonCook : public Fix {
     struct {
       HVI::Deviator S;
       double p_min, shear;
-    } sent;            // extrapolated to the full step, as in the forces; changes before them only
-    double eps;        // equivalent plastic strain
-    double damage;     // failed from 1 on
-    double spalled;    // 1: spalled for good
-    double heat;       // plastic work per mass
-    double shear;      // modulus
-    double rate;       // of plastic strain
+    } sent;    // extrapolated to the full step, as in the forces; changes before them only
+    HVI::Deviator middle;    // trial stress in the middle of the step
+    double eps;              // equivalent plastic strain
+    double damage;           // failed from 1 on
+    double spalled;          // 1: spalled for good
+    double heat;             // plastic work per mass
+    double shear;            // modulus
+    double rate;             // of plastic strain
   };
 
   FixHVIJohnsonCook(class LAMMPS *, int, char **);
@@ -59,7 +60,7 @@ class FixHVIJohnsonCook : public Fix {
   int size_restart(int) override;
   double memory_usage() override;
 
-  // called by fix hvi/sph, with half the time step
+  // called by fix hvi/sph, with the time step
 
   void start(int, bool);
   void first_half(double);

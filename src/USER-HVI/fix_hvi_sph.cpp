@@ -206,7 +206,7 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
   double *const rho = atom->rho;
   double *const esph = atom->esph;
   const double ahead = pair->is_stock() ? 0.0 : 1.0;
-  if (strength) strength->first_half(dtf);
+  if (strength) strength->first_half(dtv);
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
@@ -257,7 +257,7 @@ void FixHVISPH::final_integrate()
     esph[i] += dtf * atom->desph[i] - e.de;
     e.drho = e.de = 0.0;
   }
-  if (strength) strength->second_half(dtf);
+  if (strength) strength->second_half(dtv);
 
   const double now = pair->viscous_power();
   ledger->book_viscous(dtf * (power + now));

@@ -102,10 +102,9 @@ State limit(const Strength &law, const Path &path, int n, double *order = nullpt
 {
   constexpr int LEVELS = 6;
   State t[LEVELS];
-  double last = 0.0;
   for (int k = 0; k < LEVELS; k++) t[k] = walk(law, path, n << k);
   const double coarse = (t[LEVELS - 2] - t[LEVELS - 3]).norm();
-  last = (t[LEVELS - 1] - t[LEVELS - 2]).norm();
+  const double last = (t[LEVELS - 1] - t[LEVELS - 2]).norm();
   if (order) *order = std::log2(coarse / last);
   for (int j = 1; j < LEVELS; j++)
     for (int k = LEVELS - 1; k >= j; k--) t[k] += (t[k] - t[k - 1]) / (std::pow(2.0, j) - 1.0);
@@ -362,7 +361,7 @@ TEST(Path, PerfectInShear)
       },
       p, 20000);
   double order;
-  expect_same(limit(*law, p, 200, &order), want, 1e-8);
+  expect_same(limit(*law, p, 200, &order), want, 1e-10);
   EXPECT_NEAR(order, 1.0, 0.1);
 }
 
@@ -399,7 +398,7 @@ TEST(Path, JohnsonCook)
         p, 40000);
     ASSERT_GT(want[8], 5.0);
     double order;
-    expect_same(limit(*law, p, 1000, &order), want, 1e-8);
+    expect_same(limit(*law, p, 1000, &order), want, 1e-10);
     EXPECT_NEAR(order, 1.0, 0.1);
   }
 }
@@ -430,7 +429,7 @@ TEST(Path, JohnsonCookSlow)
                     return G;
                   },
                   p, 40000),
-              1e-8);
+              1e-10);
 }
 
 TEST(Path, CowperSymondsCyclic)
@@ -451,7 +450,7 @@ TEST(Path, CowperSymondsCyclic)
         leg, 40000);
     ASSERT_GT(want[6], leg.eps0 + 0.01);
     ASSERT_LT(sign * want[1], 0.0);
-    expect_same(limit(*law, leg, 1000), want, 1e-8);
+    expect_same(limit(*law, leg, 1000), want, 1e-10);
     sign = -sign;
     leg.L = [=](double) {
       return general(sign * 40.0);
@@ -508,7 +507,7 @@ TEST(Path, SteinbergGuinan)
         },
         p, 20000);
     ASSERT_GT(want[6], 0.05);
-    expect_same(limit(*law, p, 500), want, 1e-8);
+    expect_same(limit(*law, p, 500), want, 1e-10);
   }
 }
 

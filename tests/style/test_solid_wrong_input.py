@@ -1,0 +1,43 @@
+"""fix hvi/johnson-cook: what cannot be is refused, with a message that says what is wrong."""
+
+import pytest
+from sph_scenes import random_fluid, scene
+from test_solid_forces import MATERIAL
+
+PAIR = "pair_style hvi/sph cubic {words}\npair_coeff * * file {path} h 1.25\n"
+
+
+@pytest.fixture
+def refused(lmp, tmp_path):
+    def run(message, jc="all hvi/johnson-cook", words="", text=None, fix="fix sph all hvi/sph\n", pair=None, more=""):
+        path = tmp_path / "test.hvi"
+        path.write_text(text or MATERIAL.format(sigma_p=3.0))
+        s = random_fluid(5, h=1.25)
+        pair = pair or PAIR.format(words=words, path=path)
+        r = lmp(scene(s, tmp_path / "s.data", pair, fix=fix) + f"fix jc {jc}\n" + more + "run 0\n", expect_fail=True)
+        assert message in r.error, r.error
+
+    return run
+
+
+@pytest.mark.parametrize("words, message", [
+    ("spall", "Illegal fix hvi/johnson-cook spall command: missing argument"),
+    ("spall tension", "spall must be none, pressure, principal or zero, not tension"),
+    ("temperature hot", "temperature must be energy or work, not hot"),
+    ("damage maybe", "maybe"),
+    ("strain 1", "Unknown fix hvi/johnson-cook keyword: strain"),
+    ("strength perfect", "no material has a section strength perfect"),
+    ("strength rubber", "no material has a section strength rubber")])
+def test_words(refused, words, message):
+    refused(message, jc=f"all hvi/johnson-cook {words}")
+
+
+def test_what_it_needs(refused):
+    text = MATERIAL.format(sigma_p=3.0)
+    refused("needs fix hvi/sph, which calls it", fix="")
+    refused("form sum and dissipation monaghan", words="form symmetric")
+    refused("form sum and dissipation monaghan", words="dissipation riemann")
+    refused("More than one fix hvi/johnson-cook", more="fix other all hvi/johnson-cook\n")
+    refused("has no section damage johnson-cook; use damage no", text=text[:text.index("damage")] + text[text.index("spall"):])
+    refused("no material has a section strength", pair="pair_style hvi/sph cubic\npair_coeff * * eos tait 1.0 4.0 7 h 1.2\n")
+    refused("needs fix hvi/johnson-cook", jc="all hvi/dt 0.2", more="compute s all hvi/atom damage\nrun 0\n")
