@@ -51,7 +51,9 @@ compute R all property/atom rho
 dump d all custom {frames or max(steps, 1)} {name}.dump id type x y z vx vy vz c_R c_S[*]
 dump_modify d format float %.17g sort id time yes
 thermo {every or frames or max(1, steps // 20)}
-thermo_style custom step time dt atoms c_book[1] c_book[2] c_book[9] c_book[10] c_book[11] c_book[12] c_book[13] c_book[14] c_book[15] c_book[16] c_book[17] c_book[18] c_book[21]
+thermo_style custom step time dt atoms &
+ c_book[1] c_book[2] c_book[9] c_book[10] c_book[11] c_book[12] c_book[13] c_book[14] c_book[15] &
+ c_book[16] c_book[17] c_book[18] c_book[21]
 thermo_modify format float %.17g lost {lost}
 {more}
 """

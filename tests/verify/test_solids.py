@@ -506,15 +506,22 @@ def test_spall(lmp, tmp_path, root):
     assert abs(fine["near"] - a) < c0 * rise and abs(fine["far"] - a) < c0 * rise
 
 
-def test_spinning_disc(lmp, tmp_path):
-    """a free elastic disc spins: momentum and energy are kept; angular momentum is not, as the gradient of a surface is not that of a rotation"""
+@pytest.mark.parametrize("kernel, h", [("cubic", 1.2), ("quintic", 1.6)])
+def test_spinning_disc(lmp, tmp_path, kernel, h):
+    """a free elastic disc spins: momentum and energy are kept; angular momentum is not
+
+    Near a surface M differs from 1 in one direction, so that a rotation is taken for a strain: stress builds up with the angle and turns the
+    disc back. It goes as the surface and as 1/speed^2; inside a lattice there is none of it (test_rotated_stress). With L M^-1 for L in the
+    rate of S a prototype in NumPy, otherwise of the same forces and losses, keeps angular momentum to 1e-4.
+    """
     lost = []
     for R in (6, 12):
-        r, J, K, angle = disc(lmp, tmp_path, R, 0.1, name=f"d{R}")
-        print(R, "J", J[-1], "kinetic", K[-1], "turned", angle, "vm", r.frames[-1]["vm"].max())
+        r, J, K, angle = disc(lmp, tmp_path, R, 0.1, kernel, h, name=f"d{R}")
+        print(kernel, R, "J", J[-1], "kinetic", K[-1], "turned", angle, "vm", r.frames[-1]["vm"].max())
         lost.append(1 - J[-1])
         assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
-        assert max(momentum_error(r.thermo)) < 1e-12 * np.abs(J).max() * R**2
-    assert lost[1] < 0.6 * lost[0]  # of the surface: first order
-    if max(lost) > 1e-3:
+        assert max(momentum_error(r.thermo)) < 1e-12 * len(r.frames[0]["x"])
+    if kernel == "quintic":
+        assert lost[1] < 0.6 * lost[0]  # of the surface: first order
+    if max(np.abs(lost)) > 1e-3:
         pytest.xfail(f"angular momentum lost in a quarter of a turn: {lost[0]:.1%}, {lost[1]:.1%} with 6, 12 spacings in the radius")
