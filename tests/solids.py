@@ -82,7 +82,8 @@ def taylor(lmp, folder, dx, root=HERE.parent, h=1.2, V=227.0, L=32.4e-3, R=3.2e-
     rad = np.sqrt(y[:, 1] ** 2 + y[:, 2] ** 2)
     foot = rad[-y[:, 0] < 1e-3] if y[:, 0].mean() < 0 else rad[y[:, 0] < 1e-3]  # of a disc, from its second moment; and the outermost particle
     return (f"Taylor dx {dx} n {2 * n} wall {time.time() - start:.0f} s: length {1e3 * (y[:, 0].max() - y[:, 0].min() + dx):.2f} mm (21.4-21.7), foot radius "
-            f"{1e3 * np.sqrt(2 * (foot**2).mean()):.2f} mm (6.97-7.24; outermost particle {1e3 * rad.max():.2f}, 99 % {1e3 * np.quantile(foot, 0.99):.2f}), drift {np.abs(r.thermo['c_book[9]'] - 1).max():.1e}")
+            f"{1e3 * np.sqrt(2 * (foot**2).mean()):.2f} mm (6.97-7.24; "
+            f"outermost particle {1e3 * rad.max():.2f}, 99 % {1e3 * np.quantile(foot, 0.99):.2f}), drift {np.abs(r.thermo['c_book[9]'] - 1).max():.1e}")
 
 
 if __name__ == "__main__":
