@@ -18,8 +18,8 @@ start = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS"))
 data = np.array([line.split() for line in lines[start:]], dtype=float)
 kind, (x, y, z), (vx, vy, vz), (p, damage, spalled, vm) = data[:, 1], 1e3 * data[:, 2:5].T, data[:, 5:8].T, data[:, 8:12].T
 dx = result["dx_mm"]
-slab = np.abs(y) < 1.01 * dx
-size = 6.0 * dx
+slab = np.abs(y) < 2.0
+size = 8.0 * dx
 
 fig, axes = plt.subplots(2, 2, figsize=(13, 11))
 side, above, speed, stress = axes.flat
@@ -39,7 +39,9 @@ for ax in axes.flat:
     ax.set_aspect("equal")
     ax.set_xlabel("x, mm" if ax is above else "z, mm")
     ax.set_ylabel("y, mm" if ax is above else "x, mm")
-stress.set_xlim(-8, 12)
+stress.set_aspect("auto")
+stress.set_xlim(-15, 20)
+stress.set_ylim(-27, 27)
 above.set_xlim(-27, 27)
 above.set_ylim(-27, 27)
 fig.tight_layout()
