@@ -508,20 +508,16 @@ def test_spall(lmp, tmp_path, root):
 
 @pytest.mark.parametrize("kernel, h", [("cubic", 1.2), ("quintic", 1.6)])
 def test_spinning_disc(lmp, tmp_path, kernel, h):
-    """a free elastic disc spins: momentum and energy are kept; angular momentum is not
+    """a free elastic disc spins: momentum, energy and angular momentum are kept
 
-    Near a surface M differs from 1 in one direction, so that a rotation is taken for a strain: stress builds up with the angle and turns the
-    disc back. It goes as the surface and as 1/speed^2; inside a lattice there is none of it (test_rotated_stress). With L M^-1 for L in the
-    rate of S a prototype in NumPy, otherwise of the same forces and losses, keeps angular momentum to 1e-4.
+    Near a surface M differs from 1 in one direction, so that with gradient plain a rotation is taken for a strain: stress builds up with the
+    angle and turns the disc back. It goes as the surface and as 1/speed^2; inside a lattice there is none of it (test_rotated_stress).
     """
-    lost = []
     for R in (6, 12):
         r, J, K, angle = disc(lmp, tmp_path, R, 0.1, kernel, h, name=f"d{R}")
         print(kernel, R, "J", J[-1], "kinetic", K[-1], "turned", angle, "vm", r.frames[-1]["vm"].max())
-        lost.append(1 - J[-1])
+        assert abs(J[-1] - 1) < 2e-3
         assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
         assert max(momentum_error(r.thermo)) < 1e-12 * len(r.frames[0]["x"])
-    if kernel == "quintic":
-        assert lost[1] < 0.6 * lost[0]  # of the surface: first order
-    if max(np.abs(lost)) > 1e-3:
-        pytest.xfail(f"angular momentum lost in a quarter of a turn: {lost[0]:.1%}, {lost[1]:.1%} with 6, 12 spacings in the radius")
+    r, J, K, angle = disc(lmp, tmp_path, 12, 0.1, kernel, h, name="plain", words="viscosity 0 0 gradient plain")
+    assert J[-1] < (0.8 if kernel == "cubic" else 0.995)
