@@ -48,7 +48,8 @@ struct alignas(64) SphRates {
   double heat;    // viscous part of de
   double unused[2];
 };
-// of solids: deviatoric stress, which neighbors must know, and velocity gradient L_ab = d v_a/d x_b
+// of solids: deviatoric stress, which neighbors must know; velocity gradient L_ab = d v_a/d x_b, and what
+// it comes out as if L is 1
 
 struct alignas(32) SphStress {
   static constexpr int SENT = 8;
@@ -59,13 +60,15 @@ struct alignas(32) SphStress {
 };
 
 struct alignas(32) SphGradV {
-  static constexpr int SENT = 9;
+  static constexpr int SENT = 15;
   double xx, xy, xz, yx;
   double yy, yz, zx, zy;
-  double zz, unused[3];
+  double zz, mxx, myy,
+      mzz;    // M = - sum_j V_j x_ij (x) grad W_ij: 1 where particles are even all around
+  double mxy, mxz, myz, unused;
 };
 
-static_assert(sizeof(SphStress) == 2 * sizeof(Vec4) && sizeof(SphGradV) == 3 * sizeof(Vec4),
+static_assert(sizeof(SphStress) == 2 * sizeof(Vec4) && sizeof(SphGradV) == 4 * sizeof(Vec4),
               "records are read as vectors");
 static_assert(sizeof(SphPlace) == sizeof(Vec4) && sizeof(SphState) == 2 * sizeof(Vec4) &&
                   sizeof(SphRates) == 2 * sizeof(Vec4),
@@ -157,7 +160,7 @@ template <class Kernel, int SCENE> class SphGradient {
 
    Solids (form sum only) have the deviatoric stress S besides, tension positive:
      f_i += V_i V_j (S_i + S_j) grad W     dE_i -= V_i V_j v_ij.S_i grad W
-     L_i -= V_j v_ij (x) grad W
+     L_i -= V_j v_ij (x) grad W            M_i -= V_j x_ij (x) grad W
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
@@ -181,7 +184,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
 
   const Vec zero = {}, one = zero + 1.0;
   Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, same = zero;
-  Vec grad[9] = {};
+  Vec grad[15] = {};
   const SphStress Si = SCENE & SPH_STRENGTH ? stress[i] : SphStress{};
 
   for (int m = 0; m < nlanes; m += LANES) {
@@ -253,7 +256,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
     Vec f[3] = {force * dx, force * dy, force * dz};
     Vec work_i = zero, work_j = zero;
     if (SCENE & SPH_STRENGTH) {
-      Vec S[8], mine[9];
+      Vec S[8], mine[16];
       read_columns(stress, j, 0, S);
       read_columns(stress, j, 1, S + 4);
       const Vec VVF = bonded * w_i * w_j * F;
@@ -269,15 +272,15 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
       work_j = VVF * (tj[0] * dvx + tj[1] * dvy + tj[2] * dvz);
 
       const Vec Fx = -bonded * F * dx, Fy = -bonded * F * dy, Fz = -bonded * F * dz;
-      const Vec product[9] = {dvx * Fx, dvx * Fy, dvx * Fz, dvy * Fx, dvy * Fy,
-                              dvy * Fz, dvz * Fx, dvz * Fy, dvz * Fz};
-      for (int k = 0; k < 9; k++) {
+      const Vec product[15] = {dvx * Fx, dvx * Fy, dvx * Fz, dvy * Fx, dvy * Fy,
+                               dvy * Fz, dvz * Fx, dvz * Fy, dvz * Fz, dx * Fx,
+                               dy * Fy,  dz * Fz,  dx * Fy,  dx * Fz,  dy * Fz};
+      for (int k = 0; k < 15; k++) {
         grad[k] += w_j * product[k];
         mine[k] = w_i * product[k];
       }
-      add_columns(gradv, j, 0, mine);
-      add_columns(gradv, j, 1, mine + 4);
-      add_column(gradv, j, &SphGradV::zz, mine[8]);
+      mine[15] = zero;
+      for (int k = 0; k < 4; k++) add_columns(gradv, j, k, mine + 4 * k);
     }
     fx += f[0];
     fy += f[1];
@@ -302,7 +305,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
   total.drho += sum(drho);
   total.heat += sum(heat);
   if (SCENE & SPH_STRENGTH)
-    for (int k = 0; k < 9; k++) (&gradv[i].xx)[k] += sum(grad[k]);
+    for (int k = 0; k < 15; k++) (&gradv[i].xx)[k] += sum(grad[k]);
   return sum(same) > 0.0;
 }
 

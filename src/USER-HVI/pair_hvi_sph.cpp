@@ -28,6 +28,7 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <cstring>
 
@@ -185,9 +186,22 @@ void PairHVISPH::gather_stress()
   comm->forward_comm(this);
 }
 
+// corrected: L M^-1 is exact in a linear field.  The law sees it, forces do not.  Where neighbors lie in
+// a plane or are few, M cannot be inverted and the plain one is taken.
+
 HVI::VelocityGradient PairHVISPH::velocity_gradient(int i) const
 {
   const HVI::SphGradV &L = gradv[i];
+  if (corrected) {
+    Eigen::Matrix3d grad, M;
+    grad << L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz;
+    M << L.mxx, L.mxy, L.mxz, L.mxy, L.myy, L.myz, L.mxz, L.myz, L.mzz;
+    for (int k = laws.dim; k < 3; k++) M(k, k) = 1.0;
+    if (M.determinant() > 0.05) {
+      const Eigen::Matrix3d c = grad * M.inverse();
+      return {c(0, 0), c(0, 1), c(0, 2), c(1, 0), c(1, 1), c(1, 2), c(2, 0), c(2, 1), c(2, 2)};
+    }
+  }
   return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
 }
 

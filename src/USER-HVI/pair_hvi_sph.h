@@ -70,7 +70,7 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   std::string kernel, text;
   double support;
   HVI::SphLaws laws;
-  bool variable, energy, density, riemann, solid;
+  bool variable, energy, density, riemann, solid, corrected;
   double hmin, hmax;    // in units of the start value
 
   // pair_coeff

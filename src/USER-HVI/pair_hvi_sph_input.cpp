@@ -75,6 +75,7 @@ void PairHVISPH::settings(int narg, char **arg)
   laws.a = 1.0;
   laws.b = 2.0;
   variable = density = riemann = false;
+  corrected = true;
   energy = true;
   hmin = 0.5;
   hmax = 1.25;
@@ -138,6 +139,13 @@ void PairHVISPH::settings(int narg, char **arg)
         error->all(FLERR, "Pair_style hvi/sph dissipation must be monaghan or riemann, not {}",
                    name);
       riemann = name == "riemann";
+      iarg += 2;
+    } else if (key == "gradient") {
+      need(1);
+      const std::string name = arg[iarg + 1];
+      if (name != "plain" && name != "corrected")
+        error->all(FLERR, "Pair_style hvi/sph gradient must be plain or corrected, not {}", name);
+      corrected = name == "corrected";
       iarg += 2;
     } else if (key == "h") {
       need(1);
@@ -388,10 +396,10 @@ void PairHVISPH::write_restart_settings(FILE *fp)
 {
   write_text(fp, kernel);
   write_text(fp, text);
-  const int flags[7] = {laws.dim, laws.symmetric, laws.stock, laws.automatic,
-                        variable, energy,         riemann};
+  const int flags[8] = {laws.dim, laws.symmetric, laws.stock, laws.automatic,
+                        variable, energy,         riemann,    corrected};
   const double values[5] = {laws.a, laws.b, laws.alpha, hmin, hmax};
-  fwrite(flags, sizeof(int), 7, fp);
+  fwrite(flags, sizeof(int), 8, fp);
   fwrite(values, sizeof(double), 5, fp);
 }
 
@@ -401,13 +409,13 @@ void PairHVISPH::read_restart_settings(FILE *fp)
 {
   kernel = read_text(fp, comm->me, world, error);
   text = read_text(fp, comm->me, world, error);
-  int flags[7];
+  int flags[8];
   double values[5];
   if (comm->me == 0) {
-    utils::sfread(FLERR, flags, sizeof(int), 7, fp, nullptr, error);
+    utils::sfread(FLERR, flags, sizeof(int), 8, fp, nullptr, error);
     utils::sfread(FLERR, values, sizeof(double), 5, fp, nullptr, error);
   }
-  MPI_Bcast(flags, 7, MPI_INT, 0, world);
+  MPI_Bcast(flags, 8, MPI_INT, 0, world);
   MPI_Bcast(values, 5, MPI_DOUBLE, 0, world);
 
   laws.dim = flags[0];
@@ -417,6 +425,7 @@ void PairHVISPH::read_restart_settings(FILE *fp)
   variable = flags[4];
   energy = flags[5];
   riemann = flags[6];
+  corrected = flags[7];
   laws.a = values[0];
   laws.b = values[1];
   laws.alpha = values[2];
