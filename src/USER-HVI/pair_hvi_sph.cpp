@@ -95,8 +95,8 @@ void PairHVISPH::compute(int eflag, int vflag)
     state.reset(new HVI::SphState[nmax]);
     rates.reset(new HVI::SphRates[nmax]);
     if (riemann) slopes.reset(new HVI::SphSlopes[nmax]);
-    if (solid) stress.reset(new HVI::SphStress[nmax]);
-    if (solid) gradv.reset(new HVI::SphGradV[nmax]);
+    stress.reset(solid ? new HVI::SphStress[nmax] : nullptr);    // a fix may come and go
+    gradv.reset(solid ? new HVI::SphGradV[nmax] : nullptr);
   }
 
   if (solid) gather_stress();
@@ -107,6 +107,7 @@ void PairHVISPH::compute(int eflag, int vflag)
     sending = STRESS;
     comm->reverse_comm(this);
   }
+  if (solid && corrected) correct_gradients();
 
   if (vflag_fdotr) virial_fdotr_compute();
 }

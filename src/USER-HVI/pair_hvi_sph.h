@@ -102,6 +102,7 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   void set_material(int ilo, int ihi, int jlo, int jhi, const std::vector<std::string> &);
   void gather();
   void gather_stress();
+  void correct_gradients();
   void scatter();
   void report_overlap(int, int, const HVI::SphNear &);
   template <class Kernel> void choose_scene(int);

@@ -103,22 +103,34 @@ void PairHVISPH::gather_stress()
   comm->forward_comm(this);
 }
 
-// corrected: L M^-1 is exact in a linear field.  The law sees it, forces do not.  Where neighbors lie in
-// a plane or are few, M cannot be inverted and the plain one is taken.
+// L M^-1 is exact in a linear field.  The law sees it, forces do not.  Where neighbors lie in
+// a plane or are few, M cannot be inverted and the plain one stays.
 
-HVI::VelocityGradient PairHVISPH::velocity_gradient(int i) const
+void PairHVISPH::correct_gradients()
 {
-  const HVI::SphGradV &L = gradv[i];
-  if (corrected) {
+  for (int i = 0; i < atom->nlocal; i++) {
+    HVI::SphGradV &L = gradv[i];
     Eigen::Matrix3d grad, M;
     grad << L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz;
     M << L.mxx, L.mxy, L.mxz, L.mxy, L.myy, L.myz, L.mxz, L.myz, L.mzz;
     for (int k = laws.dim; k < 3; k++) M(k, k) = 1.0;
-    if (M.determinant() > 0.05) {
-      const Eigen::Matrix3d c = grad * M.inverse();
-      return {c(0, 0), c(0, 1), c(0, 2), c(1, 0), c(1, 1), c(1, 2), c(2, 0), c(2, 1), c(2, 2)};
-    }
+    if (!(M.determinant() > 0.05)) continue;
+    const Eigen::Matrix3d c = grad * M.inverse();
+    L.xx = c(0, 0);
+    L.xy = c(0, 1);
+    L.xz = c(0, 2);
+    L.yx = c(1, 0);
+    L.yy = c(1, 1);
+    L.yz = c(1, 2);
+    L.zx = c(2, 0);
+    L.zy = c(2, 1);
+    L.zz = c(2, 2);
   }
+}
+
+HVI::VelocityGradient PairHVISPH::velocity_gradient(int i) const
+{
+  const HVI::SphGradV &L = gradv[i];
   return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
 }
 
