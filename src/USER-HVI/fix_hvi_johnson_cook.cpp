@@ -300,6 +300,18 @@ void FixHVIJohnsonCook::second_half(double dt)
   }
 }
 
+/* ----------------------------------------------------------------------
+   in the directions of op, when a particle has crossed mirror planes
+------------------------------------------------------------------------- */
+
+void FixHVIJohnsonCook::reflect(int i, int op)
+{
+  const HVI::Reflection reflection(op);
+  reflection.symmetric(solid[i].S);
+  reflection.symmetric(solid[i].sent.S);
+  reflection.symmetric(solid[i].middle);
+}
+
 /* ---------------------------------------------------------------------- */
 
 void FixHVIJohnsonCook::set_arrays(int i)

@@ -65,6 +65,7 @@ class FixHVIJohnsonCook : public Fix {
   void start(int, bool);
   void first_half(double);
   void second_half(double);
+  void reflect(int, int);
 
   // for the pair style and computes; owned particles
 

@@ -36,7 +36,7 @@ class FixHVILedger : public Fix {
     LEFT_PX, LEFT_PY, LEFT_PZ, LEFT_MASS, LEFT_COUNT,
     BONDS_BROKEN, BONDS_LEFT,               // their numbers
     CLAMP_WORK,                             // work of the clamps on the particles
-    CLAMP_JX, CLAMP_JY, CLAMP_JZ,           // their impulse on the particles
+    CLAMP_JX, CLAMP_JY, CLAMP_JZ,           // impulse on the particles, of clamps and mirror planes
     VISCOUS,                                // heat from viscosity, a part of internal energy
     NENTRY
   };
@@ -73,6 +73,10 @@ class FixHVILedger : public Fix {
   // for fix hvi/sph
 
   void book_viscous(double heat) { entry[VISCOUS] += heat; }
+  void book_mirror(const double *impulse)
+  {
+    for (int k = 0; k < 3; k++) entry[CLAMP_JX + k] += impulse[k];
+  }
 
   // for compute hvi/energy
 

@@ -33,8 +33,8 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), strength(nullptr), dtv(0.0), dtf(0.0),
-    power(0.0), stepping(0), follow(0)
+    Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), strength(nullptr),
+    dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0}, stepping(0), follow(0)
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
@@ -188,6 +188,7 @@ void FixHVISPH::setup(int /*vflag*/)
     std::swap(e.esph, atom->esph[i]);
   }
   power = pair->viscous_power();
+  for (int k = 0; k < 3; k++) push[k] = pair->mirror_force()[k];
 }
 
 /* ----------------------------------------------------------------------
@@ -231,10 +232,36 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
 
 void FixHVISPH::post_integrate()
 {
+  if (pair->mirrors().planes) reflect();
   if (!follow) return;
   for (int i = 0; i < atom->nlocal; i++)
     if (!(atom->mask[i] & groupbit) && pair->material(atom->type[i]))
       for (int k = 0; k < 3; k++) atom->vest[i][k] = atom->v[i][k];
+}
+
+/* ----------------------------------------------------------------------
+   what has crossed a mirror plane is where its image was
+------------------------------------------------------------------------- */
+
+void FixHVISPH::reflect()
+{
+  const HVI::MirrorPlanes &mirror = pair->mirrors();
+  double impulse[3] = {0.0, 0.0, 0.0};
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!mine(i)) continue;
+    int op = 0;
+    for (int k = 0; k < 3; k++) {
+      if (!mirror.has(k) || mirror.depth(k, atom->x[i]) >= 0.0) continue;
+      op |= 1 << k;
+      atom->x[i][k] = 2.0 * mirror.at[k] - atom->x[i][k];
+      impulse[k] -=
+          2.0 * (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * atom->v[i][k];
+      atom->v[i][k] = -atom->v[i][k];
+      atom->vest[i][k] = -atom->vest[i][k];
+    }
+    if (op && strength) strength->reflect(i, op);
+  }
+  ledger->book_mirror(impulse);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -262,6 +289,14 @@ void FixHVISPH::final_integrate()
   const double now = pair->viscous_power();
   ledger->book_viscous(dtf * (power + now));
   power = now;
+  if (pair->mirrors().planes) {
+    double impulse[3];
+    for (int k = 0; k < 3; k++) {
+      impulse[k] = dtf * (push[k] + pair->mirror_force()[k]);
+      push[k] = pair->mirror_force()[k];
+    }
+    ledger->book_mirror(impulse);
+  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -73,11 +73,13 @@ class FixHVISPH : public Fix {
   class FixHVIJohnsonCook *strength;    // of solids, which it integrates when asked to
   double dtv, dtf;
   double power;            // viscous, of the last force evaluation
+  double push[3];          // of mirror planes, likewise
   int stepping;            // in a run, so that the state is the one the last step left
   int follow;              // particles outside the group are moved by fixes that do not know vest
   std::string restored;    // settings of the pair style in the restart file
 
   bool mine(int) const;    // integrated here
+  void reflect();
   uint64_t fingerprint(int) const;
 };
 

@@ -89,8 +89,10 @@ void PairHVISPH::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
 
-  if (atom->nmax > nmax) {
-    nmax = atom->nmax;
+  if (mirror.planes) find_images();
+  const int need = MAX(atom->nmax, images.first + (int) images.all.size());
+  if (need > nmax) {
+    nmax = mirror.planes ? need + need / 16 : need;
     place.reset(new HVI::SphPlace[nmax]);
     state.reset(new HVI::SphState[nmax]);
     rates.reset(new HVI::SphRates[nmax]);
@@ -101,7 +103,9 @@ void PairHVISPH::compute(int eflag, int vflag)
 
   if (solid) gather_stress();
   gather();
+  if (mirror.planes) fill_images();
   (this->*sweep)();
+  if (mirror.planes) fold_images();
   scatter();
   if (solid && force->newton_pair) {
     sending = STRESS;
@@ -131,6 +135,7 @@ void PairHVISPH::each_particle(Record *records, Work work)
   HVI::SphLaws mine = laws;
   HVI::SphNear near;
   const double reachsq = Kernel::support * Kernel::support * laws.h * laws.h;
+  const bool mirrored = mirror.planes;
   bigint nkept = 0;
   if (SWEEP == FIRST) keep_lists();
 
@@ -148,36 +153,43 @@ void PairHVISPH::each_particle(Record *records, Work work)
       mine.row_tension = tension[atom->type[i]];
     }
 
-    for (int jfirst = 0; jfirst < jnum; jfirst += HVI::SphNear::MAX) {
-      const int jlast = MIN(jfirst + HVI::SphNear::MAX, jnum);
-      int n = 0;
-      for (int jj = jfirst; jj < jlast; jj++) {
-        const int j = jlist[jj] & NEIGHMASK;
-        const HVI::Vec4 d = HVI::part(&pi, 0) - HVI::part(&where[j], 0);
-        __builtin_prefetch(&state[j]);
-        __builtin_prefetch(&records[j], 1);
-        near.j[n] = j;
-        near.d[n] = d;
-        if (SWEEP == SECOND) {
-          __builtin_prefetch(&slopes[j]);
-          __builtin_prefetch(&slopes[j].pz);
-          n++;
-          continue;
+    auto visit = [&](const int *jvisit, int number) {
+      for (int jfirst = 0; jfirst < number; jfirst += HVI::SphNear::MAX) {
+        const int jlast = MIN(jfirst + HVI::SphNear::MAX, number);
+        int n = 0;
+        for (int jj = jfirst; jj < jlast; jj++) {
+          const int j = jvisit[jj] & NEIGHMASK;
+          const HVI::Vec4 d = HVI::part(&pi, 0) - HVI::part(&where[j], 0);
+          __builtin_prefetch(&state[j]);
+          __builtin_prefetch(&records[j], 1);
+          near.j[n] = j;
+          near.d[n] = d;
+          if (SWEEP == SECOND) {
+            __builtin_prefetch(&slopes[j]);
+            __builtin_prefetch(&slopes[j].pz);
+            n++;
+            continue;
+          }
+          const HVI::Vec4 square = d * d;
+          const double rsq = square[0] + square[2] + square[1];
+          if (SCENE & HVI::SPH_OWN_H) {
+            const double h = SCENE & HVI::SPH_RIEMANN ? MAX(pi.h, pi.h - d[3]) : pi.h - 0.5 * d[3];
+            n += rsq < Kernel::support * Kernel::support * h * h;
+          } else
+            n += rsq < reachsq;
         }
-        const HVI::Vec4 square = d * d;
-        const double rsq = square[0] + square[2] + square[1];
-        if (SCENE & HVI::SPH_OWN_H) {
-          const double h = SCENE & HVI::SPH_RIEMANN ? MAX(pi.h, pi.h - d[3]) : pi.h - 0.5 * d[3];
-          n += rsq < Kernel::support * Kernel::support * h * h;
-        } else
-          n += rsq < reachsq;
+        if (SWEEP == FIRST) {
+          memcpy(&kept[nkept], near.j, n * sizeof(int));
+          numkept[ii] += n;
+        }
+        if (SWEEP != ONLY) nkept += n;
+        work(i, pi, n, mine, near, sum);
       }
-      if (SWEEP == FIRST) {
-        memcpy(&kept[nkept], near.j, n * sizeof(int));
-        numkept[ii] += n;
-      }
-      if (SWEEP != ONLY) nkept += n;
-      work(i, pi, n, mine, near, sum);
+    };
+    visit(jlist, jnum);
+    if (mirrored) {
+      const std::vector<int> &also = images_near(i, jlist, jnum);
+      if (!also.empty()) visit(also.data(), also.size());
     }
     for (int k = 0; k < (int) (sizeof(Record) / sizeof(HVI::Vec4)); k++)
       HVI::part(&records[i], k) += HVI::part(&sum, k);
@@ -216,7 +228,15 @@ template <class Kernel, int SCENE> void PairHVISPH::eval()
                                                   sum, stress.get(), gradv.get());
         if (same) report_overlap(i, n, near);
 
-        if (evflag && (SCENE & HVI::SPH_STRENGTH))
+        if (evflag && n && near.j[0] >= nlocal + atom->nghost)
+          for (int m = 0; m < n; m++) {
+            const double d[3] = {near.d[m][0], near.d[m][1], near.d[m][2]};
+            double f[3] = {near.fx[m], near.fy[m], near.fz[m]};
+            if (!(SCENE & HVI::SPH_STRENGTH))
+              for (int k = 0; k < 3; k++) f[k] = near.force[m] * d[k];
+            tally_image(i, near.j[m], f, d);
+          }
+        else if (evflag && (SCENE & HVI::SPH_STRENGTH))
           for (int m = 0; m < n; m++)
             ev_tally_xyz(i, near.j[m], nlocal, newton_pair, 0.0, 0.0, near.fx[m], near.fy[m],
                          near.fz[m], near.d[m][0], near.d[m][1], near.d[m][2]);
@@ -267,7 +287,7 @@ void PairHVISPH::report_overlap(int i, int n, const HVI::SphNear &near)
   for (int m = 0; m < n; m++)
     if (near.d[m][0] == 0.0 && near.d[m][1] == 0.0 && near.d[m][2] == 0.0)
       error->one(FLERR, "Pair hvi/sph: particles {} and {} are at the same place at step {}",
-                 atom->tag[i], atom->tag[near.j[m]], update->ntimestep);
+                 atom->tag[i], tag_of(near.j[m]), update->ntimestep);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -310,6 +330,7 @@ void PairHVISPH::init_style()
     }
   }
 
+  check_mirror();
   auto laws_of_solids = modify->get_fix_by_style("^hvi/johnson-cook$");
   strength = laws_of_solids.empty() ? nullptr
                                     : dynamic_cast<FixHVIJohnsonCook *>(laws_of_solids[0]);
@@ -396,6 +417,7 @@ double PairHVISPH::init_one(int i, int j)
 
 void PairHVISPH::setup()
 {
+  check_sides();
   if (laws.dim == domain->dimension) return;
 
   double mine[6], all[6];

@@ -16,6 +16,7 @@ PairStyle(hvi/sph,PairHVISPH);
 #define LMP_PAIR_HVI_SPH_H
 
 #include "hvi_material.h"
+#include "hvi_mirror.h"
 #include "hvi_sph_riemann.h"
 #include "hvi_stress.h"
 #include "hvi_timestep.h"
@@ -62,6 +63,8 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   double pressure(int i) const;                  // of the last forces, owned particles
   HVI::VelocityGradient velocity_gradient(int i) const;
   double viscous_power() const { return heating; }    // of owned particles
+  const HVI::MirrorPlanes &mirrors() const { return mirror; }
+  const double *mirror_force() const { return images.force; }    // on this rank's particles
   const std::string &description() const { return text; }
 
  private:
@@ -92,6 +95,9 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   std::unique_ptr<HVI::SphStress[]> stress;    // solids only, as is the next
   std::unique_ptr<HVI::SphGradV[]> gradv;
   enum { SLOPES, STRESS } sending;
+  HVI::MirrorPlanes mirror;
+  HVI::Images images;
+  std::vector<int> nearby;
   double heating;
   class FixHVISPH *fix;
   class FixHVIJohnsonCook *strength;    // keeps the stress of solids
@@ -105,6 +111,14 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   void correct_gradients();
   void scatter();
   void report_overlap(int, int, const HVI::SphNear &);
+  void check_mirror() const;
+  void check_sides() const;
+  void find_images();
+  void fill_images();
+  void fold_images();
+  const std::vector<int> &images_near(int, const int *, int);
+  void tally_image(int, int, const double *, const double *);
+  tagint tag_of(int) const;
   template <class Kernel> void choose_scene(int);
   template <class Kernel, int SCENE> void eval();
   template <class Kernel, int SCENE> void eval_slopes();

@@ -80,6 +80,7 @@ void PairHVISPH::settings(int narg, char **arg)
   hmin = 0.5;
   hmax = 1.25;
   nmax = 0;    // arrays for what is asked for now
+  mirror = HVI::MirrorPlanes();
   int form_given = 0, viscosity_given = 0;
 
   kernel = arg[0];
@@ -164,6 +165,24 @@ void PairHVISPH::settings(int narg, char **arg)
                      arg[iarg + 2], arg[iarg + 3]);
         iarg += 4;
       }
+    } else if (key == "mirror") {
+      need(3);
+      const std::string direction = arg[iarg + 1], which = arg[iarg + 3];
+      const int k = direction.size() == 1 ? direction[0] - 'x' : -1;
+      if (k < 0 || k > 2)
+        error->all(FLERR, "Pair_style hvi/sph mirror must be x, y or z, not {}", direction);
+      if (mirror.has(k))
+        error->all(FLERR, "Pair_style hvi/sph has more than one mirror {}", direction);
+      if (which != "lo" && which != "hi")
+        error->all(FLERR, "Pair_style hvi/sph mirror {} must be lo or hi, not {}", direction,
+                   which);
+      mirror.planes |= 1 << k;
+      mirror.at[k] = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+      if (!std::isfinite(mirror.at[k]))
+        error->all(FLERR, "Pair_style hvi/sph mirror {} must be at a number, not {}", direction,
+                   arg[iarg + 2]);
+      mirror.side[k] = which == "lo" ? 1.0 : -1.0;
+      iarg += 4;
     } else if (key == "energy") {
       need(1);
       energy = utils::logical(FLERR, arg[iarg + 1], false, lmp);
@@ -192,9 +211,14 @@ void PairHVISPH::settings(int narg, char **arg)
   HVI::with_kernel(kernel, [this](auto k) {
     laws.norm = decltype(k)::norm(laws.dim);
   });
+  no_virial_fdotr_compute = mirror.planes ? 1 : 0;    // planes push, too
   text = fmt::format("{} dim {} form {} h {}{}", kernel, laws.dim,
                      laws.symmetric ? "symmetric" : "sum", variable ? "variable" : "constant",
                      laws.stock ? " stock yes" : (riemann ? " dissipation riemann" : ""));
+  for (int k = 0; k < 3; k++)
+    if (mirror.has(k))
+      text += fmt::format(" mirror {} {} {}", "xyz"[k], mirror.at[k],
+                          mirror.side[k] > 0.0 ? "lo" : "hi");
 }
 
 /* ----------------------------------------------------------------------
@@ -401,6 +425,7 @@ void PairHVISPH::write_restart_settings(FILE *fp)
   const double values[5] = {laws.a, laws.b, laws.alpha, hmin, hmax};
   fwrite(flags, sizeof(int), 8, fp);
   fwrite(values, sizeof(double), 5, fp);
+  fwrite(&mirror, sizeof(mirror), 1, fp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -414,9 +439,12 @@ void PairHVISPH::read_restart_settings(FILE *fp)
   if (comm->me == 0) {
     utils::sfread(FLERR, flags, sizeof(int), 8, fp, nullptr, error);
     utils::sfread(FLERR, values, sizeof(double), 5, fp, nullptr, error);
+    utils::sfread(FLERR, &mirror, sizeof(mirror), 1, fp, nullptr, error);
   }
   MPI_Bcast(flags, 8, MPI_INT, 0, world);
   MPI_Bcast(values, 5, MPI_DOUBLE, 0, world);
+  MPI_Bcast(&mirror, sizeof(mirror), MPI_BYTE, 0, world);
+  no_virial_fdotr_compute = mirror.planes ? 1 : 0;
 
   laws.dim = flags[0];
   laws.symmetric = flags[1];

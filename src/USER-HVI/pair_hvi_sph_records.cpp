@@ -228,9 +228,10 @@ void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
     const double *const row_b = visc_b[atom->type[i]];
     const int *const jlist = list->firstneigh[i];
     const int jnum = list->numneigh[i];
+    const int nimages = mirror.planes ? images_near(i, jlist, jnum).size() : 0;
 
-    for (int jj = 0; jj < jnum; jj++) {
-      const int j = jlist[jj] & NEIGHMASK;
+    for (int jj = 0; jj < jnum + nimages; jj++) {
+      const int j = jj < jnum ? jlist[jj] & NEIGHMASK : nearby[jj - jnum];
       const HVI::SphPlace &pj = place[j];
       const HVI::SphState &sj = state[j];
       const double dx = pi.x - pj.x;
@@ -242,10 +243,11 @@ void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
       // also pairs that are not yet within reach: they will be soon
 
       const double rsq = dx * dx + dy * dy + dz * dz;
+      if (jj >= jnum && rsq > images.reachsq) continue;
       const double h = 0.5 * (pi.h + pj.h);
       const double c = MAX(si.c, sj.c);
       const double mu = -h * rdotv / (rsq + 0.01 * h * h);
-      const int jtype = atom->type[j];
+      const int jtype = static_cast<int>(sj.type);
       const double signal =
           c - rdotv / std::sqrt(rsq) + 0.6 * (row_a[jtype] * c + row_b[jtype] * mu);
       if (scale * h < shortest * signal || std::isnan(signal)) shortest = scale * h / signal;

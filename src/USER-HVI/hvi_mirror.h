@@ -1,0 +1,108 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_HVI_MIRROR_H
+#define LMP_HVI_MIRROR_H
+
+#include "hvi_sph.h"
+
+#include <vector>
+
+namespace HVI {
+
+/* ----------------------------------------------------------------------
+   Mirror planes across x, y, z, one per direction, with all particles on one side.
+
+   An image operation is a set of directions in which coordinates are reflected (bits);
+   with two planes there are three: x, y and both.  The image of j is never nearer to i
+   than j is, so the half list that has the pair (i,j) has all there is to the pairs
+   (i, image of j) and (j, image of i), of which each is the image of the other: one is
+   worked out, and what happens to the image of j, reflected, is what happens to j.
+------------------------------------------------------------------------- */
+
+struct MirrorPlanes {
+  static constexpr int NOPS = 8;    // operation 0 is none
+
+  int planes = 0;                // directions that have one, bits
+  double at[3] = {0, 0, 0};      // coordinate of the plane
+  double side[3] = {1, 1, 1};    // 1: material is above it, -1: below
+
+  bool has(int k) const { return planes >> k & 1; }
+  bool is_operation(int op) const { return op && (op & ~planes) == 0; }
+  double depth(int k, const double *x) const { return side[k] * (x[k] - at[k]); }
+
+  // square of the distance from what an operation leaves in place
+
+  double depth_squared(int op, const double *x) const
+  {
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++)
+      if (op >> k & 1) sum += (x[k] - at[k]) * (x[k] - at[k]);
+    return sum;
+  }
+};
+
+// reflected vectors (x,y,z), symmetric tensors and velocity gradients, by their components' signs
+
+struct Reflection {
+  double s[3];
+  explicit Reflection(int op)
+  {
+    for (int k = 0; k < 3; k++) s[k] = op >> k & 1 ? -1.0 : 1.0;
+  }
+  template <class Tensor> void symmetric(Tensor &t) const
+  {
+    t.xy *= s[0] * s[1];
+    t.xz *= s[0] * s[2];
+    t.yz *= s[1] * s[2];
+  }
+  void state(SphState &a) const
+  {
+    a.vx *= s[0];
+    a.vy *= s[1];
+    a.vz *= s[2];
+  }
+  void rates(SphRates &a) const
+  {
+    a.fx *= s[0];
+    a.fy *= s[1];
+    a.fz *= s[2];
+  }
+  void gradient(SphGradV &L) const
+  {
+    L.xy *= s[0] * s[1];
+    L.yx *= s[0] * s[1];
+    L.xz *= s[0] * s[2];
+    L.zx *= s[0] * s[2];
+    L.yz *= s[1] * s[2];
+    L.zy *= s[1] * s[2];
+    L.mxy *= s[0] * s[1];
+    L.mxz *= s[0] * s[2];
+    L.myz *= s[1] * s[2];
+  }
+};
+
+// images of the particles near the planes; their records follow those of ghosts
+
+struct Images {
+  struct Image {
+    int owner, op;
+    bool self;    // of an owned particle, for itself: what happens to this one is of no concern
+  };
+  std::vector<Image> all;
+  double reachsq = 0.0;    // of what is in lists
+  int first = 0;           // index of the first record
+  std::vector<int>
+      of[MirrorPlanes::NOPS];    // by operation and particle: index of its image, or -1,
+  std::vector<int> self[MirrorPlanes::NOPS];    // and of the one for itself
+  double force[3] = {0, 0, 0};                  // of the planes on the particles
+};
+
+}    // namespace HVI
+
+#endif

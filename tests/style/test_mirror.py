@@ -1,0 +1,174 @@
+"""Mirror planes: half, quarter and eighth models are what the whole one is, on every layout; impulse; wrong input."""
+
+import itertools
+
+import numpy as np
+import pytest
+from sph_scenes import scene
+from test_solid_forces import MATERIAL, OUT, PAIR, read, state
+
+N = 6  # particles along an edge of the eighth
+ROOM = 20.0  # of the box, from the center
+
+
+@pytest.fixture
+def material(tmp_path):
+    path = tmp_path / "test.hvi"
+    path.write_text(MATERIAL.format(sigma_p=3.0))
+    return path
+
+
+def part(planes, seed=31):
+    """a cube of jittered particles around the origin, even in all three directions, or what is left of it on the side of the planes"""
+    s = state(seed=seed)
+    keep = (s.x < N).all(1)
+    x, v, kind = s.x[keep], s.v[keep], s.type[keep]
+    v = v - 0.3 * x / N  # it is pressed together
+    for k in range(3):
+        if "xyz"[k] in planes:
+            continue
+        flip = np.ones(3)
+        flip[k] = -1
+        x, v, kind = np.concatenate([x, x * flip]), np.concatenate([v, v * flip]), np.concatenate([kind, kind])
+    s.x, s.v, s.type = x, v, kind
+    s.rho, s.esph = np.ones(len(x)), np.zeros(len(x))
+    shift = np.array([0.0 if a in planes else ROOM for a in "xyz"])
+    s.x = s.x + shift
+    s.box = np.array([ROOM if a in planes else 2 * ROOM for a in "xyz"])
+    s.periodic = (False,) * 3
+    return s, shift
+
+
+def start(planes, tmp_path, material, steps=30, words="viscosity 1 2", jc="", sides=None, more="", solid=True, **kw):
+    s, shift = part(planes)
+    if sides:  # the material is below the planes
+        s.x = s.box - s.x
+        s.v = -s.v
+    mirror = "".join(f" mirror {a} {s.box['xyz'.index(a)] if sides else 0.0} {'hi' if sides else 'lo'}" for a in planes)
+    name = f"s{planes}{sides}.data"
+    pair = PAIR.format(words=words + mirror, path=material) + "pair_coeff 1 2 tension no\n"
+    text = scene(s, tmp_path / name, pair, **kw) + (f"fix jc all hvi/johnson-cook {jc}\n" if solid else "") + "timestep 0.004\n" + more
+    return text + (f"run {steps}\n" if steps else ""), shift
+
+
+def same(whole, some, shift, planes, tolerance=1e-9):
+    """of the whole model, the particles on this side, by place"""
+    keep = np.all([whole["x"][:, k] > ROOM for k in range(3) if "xyz"[k] in planes], axis=0)
+    order = np.lexsort(np.round(whole["x"][keep] - ROOM, 6).T)
+    back = np.lexsort(np.round(some["x"] - shift, 6).T)
+    assert keep.sum() == len(some["x"])
+    for name in ("x", "v", "f", "drho", "de", "rho", "S", "eps", "damage"):
+        a = whole[name][keep][order] - (ROOM if name == "x" else 0)
+        b = some[name][back] - (shift if name == "x" else 0)
+        assert np.abs(a - b).max() <= tolerance * np.abs(whole[name]).max(), name
+
+
+@pytest.mark.parametrize("words", ["viscosity 1 2", "viscosity 1 2 h variable", "gradient plain interface 0.3"])
+def test_as_the_whole(lmp, tmp_path, material, words):
+    """30 steps with stress, yielding and failure: forces, rates, stress of half, quarter and eighth models"""
+    text = "".join("clear\n" + start(p, tmp_path, material, words=words)[0] + OUT.format("f" + p) for p in ("", "x", "xy", "xyz"))
+    lmp(text)
+    whole = read(tmp_path / "f")
+    assert (whole["eps"] > 0.01).mean() > 0.2 and (whole["damage"] >= 1).sum() > 10
+    for planes in ("x", "xy", "xyz"):
+        same(whole, read(tmp_path / f"f{planes}"), part(planes)[1], planes)
+
+
+def test_fluid(lmp, tmp_path, material):
+    """without strength, and in form symmetric"""
+    for words in ("", "form symmetric"):
+        text = "".join("clear\n" + start(p, tmp_path, material, words=words, solid=False)[0] + OUT.format("f" + p).replace("vm sxx", "p sxx") for p in ("", "xyz"))
+        text = text.replace("p c eps damage spalled p sxx syy szz sxy sxz syz", "p c p p p p p p p p p p")
+        lmp(text)
+        same(read(tmp_path / "f"), read(tmp_path / "fxyz"), part("xyz")[1], "xyz")
+
+
+@pytest.mark.parametrize("nranks", [1, 2, 3, 4])
+def test_layouts(lmp, tmp_path, material, nranks):
+    cases = list(itertools.product(("on", "off"), ("brick", "tiled"), (None, "hi")))
+    lmp("".join("clear\n" + start("xy", tmp_path, material, sides=sides)[0] + OUT.format(f"one.{sides}") for sides in (None, "hi")))
+    text = "".join("clear\n" + start("xy", tmp_path, material, newton=newton, comm=comm, sides=sides)[0] + OUT.format(f"f.{k}")
+                   for k, (newton, comm, sides) in enumerate(cases))
+    lmp(text, nranks=nranks)
+    for k, case in enumerate(cases):
+        one, got = read(tmp_path / f"one.{case[2]}"), read(tmp_path / f"f.{k}")
+        for name in ("x", "v", "f", "S", "eps", "de"):
+            assert np.abs(got[name] - one[name]).max() <= 1e-9 * np.abs(one[name]).max(), (case, name)
+    low, high = read(tmp_path / "one.None"), read(tmp_path / "one.hi")
+    assert np.abs(low["f"] + high["f"]).max() <= 1e-9 * np.abs(low["f"]).max()
+
+
+BOOK = """fix step all hvi/dt 0.2
+compute book all hvi/energy
+thermo 10
+thermo_style custom step press c_book[1] c_book[9] c_book[10] c_book[11] c_book[12] c_book[16] c_book[17] c_book[18]
+thermo_modify format float %.17g
+"""
+
+
+@pytest.mark.parametrize("newton,nranks", [("on", 1), ("off", 1), ("on", 3), ("off", 3)])
+def test_books(lmp, tmp_path, material, newton, nranks):
+    """momentum is what the planes gave, to round-off; energy and pressure are the whole model's"""
+    t = lmp(start("xy", tmp_path, material, steps=200, more=BOOK, newton=newton)[0], nranks=nranks).thermo
+    whole = lmp(start("", tmp_path, material, steps=200, more=BOOK)[0]).thermo
+    scale = np.abs(part("xy")[0].v).sum()
+    for p, j in ((10, 16), (11, 17), (12, 18)):
+        change, impulse = t[f"c_book[{p}]"] - t[f"c_book[{p}]"][0], t[f"c_book[{j}]"] - t[f"c_book[{j}]"][0]
+        assert np.abs(change - impulse).max() < 1e-12 * scale
+    assert np.abs(t["c_book[16]"]).max() > 0.01 * scale and np.abs(t["c_book[18]"]).max() == 0.0
+    assert np.abs(t["c_book[9]"] - 1).max() < 1e-3
+    early = slice(0, 4)
+    assert t["c_book[1]"][early] * 4 == pytest.approx(whole["c_book[1]"][early], rel=1e-9)
+    # pressure refers to the box: the quarter's is a quarter of the whole one's
+    assert t["Press"][early] == pytest.approx(whole["Press"][early], rel=1e-8)
+
+
+def test_reflected(lmp, tmp_path, material):
+    """what crosses a plane comes back, with its stress, and the plane's impulse is booked"""
+    s, _ = part("x")
+    s.x, s.v, s.type = np.array([[1.5, 6.0, 6.0]]), np.array([[-40.0, 3.0, 0.0]]), np.array([1])
+    s.rho, s.esph = np.ones(1), np.zeros(1)
+    pair = PAIR.format(words="viscosity 0 0 mirror x 0.0 lo", path=material)
+    text = scene(s, tmp_path / "s.data", pair) + "fix jc all hvi/johnson-cook\ntimestep 0.001\n"
+    r = lmp(text + BOOK.replace("fix step all hvi/dt 0.2\n", "") + "run 100\n" + OUT.format("f"))
+    f = read(tmp_path / "f")
+    assert f["x"][0, 0] == pytest.approx(2.5, abs=0.3) and f["v"][0, 0] > 39 and f["v"][0, 1] == pytest.approx(3.0, abs=1e-3)
+    t = r.runs[0]
+    assert t["c_book[16]"][-1] == pytest.approx(t["c_book[10]"][-1] - t["c_book[10]"][0], rel=1e-12)
+
+
+def test_restart(lmp, tmp_path, material):
+    """30 steps, restart, 30 more: the same bits as 60 at once, the planes are in the restart file"""
+    text, _ = start("xy", tmp_path, material, steps=0, sort=False, more=BOOK.replace("fix step all hvi/dt 0.2\n", "") + "restart 30 half\n")
+    one = lmp(text + "run 59\n" + OUT.format("whole")).thermo
+    text = "read_restart half.30\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\nfix sph all hvi/sph\nfix jc all hvi/johnson-cook\ntimestep 0.004\n"
+    two = lmp(text + BOOK.replace("fix step all hvi/dt 0.2\n", "") + "run 29\n" + OUT.format("part")).thermo
+    a, b = read(tmp_path / "whole"), read(tmp_path / "part")
+    for name in a:
+        assert np.array_equal(a[name], b[name]), name
+    assert one["c_book[16]"][-1] == two["c_book[16]"][-1]
+
+
+@pytest.mark.parametrize("words,message", [
+    ("mirror x", "missing"),
+    ("mirror x 0 lo mirror x 3 hi", "more than one mirror x"),
+    ("mirror w 0 lo", "must be x, y or z"),
+    ("mirror x 0 left", "must be lo or hi"),
+    ("mirror x nan lo", ""),
+    ("mirror x 3.0 lo", "on the mirror plane"),
+    ("mirror x 0.0 hi", "on the mirror plane"),
+    ("mirror x 0 lo dissipation riemann", "riemann"),
+])
+def test_wrong_input(lmp, tmp_path, material, words, message):
+    s, _ = part("xyz")
+    viscosity = "" if "riemann" in words else "viscosity 1 2 "
+    pair = PAIR.format(words=viscosity + words, path=material)
+    r = lmp(scene(s, tmp_path / "s.data", pair) + "timestep 0.001\nrun 1\n", expect_fail=True)
+    assert message.lower() in r.log.lower() + r.stdout.lower()
+
+
+def test_periodic(lmp, tmp_path, material):
+    s, _ = part("xyz")
+    s.periodic = (True, False, False)
+    r = lmp(scene(s, tmp_path / "s.data", PAIR.format(words="mirror x 0 lo", path=material)) + "run 1\n", expect_fail=True)
+    assert "not periodic" in r.log + r.stdout
