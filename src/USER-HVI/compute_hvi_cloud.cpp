@@ -15,6 +15,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "pair_hvi_sph.h"
 #include "update.h"
 
 #include <algorithm>
@@ -87,6 +88,7 @@ void ComputeHVICloud::compute_vector()
 
   const double *const *const v = atom->v;
   const int across[2] = {(axis + 1) % 3, (axis + 2) % 3};
+  const PairHVISPH *const sph = PairHVISPH::find(lmp);
 
   // sums over the cloud
 
@@ -124,13 +126,20 @@ void ComputeHVICloud::compute_vector()
   vector[KINETIC] = 0.5 * force->mvv2e * sum[SMVSQ];
   vector[COUNT] = sum[SCOUNT];
 
-  // distance from the axis, and how fast it grows
+  // distance from the axis, and how fast it grows; mirror planes hold the axis
+
+  double center[2], drift[2];
+  for (int k = 0; k < 2; k++) {
+    const bool mirrored = sph && sph->mirrors().has(across[k]);
+    center[k] = mirrored ? sph->mirrors().at[across[k]] : sum[SY + k] / sum[SMASS];
+    drift[k] = mirrored ? 0.0 : sum[SVY + k] / sum[SMASS];
+  }
 
   for (Particle &p : cloud) {
     double y[2], vy[2];
     for (int k = 0; k < 2; k++) {
-      y[k] = p.y[k] - sum[SY + k] / sum[SMASS];
-      vy[k] = p.vy[k] - sum[SVY + k] / sum[SMASS];
+      y[k] = p.y[k] - center[k];
+      vy[k] = p.vy[k] - drift[k];
     }
     p.r = std::sqrt(y[0] * y[0] + y[1] * y[1]);
     p.vr = (p.r > 0.0) ? (y[0] * vy[0] + y[1] * vy[1]) / p.r : 0.0;

@@ -290,7 +290,7 @@ void PairHVISPH::coeff(int narg, char **arg)
 void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
                               const std::vector<std::string> &words)
 {
-  // the last two words are h and its value
+  // after the material: h and its value, and what a particle's volume is to be at rest
 
   const std::size_t nwords = words.size();
   auto made = std::make_shared<HVI::Material>();
@@ -329,12 +329,27 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
     error->all(FLERR, "Pair_coeff hvi/sph: after the material must come h and its value{}",
                used < nwords ? ", not " + words[used] : std::string());
   if (used + 2 > nwords) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph h", error);
-  if (used + 2 < nwords)
-    error->all(FLERR, "Pair_coeff hvi/sph: unexpected {} after h {}", words[used + 2],
-               words[used + 1]);
   const double h = utils::numeric(FLERR, words[used + 1], false, lmp);
   if (!(h > 0.0) || !std::isfinite(h))
     error->all(FLERR, "Pair_coeff hvi/sph h must be > 0, not {}", words[used + 1]);
+  used += 2;
+  double mass = 0.0;
+  if (used < nwords && words[used] == "volume") {
+    if (used + 2 > nwords) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph volume", error);
+    const double volume = utils::numeric(FLERR, words[used + 1], false, lmp);
+    if (!(volume > 0.0) || !std::isfinite(volume))
+      error->all(FLERR, "Pair_coeff hvi/sph volume must be > 0, not {}", words[used + 1]);
+    if (!(made->eos->rho0() > 0.0))
+      error->all(FLERR, "Pair_coeff hvi/sph volume: {} has no density at rest", made->name);
+    if (!atom->mass)
+      error->all(FLERR,
+                 "Pair_coeff hvi/sph volume sets masses of types, but particles have their own");
+    mass = made->eos->rho0() * volume;
+    used += 2;
+  }
+  if (used < nwords)
+    error->all(FLERR, "Pair_coeff hvi/sph: unexpected {} after {} {}", words[used], words[used - 2],
+               words[used - 1]);
 
   std::string spec = words[0];
   for (std::size_t n = 1; n < nwords; n++) spec += " " + words[n];
@@ -345,6 +360,7 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
     materials[i] = made;
     specs[i] = spec;
     htype[i] = h;
+    if (mass > 0.0) atom->set_mass(FLERR, i, mass);
     count++;
   }
   if (count == 0)
