@@ -1,48 +1,74 @@
 #!/usr/bin/env python3
-"""Side view of the cloud, the hole from above, velocity and von Mises stress of a run of in.plate: python3 plot.py [FOLDER] -> plate.png"""
+"""Pictures of a run of in.plate, from its frames and result.yaml: python3 plot.py [FOLDER] -> plate.png
+
+A row per frame: a slice of 4 mm with plate and projectile, axial velocity, von Mises stress; the plate from the front.
+Quarter models are mirrored.
+"""
+import glob
 import os
 import sys
 
 import matplotlib
+
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import yaml
 
-folder = sys.argv[1] if len(sys.argv) > 1 else "."
-with open(os.path.join(folder, "result.yaml")) as f:
-    result = yaml.safe_load(f)
-with open(os.path.join(folder, "plate.dump")) as f:
-    lines = f.read().splitlines()
-start = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-data = np.array([line.split() for line in lines[start:]], dtype=float)
-kind, (x, y, z), (vx, vy, vz), (p, damage, spalled, vm) = data[:, 1], 1e3 * data[:, 2:5].T, data[:, 5:8].T, data[:, 8:12].T
-dx = result["dx_mm"]
-slab = np.abs(y) < 2.0
-size = 8.0 * dx
 
-fig, axes = plt.subplots(2, 2, figsize=(13, 11))
-side, above, speed, stress = axes.flat
-for k, color, name in ((2, "tab:blue", "plate"), (1, "tab:red", "projectile")):
-    m = slab & (kind == k)
-    side.scatter(z[m], x[m], s=size, c=color, lw=0, label=name)
-side.legend(loc="upper left")
-side.set_title("a slice, at %.1f us" % result["time_us"])
-m = (kind == 2) & (np.abs(z) < 10)
-above.scatter(x[m], y[m], s=size, c=z[m], cmap="viridis", lw=0)
-above.set_title("plate from the front: hole %.1f mm" % result["hole_diameter_mm"])
-for ax, value, title, top in ((speed, vz, "axial velocity, m/s", vz.max()), (stress, 1e-6 * vm, "von Mises stress, MPa", 400)):
-    dots = ax.scatter(z[slab], x[slab], s=size, c=value[slab], cmap="inferno", vmin=0, vmax=top, lw=0)
-    fig.colorbar(dots, ax=ax)
-    ax.set_title(title)
-for ax in axes.flat:
-    ax.set_aspect("equal")
-    ax.set_xlabel("x, mm" if ax is above else "z, mm")
-    ax.set_ylabel("y, mm" if ax is above else "x, mm")
-stress.set_aspect("auto")
-stress.set_xlim(-15, 20)
-stress.set_ylim(-27, 27)
-above.set_xlim(-27, 27)
-above.set_ylim(-27, 27)
-fig.tight_layout()
-fig.savefig(os.path.join(folder, "plate.png"), dpi=80)
+def read(path):
+    """time in us; columns by name, lengths in mm"""
+    with open(path) as f:
+        lines = f.read().splitlines()
+    start = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
+    a = np.array([line.split() for line in lines[start:]], dtype=float)
+    names = ("id", "type", "x", "y", "z", "vx", "vy", "vz", "p", "damage", "spalled", "vm")
+    return {n: a[:, k] * (1e3 if n in "xyz" else 1) for k, n in enumerate(names)}
+
+
+def whole(d):
+    for flip in ("x", "y"):
+        d = {n: np.concatenate([a, -a if n in (flip, "v" + flip) else a]) for n, a in d.items()}
+    return d
+
+
+def main(folder):
+    with open(os.path.join(folder, "result.yaml")) as f:
+        result = yaml.safe_load(f)
+    files = glob.glob(os.path.join(folder, "frame.*.dump"))
+    frames = sorted((float(os.path.basename(f)[6:-5]), f) for f in files if float(os.path.basename(f)[6:-5]) <= result["time_us"] + 0.01)
+    if not frames:
+        sys.exit(f"no frame.*.dump in {folder}: run in.plate there first")
+    fig, axes = plt.subplots(len(frames), 4, figsize=(19, 4.4 * len(frames)), squeeze=False)
+    for row, (time, name) in zip(axes, frames):
+        d = read(name)
+        if result["model_share"] < 1:
+            d = whole(d)
+        slab, size = np.abs(d["y"]) < 2, 5 * result["dx_mm"]
+        side, speed, stress, above = row
+        for k, color, what in ((2, "tab:blue", "plate"), (1, "tab:red", "projectile")):
+            m = slab & (d["type"] == k)
+            side.scatter(d["z"][m], d["x"][m], s=size, c=color, lw=0, label=what)
+        side.legend(loc="upper left")
+        side.set_title(f"{time:g} us")
+        dots = speed.scatter(d["z"][slab], d["x"][slab], s=size, c=d["vz"][slab], cmap="inferno", vmin=0, lw=0)
+        fig.colorbar(dots, ax=speed)
+        speed.set_title("axial velocity, m/s")
+        m = d["type"] == 2
+        near = m & (np.abs(d["z"]) < 6)
+        dots = stress.scatter(d["z"][slab & near], d["x"][slab & near], s=2 * size, c=1e-6 * d["vm"][slab & near], cmap="viridis", vmin=0, vmax=400, lw=0)
+        fig.colorbar(dots, ax=stress)
+        stress.set_title("plate: von Mises stress, MPa")
+        top = near & (d["z"] < 6)
+        dots = above.scatter(d["x"][top], d["y"][top], s=size, c=1e-6 * d["vm"][top], cmap="viridis", vmin=0, vmax=400, lw=0)
+        fig.colorbar(dots, ax=above)
+        above.set_title("from the front, von Mises stress, MPa" + (f"; hole {result['hole_diameter_mm']:.1f} mm" if name == frames[-1][1] else ""))
+        for ax in row:
+            ax.set_aspect("auto" if ax is stress else "equal")
+            ax.set_xlabel("x, mm" if ax is above else "z, mm")
+            ax.set_ylabel("y, mm" if ax is above else "x, mm")
+    fig.tight_layout()
+    fig.savefig(os.path.join(folder, "plate.png"), dpi=70)
+
+
+main(sys.argv[1] if len(sys.argv) > 1 else ".")
