@@ -27,6 +27,8 @@
 
 using namespace LAMMPS_NS;
 
+static constexpr double UNKNOWN = -1.0;
+
 struct FixHVIJohnsonCook::Laws {
   std::unique_ptr<HVI::Strength> strength;
   std::unique_ptr<HVI::DamageJohnsonCook> damage;
@@ -176,7 +178,9 @@ void FixHVIJohnsonCook::start(int i, bool anew)
   Solid &s = solid[i];
   if (law && s.shear == 0.0 && !failed(i))
     s.shear = law->strength->shear_modulus(conditions(i, 0.0));    // there is no pressure yet
-  if (anew) send(i, law, s.S);
+  if (!anew) return;
+  s.yield = UNKNOWN;
+  send(i, law, s.S);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -232,11 +236,12 @@ void FixHVIJohnsonCook::advance(int i, const Laws &law, double dt)
   if (std::isnan(plastic.d_eps))
     error->one(FLERR, "Fix hvi/johnson-cook: stress of particle {} is not a number", atom->tag[i]);
   s.S = plastic.S;
+  s.yield = plastic.yield;
   s.eps += plastic.d_eps;
   s.heat += plastic.work / c.rho;
   s.rate = plastic.d_eps / dt;
   if (law.damage && plastic.d_eps > 0.0)
-    s.damage += law.damage->increment(plastic.d_eps, dt, c.p, HVI::von_mises(s.S),
+    s.damage += law.damage->increment(plastic.d_eps, dt, c.p, s.yield,
                                       law.strength->homologous_temperature(c));
   if (s.damage >= 1.0) rubble(i);
 }
@@ -266,10 +271,9 @@ void FixHVIJohnsonCook::first_half(double dt)
       add(s.middle, 0.5 * dt, dS);
       add(ahead, dt, dS);
       const double stress = HVI::von_mises(ahead);
-      const double yield = s.rate > 0.0
-          ? HVI::von_mises(s.S)
-          : law->strength->yield(s.eps, 0.0, conditions(i, pair->pressure(i)));
-      if (stress > yield) ahead = HVI::scaled(ahead, yield / stress);
+      if (s.yield == UNKNOWN)
+        s.yield = law->strength->yield(s.eps, 0.0, conditions(i, pair->pressure(i)));
+      if (stress > s.yield) ahead = HVI::scaled(ahead, s.yield / stress);
     }
     send(i, law, ahead);
   }
@@ -305,6 +309,7 @@ void FixHVIJohnsonCook::second_half(double dt)
 void FixHVIJohnsonCook::set_arrays(int i)
 {
   solid[i] = Solid();
+  solid[i].yield = UNKNOWN;
   solid[i].sent.p_min = -INFINITY;
 }
 

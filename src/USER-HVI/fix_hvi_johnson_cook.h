@@ -43,6 +43,7 @@ class FixHVIJohnsonCook : public Fix {
     double heat;             // plastic work per mass
     double shear;            // modulus
     double rate;             // of plastic strain
+    double yield;            // von Mises's stress on the yield surface of S
   };
 
   FixHVIJohnsonCook(class LAMMPS *, int, char **);

@@ -51,7 +51,7 @@ struct alignas(64) SphRates {
 // of solids: deviatoric stress, which neighbors must know; velocity gradient L_ab = d v_a/d x_b, and what
 // it comes out as if L is 1
 
-struct alignas(32) SphStress {
+struct alignas(64) SphStress {
   static constexpr int SENT = 8;
   double xx, yy, zz, xy;
   double xz, yz;
@@ -59,7 +59,7 @@ struct alignas(32) SphStress {
   double shear;    // modulus
 };
 
-struct alignas(32) SphGradV {
+struct alignas(64) SphGradV {
   static constexpr int SENT = 15;
   double xx, xy, xz, yx;
   double yy, yz, zx, zy;

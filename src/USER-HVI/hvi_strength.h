@@ -33,6 +33,7 @@ namespace HVI {
      scale(conditions)            the factor of Y that is constant in a step
      flow(eps, rate)              the rest of Y; must not fall with eps or rate.
                                   A rate that is NaN: without rate terms.
+     solve(trial, G, y0, factor, eps, dt)     if it has a quicker way than solve_return() below
    Thermal terms are off where T is NaN.  Guards are here, once for all laws.
    All in any consistent units, but T in K.
 ------------------------------------------------------------------------- */
@@ -42,11 +43,11 @@ struct Conditions {
 };
 
 // What became of a trial stress: the stress on the yield surface, the plastic strain of the step, and
-// the plastic work per volume, Y d_eps, with the Y at the end of the step
+// the plastic work per volume, Y d_eps, with the Y at the end of the step; where the yield surface then is
 
 struct Plastic {
   Deviator S;
-  double d_eps, work;
+  double d_eps, work, yield;
 };
 
 class Strength {
@@ -116,6 +117,21 @@ template <class Yield> double solve_return(double trial, double G, double y0, co
   return x1;
 }
 
+// y by the way of the law itself; NaN where it gives up or has none
+
+template <class Law>
+auto quick_return(const Law &law, double trial, double G, double y0, double factor, double eps,
+                  double dt, int) -> decltype(law.solve(trial, G, y0, factor, eps, dt))
+{
+  return law.solve(trial, G, y0, factor, eps, dt);
+}
+
+template <class Law>
+double quick_return(const Law &, double, double, double, double, double, double, long)
+{
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 template <class Law> class StrengthModel final : public Strength {
  public:
   explicit StrengthModel(const Law &law) : law(law) {}
@@ -145,15 +161,17 @@ template <class Law> class StrengthModel final : public Strength {
   {
     const double stress = von_mises(trial), factor = scale(c);
     const double y0 = factor * law.flow(eps, dt > 0.0 ? 0.0 : NOT_A_NUMBER);
-    if (stress <= y0) return {trial, 0.0, 0.0};
+    if (stress <= y0) return {trial, 0.0, 0.0, y0};
     if (!(stress > y0 && stress < NO_LIMIT && G >= 0.0))
-      return {scaled(trial, NOT_A_NUMBER), NOT_A_NUMBER, NOT_A_NUMBER};
-    if (3.0 * G < 1e-100 * stress) return {scaled(trial, y0 / stress), 0.0, 0.0};
-    const double y = solve_return(stress, G, y0, [&](double x) {
-      return factor * law.flow(eps + x, dt > 0.0 ? std::min(x / dt, 1e300) : NOT_A_NUMBER);
-    });
+      return {scaled(trial, NOT_A_NUMBER), NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER};
+    if (3.0 * G < 1e-100 * stress) return {scaled(trial, y0 / stress), 0.0, 0.0, y0};
+    double y = quick_return(law, stress, G, y0, factor, eps, dt, 0);
+    if (std::isnan(y))
+      y = solve_return(stress, G, y0, [&](double x) {
+        return factor * law.flow(eps + x, dt > 0.0 ? std::min(x / dt, 1e300) : NOT_A_NUMBER);
+      });
     const double d_eps = (stress - y) / (3.0 * G);
-    return {scaled(trial, y / stress), d_eps, y * d_eps};
+    return {scaled(trial, y / stress), d_eps, y * d_eps, y};
   }
 
   std::unique_ptr<Strength> clone() const override

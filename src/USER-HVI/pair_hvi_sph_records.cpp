@@ -128,18 +128,6 @@ void PairHVISPH::correct_gradients()
   }
 }
 
-HVI::VelocityGradient PairHVISPH::velocity_gradient(int i) const
-{
-  const HVI::SphGradV &L = gradv[i];
-  return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
-}
-
-double PairHVISPH::pressure(int i) const
-{
-  const HVI::SphState &s = state[i];
-  return laws.symmetric ? s.p * s.rho * s.rho : s.p;
-}
-
 /* ---------------------------------------------------------------------- */
 
 // one of two kinds of records, all numbers of theirs that others need
