@@ -156,11 +156,6 @@ void PairHVISPH::each_particle(Record *records, Work work)
         const HVI::Vec4 d = HVI::part(&pi, 0) - HVI::part(&where[j], 0);
         __builtin_prefetch(&state[j]);
         __builtin_prefetch(&records[j], 1);
-        if (SCENE & HVI::SPH_STRENGTH) {
-          __builtin_prefetch(&stress[j]);
-          __builtin_prefetch(&gradv[j], 1);
-          __builtin_prefetch(&gradv[j].zz, 1);
-        }
         near.j[n] = j;
         near.d[n] = d;
         if (SWEEP == SECOND) {
