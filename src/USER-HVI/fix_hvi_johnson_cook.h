@@ -93,7 +93,7 @@ class FixHVIJohnsonCook : public Fix {
   const Laws *of(int) const;    // null: no solid
   HVI::Conditions conditions(int, double) const;
   HVI::Deviator rate(int) const;
-  void advance(int, const Laws &, double);
+  void advance(int, const int *, const Laws &, double);
   void rubble(int);
   void send(int, const Laws *, const HVI::Deviator &);
 };

@@ -10,6 +10,7 @@
 #define LMP_HVI_STRENGTH_JOHNSON_COOK_H
 
 #include "hvi_strength.h"
+#include "hvi_vector_math.h"
 
 namespace HVI {
 
@@ -35,8 +36,6 @@ struct StrengthJohnsonCook {
 
   double G, A, B, n, C, m, epsdot0, Tref, Tm;
   bool slow = false;
-  static constexpr int TERMS = 7;
-  double series[TERMS];    // of (1 + u)^n - 1
 
   static std::string problem(const double *v) { return v[8] > v[7] ? "" : "Tm must be above Tref"; }
 
@@ -52,8 +51,6 @@ struct StrengthJohnsonCook {
     law.epsdot0 = v[6];
     law.Tref = v[7];
     law.Tm = v[8];
-    double c = 1.0;
-    for (int k = 0; k < TERMS; k++) law.series[k] = c *= (law.n - k) / (k + 1);
     return law;
   }
 
@@ -75,48 +72,46 @@ struct StrengthJohnsonCook {
   }
 
   /* ----------------------------------------------------------------------
-     y = Y(x), x = (trial - y)/(3 G), by Halley's method in ln x.  There
-     trial - 3 G x - Y(x) falls and is concave, at the kinks too, so that steps
-     from x of Y(0), the largest, come down to the root without passing it by much.  The
-     errors of steps are cubes of those before.  A step adds little to a
-     plastic strain that is there: a series in place of the power.
+     y = Y(x), x = (trial - y)/(3 G), for LANES particles, by Halley's method in
+     ln x.  There trial - 3 G x - Y(x) falls and is concave, at the kink too, so that
+     steps from x of Y(0), the largest, come down to the root without passing it by
+     much.  The error of a step is like the cube of the one before.  Where that fails: NaN.
   ------------------------------------------------------------------------- */
 
-  double solve(double trial, double G, double y0, double factor, double eps, double dt) const
+  Vec solve(const Vec &trial, const Vec &G, const Vec &factor, const Vec &eps, double dt) const
   {
-    const bool rates = dt > 0.0 && C > 0.0;
-    const double before = std::pow(eps, n);
-    double x = (trial - y0) / (3.0 * G);
-    double L = rates ? std::log(x / (dt * epsdot0)) : 0.0;
+    const Vec zero = {}, unknown = zero + NAN;
+    if (slow) return unknown;
+    const Vec y0 = factor * (A + B * power(eps)), G3 = 3.0 * G;
+    Vec end = trial > y0 ? unknown : trial;
+    Vec x = (trial - y0) / G3;
+    const double c = dt > 0.0 ? C : 0.0;
+    Vec L = c > 0.0 ? log(x * (1.0 / dt / epsdot0)) : zero;
     for (int k = 0; k < 30; k++) {
-      const double u = x / eps, part = x / (eps + x);
-      const double power = u < 0.01 ? before * (1.0 + binomial(u)) : std::pow(eps + x, n);
-      const double y = factor * (A + B * power), y1 = factor * B * n * power * part;
-      const double y2 = y1 * (1.0 + (n - 1.0) * part);    // derivatives to ln x
-      double R = 1.0, R1 = 0.0;
-      if (rates && (L > 0.0 || slow) && 1.0 + C * L > 0.0) {
-        R += C * L;
-        R1 = C;
-      } else if (rates && slow)
-        R = 0.0;
-      const double Y = y * R, Y1 = y1 * R + y * R1, Y2 = y2 * R + 2.0 * y1 * R1;
-      const double slope = 3.0 * G * x + Y1;
-      const double newton = (trial - 3.0 * G * x - Y) / slope;
-      const double bend = 0.5 * newton * (3.0 * G * x + Y2) / slope;
-      const double step = newton / std::max(1.0 + bend, 0.5);
-      if (std::fabs(step) < 1e-5) return Y + step * (Y1 + 0.5 * step * Y2);
-      x *= std::exp(step);
+      const Vec all = eps + x, G3x = G3 * x;
+      const Vec hard = factor * B * power(all);
+      const Vec y = factor * A + hard;    // and its derivatives to ln x
+      const Vec y1 = n * hard * x / all, y2 = y1 * (eps + n * x) / all;
+      const Vec c1 = L > 0.0 ? zero + c : zero, R = 1.0 + c1 * L;
+      const Vec Y = y * R, Y1 = y1 * R + y * c1, Y2 = y2 * R + 2.0 * y1 * c1;
+      const Vec slope = 1.0 / (G3x + Y1);
+      const Vec newton = (trial - G3x - Y) * slope;
+      const Vec bend = 1.0 + 0.5 * newton * (G3x + Y2) * slope;
+      const Vec step = newton / (bend > 0.5 ? bend : zero + 0.5);
+      const Vec last = abs(step) < 1e-5 ? Y + step * (Y1 + 0.5 * step * Y2) : unknown;
+      end = end == end ? end : last;
+      if (sum(end) == sum(end)) break;
+      x *= exp(step);
       L += step;
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    return end;
   }
 
  private:
-  double binomial(double u) const
+  Vec power(const Vec &x) const    // x^n
   {
-    double sum = 0.0;
-    for (int k = TERMS - 1; k >= 0; k--) sum = u * (series[k] + sum);
-    return sum;
+    const Vec zero = {};
+    return x > 1e-300 ? exp(n * log(x)) : zero + (n > 0.0 ? 0.0 : 1.0);
   }
 };
 
