@@ -24,6 +24,17 @@ typedef long long Bits __attribute__((vector_size(8 * LANES)));
 
 static constexpr double LN2_HIGH = 0x1.62e42fefa3800p-1, LN2_LOW = 0x1.ef35793c76730p-45;
 
+// c[0] + c[1] x + ..., in pairs (Estrin's scheme): many short chains instead of a long one
+
+HVI_INLINE Vec polynomial(const double (&c)[12], const Vec &x)
+{
+  const Vec x2 = x * x, x4 = x2 * x2;
+  Vec four[3];
+  for (int k = 0; k < 3; k++)
+    four[k] = (c[4 * k] + c[4 * k + 1] * x) + x2 * (c[4 * k + 2] + c[4 * k + 3] * x);
+  return four[0] + x4 * (four[1] + x4 * four[2]);
+}
+
 HVI_INLINE Vec exp(const Vec &number)
 {
   const Vec low = Vec{} - 700.0, high = Vec{} + 700.0;
@@ -35,12 +46,10 @@ HVI_INLINE Vec exp(const Vec &number)
   static constexpr double LARGE = 0x1.8p52;
   const Vec shifted = x * 0x1.71547652b82fep+0 + LARGE, n = shifted - LARGE;
   const Vec r = x - n * LN2_HIGH - n * LN2_LOW;
-  static constexpr double over[] = {
-      1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320,
-      1.0 / 5040,       1.0 / 720,       1.0 / 120,      1.0 / 24,      1.0 / 6,      0.5};
-  Vec sum = Vec{} + over[0];
-  for (int k = 1; k < 12; k++) sum = sum * r + over[k];
-  const Vec fraction = 1.0 + (r + r * r * sum);
+  static constexpr double over[12] = {
+      0.5,         1.0 / 6,      1.0 / 24,      1.0 / 120,      1.0 / 720,       1.0 / 5040,
+      1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800};
+  const Vec fraction = 1.0 + (r + r * r * polynomial(over, r));
   return (Vec) ((Bits) fraction + ((Bits) shifted << 52));    // times 2^n
 }
 
@@ -53,9 +62,9 @@ HVI_INLINE Vec log(const Vec &x)
   const Vec m = (Vec) ((Bits) x - (up << 52));
   const Vec n = (Vec) (up + 0x4338000000000000) - 0x1.8p52;
   const Vec f = (m - 1.0) / (m + 1.0), s = f * f;
-  Vec sum = Vec{} + 1.0 / 23;
-  for (int k = 21; k > 1; k -= 2) sum = sum * s + 1.0 / k;
-  const Vec value = n * LN2_HIGH + (2.0 * f + (2.0 * f * s * sum + n * LN2_LOW));
+  static constexpr double odd[12] = {1.0 / 3,  1.0 / 5,  1.0 / 7,  1.0 / 9,  1.0 / 11, 1.0 / 13,
+                                     1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21, 1.0 / 23, 1.0 / 25};
+  const Vec value = n * LN2_HIGH + (2.0 * f + (2.0 * f * s * polynomial(odd, s) + n * LN2_LOW));
   return x == x ? value : x;
 }
 
