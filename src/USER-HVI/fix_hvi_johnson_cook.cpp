@@ -27,6 +27,8 @@
 
 using namespace LAMMPS_NS;
 
+static constexpr double UNKNOWN = -1.0;
+
 struct FixHVIJohnsonCook::Laws {
   std::unique_ptr<HVI::Strength> strength;
   std::unique_ptr<HVI::DamageJohnsonCook> damage;
@@ -176,7 +178,9 @@ void FixHVIJohnsonCook::start(int i, bool anew)
   Solid &s = solid[i];
   if (law && s.shear == 0.0 && !failed(i))
     s.shear = law->strength->shear_modulus(conditions(i, 0.0));    // there is no pressure yet
-  if (anew) send(i, law, s.S);
+  if (!anew) return;
+  s.yield = UNKNOWN;
+  send(i, law, s.S);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -221,24 +225,43 @@ static void add(HVI::Deviator &s, double dt, const HVI::Deviator &r)
   s.yz += dt * r.yz;
 }
 
-void FixHVIJohnsonCook::advance(int i, const Laws &law, double dt)
+void FixHVIJohnsonCook::advance(int n, const int *who, const Laws &law, double dt)
 {
-  Solid &s = solid[i];
-  const HVI::Conditions c = conditions(i, pair->pressure(i));
-  s.shear = law.strength->shear_modulus(c);
-  HVI::Deviator trial = s.middle;
-  add(trial, 0.5 * dt, rate(i));
-  const HVI::Plastic plastic = law.strength->radial_return(trial, dt, s.shear, s.eps, c);
-  if (std::isnan(plastic.d_eps))
-    error->one(FLERR, "Fix hvi/johnson-cook: stress of particle {} is not a number", atom->tag[i]);
-  s.S = plastic.S;
-  s.eps += plastic.d_eps;
-  s.heat += plastic.work / c.rho;
-  s.rate = plastic.d_eps / dt;
-  if (law.damage && plastic.d_eps > 0.0)
-    s.damage += law.damage->increment(plastic.d_eps, dt, c.p, HVI::von_mises(s.S),
-                                      law.strength->homologous_temperature(c));
-  if (s.damage >= 1.0) rubble(i);
+  HVI::Conditions c[HVI::LANES] = {};
+  HVI::Deviator trial[HVI::LANES] = {};
+  double shear[HVI::LANES] = {}, eps[HVI::LANES] = {};
+  HVI::Plastic plastic[HVI::LANES];
+  for (int k = 0; k < n; k++) {
+    Solid &s = solid[who[k]];
+    c[k] = conditions(who[k], pair->pressure(who[k]));
+    shear[k] = s.shear = law.strength->shear_modulus(c[k]);
+    eps[k] = s.eps;
+    trial[k] = s.middle;
+    add(trial[k], 0.5 * dt, rate(who[k]));
+  }
+  law.strength->radial_return(n, trial, dt, shear, eps, c, plastic);
+
+  for (int k = 0; k < n; k++) {
+    const int i = who[k];
+    Solid &s = solid[i];
+    if (std::isnan(plastic[k].d_eps))
+      error->one(FLERR, "Fix hvi/johnson-cook: stress of particle {} is not a number",
+                 atom->tag[i]);
+    s.S = plastic[k].S;
+    s.yield = plastic[k].yield;
+    s.eps += plastic[k].d_eps;
+    s.heat += plastic[k].work / c[k].rho;
+    s.rate = plastic[k].d_eps / dt;
+    if (law.damage && plastic[k].d_eps > 0.0)
+      s.damage += law.damage->increment(plastic[k].d_eps, dt, c[k].p, s.yield,
+                                        law.strength->homologous_temperature(c[k]));
+    if (s.damage >= 1.0) {
+      rubble(i);
+    } else if (HVI::spalls(spall, c[k].p, s.S, law.sigma_p)) {
+      s.spalled = 1.0;
+      rubble(i);
+    }
+  }
 }
 
 void FixHVIJohnsonCook::rubble(int i)
@@ -266,10 +289,10 @@ void FixHVIJohnsonCook::first_half(double dt)
       add(s.middle, 0.5 * dt, dS);
       add(ahead, dt, dS);
       const double stress = HVI::von_mises(ahead);
-      const double yield = s.rate > 0.0
-          ? HVI::von_mises(s.S)
-          : law->strength->yield(s.eps, 0.0, conditions(i, pair->pressure(i)));
-      if (stress > yield) ahead = HVI::scaled(ahead, yield / stress);
+      if (s.yield == UNKNOWN)
+        s.yield = s.rate > 0.0 ? HVI::von_mises(s.S)
+                               : law->strength->yield(s.eps, 0.0, conditions(i, pair->pressure(i)));
+      if (stress > s.yield) ahead = HVI::scaled(ahead, s.yield / stress);
     }
     send(i, law, ahead);
   }
@@ -289,15 +312,19 @@ void FixHVIJohnsonCook::send(int i, const Laws *law, const HVI::Deviator &S)
 
 void FixHVIJohnsonCook::second_half(double dt)
 {
+  int who[HVI::LANES], n = 0;
+  const Laws *now = nullptr;    // of those in who
   for (int i = 0; i < atom->nlocal; i++) {
     const Laws *const law = of(i);
     if (!law || failed(i)) continue;
-    advance(i, *law, dt);
-    if (!failed(i) && HVI::spalls(spall, pair->pressure(i), solid[i].S, law->sigma_p)) {
-      solid[i].spalled = 1.0;
-      rubble(i);
+    if (n == HVI::LANES || law != now) {
+      if (n) advance(n, who, *now, dt);
+      n = 0;
+      now = law;
     }
+    who[n++] = i;
   }
+  if (n) advance(n, who, *now, dt);
 }
 
 /* ----------------------------------------------------------------------
@@ -317,6 +344,7 @@ void FixHVIJohnsonCook::reflect(int i, int op)
 void FixHVIJohnsonCook::set_arrays(int i)
 {
   solid[i] = Solid();
+  solid[i].yield = UNKNOWN;
   solid[i].sent.p_min = -INFINITY;
 }
 

@@ -43,6 +43,7 @@ class FixHVIJohnsonCook : public Fix {
     double heat;             // plastic work per mass
     double shear;            // modulus
     double rate;             // of plastic strain
+    double yield;            // von Mises's stress on the yield surface of S
   };
 
   FixHVIJohnsonCook(class LAMMPS *, int, char **);
@@ -93,7 +94,7 @@ class FixHVIJohnsonCook : public Fix {
   const Laws *of(int) const;    // null: no solid
   HVI::Conditions conditions(int, double) const;
   HVI::Deviator rate(int) const;
-  void advance(int, const Laws &, double);
+  void advance(int, const int *, const Laws &, double);
   void rubble(int);
   void send(int, const Laws *, const HVI::Deviator &);
 };

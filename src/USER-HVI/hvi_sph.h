@@ -51,7 +51,7 @@ struct alignas(64) SphRates {
 // of solids: deviatoric stress, which neighbors must know; velocity gradient L_ab = d v_a/d x_b, and what
 // it comes out as if L is 1
 
-struct alignas(32) SphStress {
+struct alignas(64) SphStress {
   static constexpr int SENT = 8;
   double xx, yy, zz, xy;
   double xz, yz;
@@ -59,7 +59,7 @@ struct alignas(32) SphStress {
   double shear;    // modulus
 };
 
-struct alignas(32) SphGradV {
+struct alignas(64) SphGradV {
   static constexpr int SENT = 15;
   double xx, xy, xz, yx;
   double yy, yz, zx, zy;
@@ -90,12 +90,22 @@ struct SphLaws {
 
 // neighbors of one particle within reach, as many as fit
 
+// LANES pairs, from the loop over them for the one after it, with SPH_STRENGTH only
+
+struct SphPairs {
+  Vec dx, dy, dz, dvx, dvy, dvz, w_j;
+  Vec F;        // 0 where bodies are without tension between them
+  Vec force;    // of pressure and viscosity, along d
+  Vec de_j, drho_j, qheat;
+};
+
 struct alignas(64) SphNear {
   static constexpr int MAX = 128, SIZE = MAX + LANES;
   Vec4 d[SIZE];                           // from the neighbor to the particle; difference in h
   double force[SIZE];                     // on i along d, opposite on j
   double fx[SIZE], fy[SIZE], fz[SIZE];    // all of it, with SPH_STRENGTH only
   int j[SIZE];
+  SphPairs pairs[SIZE / LANES];
 };
 
 // whole vectors: fill up with particles out of reach, to which nothing happens
@@ -141,6 +151,74 @@ template <class Kernel, int SCENE> class SphGradient {
 };
 
 /* ----------------------------------------------------------------------
+   What stress adds to the pairs in near.pairs, and what they do in all to neighbors.  A loop of its
+   own: in one loop with the long chain of roots and quotients from d to the
+   force, processors do not see far enough ahead to keep busy.
+------------------------------------------------------------------------- */
+
+inline void sph_strength(int i, int nlanes, double w_i, SphNear &near, SphRates *rates,
+                         SphRates &total, const SphStress *stress, SphGradV *gradv)
+{
+  const Vec zero = {};
+  Vec fx = zero, fy = zero, fz = zero, de = zero;
+  Vec grad[16] = {};
+  const SphStress Si = stress[i];
+
+  for (int m = 0; m < nlanes; m += LANES) {
+    int j[LANES];    // what is written may be near.j for all the compiler knows
+    for (int k = 0; k < LANES; k++) j[k] = near.j[m + k];
+    const SphPairs &pair = near.pairs[m / LANES];
+    const Vec dx = pair.dx, dy = pair.dy, dz = pair.dz;
+    const Vec dvx = pair.dvx, dvy = pair.dvy, dvz = pair.dvz;
+
+    Vec S[8], mine[16];
+    read_columns(stress, j, 0, S);
+    read_columns(stress, j, 1, S + 4);
+    const Vec VVF = w_i * pair.w_j * pair.F;
+    const Vec ti[3] = {Si.xx * dx + Si.xy * dy + Si.xz * dz, Si.xy * dx + Si.yy * dy + Si.yz * dz,
+                       Si.xz * dx + Si.yz * dy + Si.zz * dz};
+    const Vec tj[3] = {S[0] * dx + S[3] * dy + S[4] * dz, S[3] * dx + S[1] * dy + S[5] * dz,
+                       S[4] * dx + S[5] * dy + S[2] * dz};
+    const Vec f[3] = {pair.force * dx + VVF * (ti[0] + tj[0]),
+                      pair.force * dy + VVF * (ti[1] + tj[1]),
+                      pair.force * dz + VVF * (ti[2] + tj[2])};
+    *(Vec *) (near.fx + m) = f[0];
+    *(Vec *) (near.fy + m) = f[1];
+    *(Vec *) (near.fz + m) = f[2];
+    fx += f[0];
+    fy += f[1];
+    fz += f[2];
+    de -= VVF * (ti[0] * dvx + ti[1] * dvy + ti[2] * dvz);
+
+    Vec first[4] = {-f[0], -f[1], -f[2],
+                    pair.de_j - VVF * (tj[0] * dvx + tj[1] * dvy + tj[2] * dvz)};
+    Vec second[4] = {pair.drho_j, pair.qheat, zero, zero};
+    add_columns(rates, j, 0, first);
+    add_columns(rates, j, 1, second);
+
+    // on i with the weight of j, on j with that of i
+
+    const Vec a[6] = {dvx, dvy, dvz, dx, dy, dz};
+    const Vec F_i = -pair.w_j * pair.F, F_j = -w_i * pair.F;
+    const Vec gi[3] = {F_i * dx, F_i * dy, F_i * dz}, gj[3] = {F_j * dx, F_j * dy, F_j * dz};
+    static constexpr int row[15] = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 4, 5, 3, 3, 4};
+    static constexpr int column[15] = {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 1, 2, 2};
+    for (int k = 0; k < 15; k++) {
+      grad[k] += a[row[k]] * gi[column[k]];
+      mine[k] = a[row[k]] * gj[column[k]];
+    }
+    mine[15] = zero;
+    for (int k = 0; k < 4; k++) add_columns(gradv, j, k, mine + 4 * k);
+  }
+
+  total.fx += sum(fx);
+  total.fy += sum(fy);
+  total.fz += sum(fz);
+  total.de += sum(de);
+  for (int k = 0; k < 4; k++) part(gradv + i, k) += sums(grad + 4 * k);
+}
+
+/* ----------------------------------------------------------------------
    All pairs of particle i with its n near neighbors, LANES at a time.  Adds what
    happens to i to total and what happens to its neighbors to rates.  near is filled
    up to whole vectors with particles out of reach, for which all comes out as 0.
@@ -184,8 +262,6 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
 
   const Vec zero = {}, one = zero + 1.0;
   Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, same = zero;
-  Vec grad[15] = {};
-  const SphStress Si = SCENE & SPH_STRENGTH ? stress[i] : SphStress{};
 
   for (int m = 0; m < nlanes; m += LANES) {
     static constexpr int in_turn[4] = {0, 1, 2, 3};
@@ -194,6 +270,12 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
     read_columns(near.d + m, in_turn, 0, d);
     read_columns(state, j, 0, first);
     read_columns(state, j, 1, second);
+    if (SCENE & SPH_STRENGTH)
+      for (int k = 0; k < LANES; k++) {
+        __builtin_prefetch(stress + j[k]);
+        __builtin_prefetch(gradv + j[k], 1);
+        __builtin_prefetch(&gradv[j[k]].zz, 1);
+      }
     const Vec w_j = first[3], P_j = second[0], c_j = second[1], rho_j = second[2];
     const Vec dx = d[0], dy = d[1], dz = d[2];
     const Vec rsq = dx * dx + dy * dy + dz * dz;
@@ -253,50 +335,29 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
       drho_j -= phi * V_i * (same_alpha + both * rho_j);
     }
 
-    Vec f[3] = {force * dx, force * dy, force * dz};
-    Vec work_i = zero, work_j = zero;
-    if (SCENE & SPH_STRENGTH) {
-      Vec S[8], mine[16];
-      read_columns(stress, j, 0, S);
-      read_columns(stress, j, 1, S + 4);
-      const Vec VVF = bonded * w_i * w_j * F;
-      const Vec ti[3] = {Si.xx * dx + Si.xy * dy + Si.xz * dz, Si.xy * dx + Si.yy * dy + Si.yz * dz,
-                         Si.xz * dx + Si.yz * dy + Si.zz * dz};
-      const Vec tj[3] = {S[0] * dx + S[3] * dy + S[4] * dz, S[3] * dx + S[1] * dy + S[5] * dz,
-                         S[4] * dx + S[5] * dy + S[2] * dz};
-      for (int k = 0; k < 3; k++) f[k] += VVF * (ti[k] + tj[k]);
-      *(Vec *) (near.fx + m) = f[0];
-      *(Vec *) (near.fy + m) = f[1];
-      *(Vec *) (near.fz + m) = f[2];
-      work_i = VVF * (ti[0] * dvx + ti[1] * dvy + ti[2] * dvz);
-      work_j = VVF * (tj[0] * dvx + tj[1] * dvy + tj[2] * dvz);
+    de += (own * press_i + others * press_j) * g + qheat;
+    drho += drho_i;
+    heat += qheat;
+    const Vec de_j = (others * press_i + own * press_j) * g + qheat;
 
-      const Vec Fx = -bonded * F * dx, Fy = -bonded * F * dy, Fz = -bonded * F * dz;
-      const Vec product[15] = {dvx * Fx, dvx * Fy, dvx * Fz, dvy * Fx, dvy * Fy,
-                               dvy * Fz, dvz * Fx, dvz * Fy, dvz * Fz, dx * Fx,
-                               dy * Fy,  dz * Fz,  dx * Fy,  dx * Fz,  dy * Fz};
-      for (int k = 0; k < 15; k++) {
-        grad[k] += w_j * product[k];
-        mine[k] = w_i * product[k];
-      }
-      mine[15] = zero;
-      for (int k = 0; k < 4; k++) add_columns(gradv, j, k, mine + 4 * k);
+    if (SCENE & SPH_STRENGTH) {
+      near.pairs[m / LANES] = {dx,  dy,         dz,    dvx,  dvy,    dvz,
+                               w_j, bonded * F, force, de_j, drho_j, qheat};
+      continue;
     }
+    const Vec f[3] = {force * dx, force * dy, force * dz};
     fx += f[0];
     fy += f[1];
     fz += f[2];
-    de += (own * press_i + others * press_j) * g + qheat - work_i;
-    drho += drho_i;
-    heat += qheat;
-
     for (int k = 0; k < 3; k++) first[k] = -f[k];
-    first[3] = (others * press_i + own * press_j) * g + qheat - work_j;
+    first[3] = de_j;
     second[0] = drho_j;
     second[1] = qheat;
     second[2] = second[3] = zero;
     add_columns(rates, j, 0, first);
     add_columns(rates, j, 1, second);
   }
+  if (SCENE & SPH_STRENGTH) sph_strength(i, nlanes, w_i, near, rates, total, stress, gradv);
 
   total.fx += sum(fx);
   total.fy += sum(fy);
@@ -304,8 +365,6 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
   total.de += sum(de);
   total.drho += sum(drho);
   total.heat += sum(heat);
-  if (SCENE & SPH_STRENGTH)
-    for (int k = 0; k < 15; k++) (&gradv[i].xx)[k] += sum(grad[k]);
   return sum(same) > 0.0;
 }
 

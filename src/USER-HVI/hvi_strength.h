@@ -11,6 +11,7 @@
 
 #include "hvi_parameter.h"
 #include "hvi_stress.h"
+#include "hvi_vector.h"
 
 #include <limits>
 #include <memory>
@@ -33,6 +34,8 @@ namespace HVI {
      scale(conditions)            the factor of Y that is constant in a step
      flow(eps, rate)              the rest of Y; must not fall with eps or rate.
                                   A rate that is NaN: without rate terms.
+     solve(trial, G, factor, eps, dt)     if it can: what solve_return() below does, for LANES
+                                  particles; NaN where it gives up
    Thermal terms are off where T is NaN.  Guards are here, once for all laws.
    All in any consistent units, but T in K.
 ------------------------------------------------------------------------- */
@@ -42,11 +45,11 @@ struct Conditions {
 };
 
 // What became of a trial stress: the stress on the yield surface, the plastic strain of the step, and
-// the plastic work per volume, Y d_eps, with the Y at the end of the step
+// the plastic work per volume, Y d_eps, with the Y at the end of the step; where the yield surface then is
 
 struct Plastic {
   Deviator S;
-  double d_eps, work;
+  double d_eps, work, yield;
 };
 
 class Strength {
@@ -70,6 +73,11 @@ class Strength {
 
   virtual Plastic radial_return(const Deviator &trial, double dt, double G, double eps,
                                 const Conditions &) const = 0;
+
+  // the same for n particles, not more than LANES
+
+  virtual void radial_return(int n, const Deviator *trial, double dt, const double *G,
+                             const double *eps, const Conditions *, Plastic *result) const = 0;
 
   virtual std::unique_ptr<Strength> clone() const = 0;
 };
@@ -116,6 +124,20 @@ template <class Yield> double solve_return(double trial, double G, double y0, co
   return x1;
 }
 
+// whether a law can do that for LANES particles
+
+template <class Law>
+constexpr auto solves_many(const Law *law, int)
+    -> decltype(law->solve(Vec(), Vec(), Vec(), Vec(), 0.0), true)
+{
+  return true;
+}
+
+template <class Law> constexpr bool solves_many(const Law *, long)
+{
+  return false;
+}
+
 template <class Law> class StrengthModel final : public Strength {
  public:
   explicit StrengthModel(const Law &law) : law(law) {}
@@ -145,15 +167,41 @@ template <class Law> class StrengthModel final : public Strength {
   {
     const double stress = von_mises(trial), factor = scale(c);
     const double y0 = factor * law.flow(eps, dt > 0.0 ? 0.0 : NOT_A_NUMBER);
-    if (stress <= y0) return {trial, 0.0, 0.0};
+    if (stress <= y0) return {trial, 0.0, 0.0, y0};
     if (!(stress > y0 && stress < NO_LIMIT && G >= 0.0))
-      return {scaled(trial, NOT_A_NUMBER), NOT_A_NUMBER, NOT_A_NUMBER};
-    if (3.0 * G < 1e-100 * stress) return {scaled(trial, y0 / stress), 0.0, 0.0};
-    const double y = solve_return(stress, G, y0, [&](double x) {
-      return factor * law.flow(eps + x, dt > 0.0 ? std::min(x / dt, 1e300) : NOT_A_NUMBER);
-    });
-    const double d_eps = (stress - y) / (3.0 * G);
-    return {scaled(trial, y / stress), d_eps, y * d_eps};
+      return {scaled(trial, NOT_A_NUMBER), NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER};
+    if (3.0 * G <= 1e-100 * stress) return {scaled(trial, y0 / stress), 0.0, 0.0, y0};
+    return returned(trial, stress, G, solve_return(stress, G, y0, [&](double x) {
+                      return factor *
+                          law.flow(eps + x, dt > 0.0 ? std::min(x / dt, 1e300) : NOT_A_NUMBER);
+                    }));
+  }
+
+  void radial_return(int n, const Deviator *trial, double dt, const double *G, const double *eps,
+                     const Conditions *c, Plastic *result) const override
+  {
+    if constexpr (solves_many((const Law *) nullptr, 0)) {
+      Vec stress = {}, modulus = Vec{} + 1.0, factor = {}, before = {};
+      bool usual[LANES];
+      for (int k = 0; k < n; k++) {
+        const double vm = von_mises(trial[k]);
+        usual[k] = vm < NO_LIMIT && vm > 0.0 && 3.0 * G[k] > 1e-100 * vm;
+        if (!usual[k]) continue;
+        stress[k] = vm;
+        modulus[k] = G[k];
+        factor[k] = scale(c[k]);
+        before[k] = eps[k];
+      }
+      const Vec y = law.solve(stress, modulus, factor, before, dt);
+      for (int k = 0; k < n; k++)
+        if (!usual[k] || !(y[k] >= 0.0))
+          result[k] = radial_return(trial[k], dt, G[k], eps[k], c[k]);
+        else if (y[k] == stress[k])
+          result[k] = {trial[k], 0.0, 0.0, yield(eps[k], 0.0, c[k])};
+        else
+          result[k] = returned(trial[k], stress[k], G[k], y[k]);
+    } else
+      for (int k = 0; k < n; k++) result[k] = radial_return(trial[k], dt, G[k], eps[k], c[k]);
   }
 
   std::unique_ptr<Strength> clone() const override
@@ -164,6 +212,12 @@ template <class Law> class StrengthModel final : public Strength {
  private:
   static constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
   Law law;
+
+  static Plastic returned(const Deviator &trial, double stress, double G, double y)
+  {
+    const double d_eps = (stress - y) / (3.0 * G);
+    return {scaled(trial, y / stress), d_eps, y * d_eps, y};
+  }
 
   bool molten(const Conditions &c) const { return c.T >= law.melt(c); }
   static double positive(double x) { return x < 0.0 ? 0.0 : x; }    // NaN stays

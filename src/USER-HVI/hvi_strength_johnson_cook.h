@@ -10,6 +10,7 @@
 #define LMP_HVI_STRENGTH_JOHNSON_COOK_H
 
 #include "hvi_strength.h"
+#include "hvi_vector_math.h"
 
 namespace HVI {
 
@@ -58,7 +59,9 @@ struct StrengthJohnsonCook {
 
   double scale(const Conditions &c) const
   {
-    return c.T > Tref ? 1.0 - std::pow((c.T - Tref) / (Tm - Tref), m) : 1.0;
+    if (!(c.T > Tref)) return 1.0;
+    const double T = (c.T - Tref) / (Tm - Tref);
+    return 1.0 - (m == 1.0 ? T : std::pow(T, m));
   }
 
   double flow(double eps, double rate) const
@@ -66,6 +69,49 @@ struct StrengthJohnsonCook {
     const double y = A + B * std::pow(eps, n);
     if (!(rate > epsdot0) && !(slow && rate >= 0.0)) return y;
     return y * std::max(1.0 + (C > 0.0 ? C * std::log(rate / epsdot0) : 0.0), 0.0);
+  }
+
+  /* ----------------------------------------------------------------------
+     y = Y(x), x = (trial - y)/(3 G), for LANES particles, by Halley's method in
+     ln x.  There trial - 3 G x - Y(x) falls and is concave, at the kink too, so that
+     steps from x of Y(0), the largest, come down to the root without passing it by
+     much.  The error of a step is like the cube of the one before.  Where that fails: NaN.
+  ------------------------------------------------------------------------- */
+
+  Vec solve(const Vec &trial, const Vec &G, const Vec &factor, const Vec &eps, double dt) const
+  {
+    const Vec zero = {}, unknown = zero + NAN;
+    if (slow) return unknown;
+    const Vec y0 = factor * (A + B * power(eps)), G3 = 3.0 * G;
+    Vec end = trial > y0 ? unknown : trial;
+    Vec x = (trial - y0) / G3;
+    const double c = dt > 0.0 ? C : 0.0;
+    Vec L = c > 0.0 ? log(x * (1.0 / dt / epsdot0)) : zero;
+    for (int k = 0; k < 30; k++) {
+      const Vec all = eps + x, G3x = G3 * x;
+      const Vec hard = factor * B * power(all);
+      const Vec y = factor * A + hard;    // and its derivatives to ln x
+      const Vec y1 = n * hard * x / all, y2 = y1 * (eps + n * x) / all;
+      const Vec c1 = L > 0.0 ? zero + c : zero, R = 1.0 + c1 * L;
+      const Vec Y = y * R, Y1 = y1 * R + y * c1, Y2 = y2 * R + 2.0 * y1 * c1;
+      const Vec slope = 1.0 / (G3x + Y1);
+      const Vec newton = (trial - G3x - Y) * slope;
+      const Vec bend = 1.0 + 0.5 * newton * (G3x + Y2) * slope;
+      const Vec step = newton / (bend > 0.5 ? bend : zero + 0.5);
+      const Vec last = abs(step) < 1e-5 ? Y + step * (Y1 + 0.5 * step * Y2) : unknown;
+      end = end == end ? end : last;
+      if (sum(end) == sum(end)) break;
+      x *= exp(step);
+      L += step;
+    }
+    return end;
+  }
+
+ private:
+  Vec power(const Vec &x) const    // x^n
+  {
+    const Vec zero = {};
+    return x > 1e-300 ? exp(n * log(x)) : zero + (n > 0.0 ? 0.0 : 1.0);
   }
 };
 

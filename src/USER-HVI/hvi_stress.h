@@ -45,9 +45,11 @@ inline double contract(const Deviator &a, const Deviator &b)
 
 inline double von_mises(const Deviator &s)
 {
+  const double square = 1.5 * contract(s, s);
+  if (square > 1e-200 && square < 1e200) return std::sqrt(square);
   const double size = std::max({std::fabs(s.xx), std::fabs(s.yy), std::fabs(s.zz), std::fabs(s.xy),
                                 std::fabs(s.xz), std::fabs(s.yz)});
-  if (size == 0.0) return contract(s, s);    // 0, or what is not a number
+  if (size == 0.0) return square;    // 0, or what is not a number
   const Deviator unit = {s.xx / size, s.yy / size, s.zz / size,
                          s.xy / size, s.xz / size, s.yz / size};
   return size * std::sqrt(1.5 * contract(unit, unit));

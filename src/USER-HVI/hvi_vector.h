@@ -91,6 +91,8 @@ HVI_INLINE void add_column(Record *records, const int *j, double Record::*number
 // for either width, of part n of the records with numbers j[0] ... j[LANES - 1]:
 //   read_columns: column[k] is number k of them all
 //   add_columns: adds to them
+//   sums: of four columns
+// columns that are written from are gone afterwards
 
 #if defined(__AVX__)
 
@@ -118,6 +120,12 @@ HVI_INLINE void add_columns(Record *records, const int *j, int n, Vec *column)
   for (int k = 0; k < 4; k++) part(records + j[k], n) += column[k];
 }
 
+HVI_INLINE Vec4 sums(Vec *column)
+{
+  transpose(column);
+  return column[0] + column[1] + column[2] + column[3];
+}
+
 #else
 
 template <class Record> static inline Vec2 &quarter(Record *record, int n)
@@ -143,6 +151,11 @@ HVI_INLINE void add_columns(Record *records, const int *j, int n, Vec *column)
     quarter(records + j[0], 2 * n + k / 2) += HVI_SHUFFLE(column[k], column[k + 1], 0, 2);
     quarter(records + j[1], 2 * n + k / 2) += HVI_SHUFFLE(column[k], column[k + 1], 1, 3);
   }
+}
+
+HVI_INLINE Vec4 sums(Vec *column)
+{
+  return Vec4{sum(column[0]), sum(column[1]), sum(column[2]), sum(column[3])};
 }
 
 #endif

@@ -60,8 +60,19 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   bool variable_h() const { return variable; }
   double smoothing_length(int itype, double rho, double hscale) const;
   double hscale(int itype, double rho) const;    // h rho^(1/dim), which stays as it is
-  double pressure(int i) const;                  // of the last forces, owned particles
-  HVI::VelocityGradient velocity_gradient(int i) const;
+
+  // of the last forces, owned particles
+
+  double pressure(int i) const
+  {
+    const HVI::SphState &s = state[i];
+    return laws.symmetric ? s.p * s.rho * s.rho : s.p;
+  }
+  HVI::VelocityGradient velocity_gradient(int i) const
+  {
+    const HVI::SphGradV &L = gradv[i];
+    return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
+  }
   double viscous_power() const { return heating; }    // of owned particles
   const HVI::MirrorPlanes &mirrors() const { return mirror; }
   const double *mirror_force() const { return images.force; }    // on this rank's particles

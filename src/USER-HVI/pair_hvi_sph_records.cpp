@@ -46,6 +46,8 @@ void PairHVISPH::gather()
 
   for (int i = 0; i < nall; i++) {
     const int itype = type[i];
+    rates[i] = {};
+    if (solid) gradv[i] = {};
     if (!materials[itype]) continue;    // of another style in a hybrid
     const double m = rmass ? rmass[i] : atom->mass[itype];
     double p, csq;
@@ -88,8 +90,6 @@ void PairHVISPH::gather()
     s.c = std::sqrt(csq);
     s.type = itype;
   }
-  if (nall) memset((void *) rates.get(), 0, nall * sizeof(HVI::SphRates));
-  if (nall && solid) memset((void *) gradv.get(), 0, nall * sizeof(HVI::SphGradV));
 }
 
 /* ----------------------------------------------------------------------
@@ -126,18 +126,6 @@ void PairHVISPH::correct_gradients()
     L.zy = c(2, 1);
     L.zz = c(2, 2);
   }
-}
-
-HVI::VelocityGradient PairHVISPH::velocity_gradient(int i) const
-{
-  const HVI::SphGradV &L = gradv[i];
-  return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
-}
-
-double PairHVISPH::pressure(int i) const
-{
-  const HVI::SphState &s = state[i];
-  return laws.symmetric ? s.p * s.rho * s.rho : s.p;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -399,6 +399,73 @@ TEST(RadialReturn, SolvesItsEquation)
   EXPECT_GT(plastic, 20000);
 }
 
+// many particles at a time: as one by one, whoever is beside them
+
+TEST(RadialReturn, ManyAtATime)
+{
+  std::mt19937_64 random(5);
+  auto uniform = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
+  for (const Section &section : {JC, SG, CS, PERFECT}) {
+    auto law = made(section);
+    SCOPED_TRACE(law->name());
+    for (int k = 0; k < 20000; k++) {
+      Conditions c[LANES];
+      Deviator trial[LANES];
+      double G[LANES], eps[LANES];
+      Plastic r[LANES], alone;
+      const double dt = k % 50 ? std::pow(10.0, uniform(-12.0, 0.0)) : 0.0;
+      const int n = 1 + k % LANES;
+      for (int l = 0; l < n; l++) {
+        const double size = std::pow(10.0, uniform(k % 7 ? 8.0 : -300.0, k % 11 ? 11.0 : 40.0));
+        c[l] = at(uniform(200.0, 1000.0), uniform(-1e9, 3e10), uniform(0.98, 1.2));
+        G[l] = law->shear_modulus(c[l]);
+        eps[l] = (k + l) % 3 ? std::pow(10.0, uniform(-12.0, 1.0)) : 0.0;
+        trial[l] = {size * uniform(-1.0, 1.0), size * uniform(-1.0, 1.0), 0.0,
+                    size * uniform(-1.0, 1.0), size * uniform(-1.0, 1.0), 0.0};
+        if (k % 1000 == 1) trial[l].xy = NONE;
+        if (k % 1000 == 2) trial[l] = {};
+      }
+      law->radial_return(n, trial, dt, G, eps, c, r);
+      for (int l = 0; l < n; l++) {
+        const Plastic one = law->radial_return(trial[l], dt, G[l], eps[l], c[l]);
+        const double s = von_mises(trial[l]);
+        if (std::isnan(one.d_eps)) {
+          ASSERT_TRUE(std::isnan(r[l].d_eps) && std::isnan(r[l].S.xx));
+          continue;
+        }
+        ASSERT_NEAR(r[l].yield, one.yield, 4e-15 * std::max(s, one.yield)) << k;
+        ASSERT_NEAR(von_mises(r[l].S), von_mises(one.S), 4e-15 * s);
+        ASSERT_NEAR(r[l].d_eps, one.d_eps, G[l] > 0.0 ? 1e-14 * s / (3.0 * G[l]) : 0.0);
+        ASSERT_NEAR(r[l].work, r[l].yield * r[l].d_eps, 1e-14 * r[l].work);
+        law->radial_return(1, trial + l, dt, G + l, eps + l, c + l, &alone);
+        ASSERT_EQ(alone.d_eps, r[l].d_eps);
+        ASSERT_EQ(alone.S.xy, r[l].S.xy);
+      }
+    }
+  }
+}
+
+// Johnson and Cook's own solver does not leave usual cases to the other one
+
+TEST(RadialReturn, JohnsonCookFindsIt)
+{
+  StrengthJohnsonCook jc;
+  ASSERT_EQ(read_law(JC, jc), "");
+  const Vec zero = {};
+  for (double trial = 300e6; trial < 1e11; trial *= 1.3)
+    for (double eps : {0.0, 1e-9, 1e-4, 0.1, 3.0})
+      for (double dt : {0.0, 1e-12, 1e-9, 1e-7, 1e-4, 1.0})
+        for (double factor : {0.0, 1e-3, 1.0}) {
+          const Vec y = jc.solve(zero + trial, zero + 26e9, zero + factor, zero + eps, dt);
+          const double x = std::max((trial - y[0]) / 78e9, 0.0);    // not precise for small ones
+          EXPECT_NEAR(y[0], std::min(trial, factor * jc.flow(eps + x, dt > 0.0 ? x / dt : NONE)),
+                      1e-9 * trial)
+              << trial << " " << eps << " " << dt << " " << factor;
+        }
+}
+
 // hard cases end, and with sense
 
 TEST(RadialReturn, HardCases)
