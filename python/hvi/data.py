@@ -11,7 +11,8 @@ from .scan import open_binary
 
 # atom styles that put the molecule between ID and type
 _MOLECULE_FIRST = {"angle", "bond", "full", "line", "molecular", "tri"}
-_SECTION = re.compile(rb"^([A-Z][A-Za-z ]*[a-z])[ \t]*(?:#[ \t]*([^\n]*))?\n", re.M)
+# LAMMPS's own sections, and those of fixes, which have the ID of the fix
+_SECTION = re.compile(rb"^([A-Z][A-Za-z ]*[a-z]|[A-Za-z_]\w*)[ \t]*(?:#[ \t]*([^\n]*))?\n", re.M)
 
 
 class DataFile:

@@ -16,6 +16,7 @@
 #include "bond.h"
 #include "comm.h"
 #include "error.h"
+#include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_ledger.h"
 #include "force.h"
 #include "group.h"
@@ -34,7 +35,7 @@ enum {
   KINETIC, INTERNAL, CONTACT, SPRING, BROKEN, LEFT, CLAMPS, TOTAL, RATIO,
   PX, PY, PZ, LEFT_PX, LEFT_PY, LEFT_PZ, JX, JY, JZ,
   MASS, LEFT_MASS, LEFT_COUNT, BONDS_BROKEN, BONDS_LEFT,
-  P0X, P0Y, P0Z, MASS0, VISCOUS, NVALUES
+  P0X, P0Y, P0Z, MASS0, VISCOUS, PLASTIC, NVALUES
 };
 // clang-format on
 
@@ -138,6 +139,8 @@ void ComputeHVIEnergy::compute_vector()
   mine[KINETIC] *= 0.5 * force->mvv2e;
   if (atom->esph_flag)
     for (int i = 0; i < atom->nlocal; i++) mine[INTERNAL] += atom->esph[i];
+  if (const auto *const solids = FixHVIJohnsonCook::find(lmp))
+    for (int i = 0; i < atom->nlocal; i++) mine[PLASTIC] += solids->plastic_work(i);
   if (force->pair) mine[CONTACT] = force->pair->eng_vdwl + force->pair->eng_coul;
   if (force->bond) mine[SPRING] = force->bond->energy;
   MPI_Allreduce(mine, vector, NVALUES, MPI_DOUBLE, MPI_SUM, world);
@@ -156,6 +159,7 @@ void ComputeHVIEnergy::compute_vector()
   vector[BONDS_BROKEN] = booked[FixHVILedger::BONDS_BROKEN];
   vector[BONDS_LEFT] = booked[FixHVILedger::BONDS_LEFT];
   vector[VISCOUS] = booked[FixHVILedger::VISCOUS];
+  vector[PLASTIC] += booked[FixHVILedger::LEFT_PLASTIC];
 
   vector[TOTAL] = 0.0;
   for (int n = KINETIC; n < TOTAL; n++) vector[TOTAL] += vector[n];

@@ -27,8 +27,6 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr double UNKNOWN = -1.0;
-
 struct FixHVIJohnsonCook::Laws {
   std::unique_ptr<HVI::Strength> strength;
   std::unique_ptr<HVI::DamageJohnsonCook> damage;
@@ -40,12 +38,17 @@ struct FixHVIJohnsonCook::Laws {
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), strength_name("johnson-cook"), spall(HVI::Spall::PRINCIPAL),
-    with_damage(1), thermal(1), from_work(0), solid(nullptr), pair(nullptr)
+    with_damage(1), thermal(1), from_work(0), weibull(0.0), weibull_seed(0), solid(nullptr),
+    pair(nullptr), state_rows(lmp, id, "Sxx Syy Szz Sxy Sxz Syz eps damage spalled heat"),
+    force_rows(lmp, std::string(id) + "_forces",
+               "Sxx Syy Szz Sxy Sxz Syz p_min shear_then shear rate")
 {
+  std::string spall_name = "principal";
   int iarg = 3;
   while (iarg < narg) {
     const std::string key = arg[iarg];
-    if (iarg + 1 >= narg)
+    const int nvalues = key == "weibull" ? 2 : 1;
+    if (iarg + nvalues >= narg)
       utils::missing_cmd_args(FLERR, fmt::format("fix hvi/johnson-cook {}", key), error);
     const std::string value = arg[iarg + 1];
     if (key == "strength") {
@@ -59,6 +62,7 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
         error->all(FLERR, "Fix hvi/johnson-cook temperature must be energy or work, not {}", value);
       from_work = value == "work";
     } else if (key == "spall") {
+      spall_name = value;
       if (value == "none")
         spall = HVI::Spall::NONE;
       else if (value == "pressure")
@@ -71,14 +75,33 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
         error->all(FLERR,
                    "Fix hvi/johnson-cook spall must be none, pressure, principal or zero, not {}",
                    value);
+    } else if (key == "weibull") {
+      weibull = utils::numeric(FLERR, value, false, lmp);
+      weibull_seed = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
+      if (!(weibull >= 0.01 && std::isfinite(weibull)))    // Gamma(1 + 1/modulus) is finite
+        error->all(FLERR, "Fix hvi/johnson-cook weibull modulus must be 0.01 or more, not {}",
+                   value);
+      if (weibull_seed <= 0)
+        error->all(FLERR, "Fix hvi/johnson-cook weibull seed must be > 0, not {}", arg[iarg + 2]);
     } else
       error->all(FLERR, "Unknown fix hvi/johnson-cook keyword: {}", key);
-    iarg += 2;
+    iarg += 1 + nvalues;
   }
+  if (weibull > 0.0 && !with_damage)
+    error->all(FLERR, "Fix hvi/johnson-cook weibull scatters damage: it needs damage yes");
+  if (weibull > 0.0 && !atom->tag_enable)
+    error->all(FLERR, "Fix hvi/johnson-cook weibull needs IDs of particles");
 
+  text = fmt::format("strength {} damage {} spall {} temperature {} thermal {}", strength_name,
+                     with_damage ? "yes" : "no", spall_name, from_work ? "work" : "energy",
+                     thermal ? "yes" : "no");
+  if (weibull > 0.0) text += fmt::format(" weibull {} {}", weibull, weibull_seed);
+
+  restart_global = 1;
   restart_peratom = 1;
   maxexchange = NSOLID;
   create_attribute = 1;
+  wd_section = 2;
 
   FixHVIJohnsonCook::grow_arrays(atom->nmax);
   for (int i = 0; i < atom->nlocal; i++) FixHVIJohnsonCook::set_arrays(i);
@@ -97,6 +120,12 @@ FixHVIJohnsonCook::~FixHVIJohnsonCook()
 
 /* ---------------------------------------------------------------------- */
 
+FixHVIJohnsonCook *FixHVIJohnsonCook::find(LAMMPS *lmp)
+{
+  const auto fixes = lmp->modify->get_fix_by_style("^hvi/johnson-cook$");
+  return fixes.empty() ? nullptr : dynamic_cast<FixHVIJohnsonCook *>(fixes[0]);
+}
+
 int FixHVIJohnsonCook::setmask()
 {
   return 0;    // fix hvi/sph calls it
@@ -112,6 +141,13 @@ void FixHVIJohnsonCook::init()
     error->all(FLERR, "Fix hvi/johnson-cook needs fix hvi/sph, which calls it");
   pair = PairHVISPH::find(lmp);
   if (!pair) error->all(FLERR, "Fix hvi/johnson-cook needs pair style hvi/sph");
+  if (!restored.empty() && restored != text)
+    error->all(FLERR,
+               "Fix hvi/johnson-cook: the restart file was written with {}, this run uses {}",
+               restored, text);
+  restored.clear();    // later runs of this script may use another fix
+  state_rows.forget();
+  force_rows.forget();
 
   laws.clear();
   bool found = false;
@@ -176,7 +212,8 @@ void FixHVIJohnsonCook::start(int i, bool anew)
 {
   const Laws *const law = of(i);
   Solid &s = solid[i];
-  if (law && s.shear == 0.0 && !failed(i))
+  anew = anew || s.sent.shear == UNSENT;
+  if (anew && law && s.shear == 0.0 && !failed(i))
     s.shear = law->strength->shear_modulus(conditions(i, 0.0));    // there is no pressure yet
   if (!anew) return;
   s.yield = UNKNOWN;
@@ -197,6 +234,16 @@ double FixHVIJohnsonCook::temperature(int i) const
     return laws[itype]->T0 + laws[itype]->chi * solid[i].heat / laws[itype]->cp;
   const double m = atom->rmass ? atom->rmass[i] : atom->mass[itype];
   return pair->material(itype)->eos->temperature(atom->rho[i], atom->esph[i] / m);
+}
+
+double FixHVIJohnsonCook::plastic_work(int i) const
+{
+  return (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * solid[i].heat;
+}
+
+double FixHVIJohnsonCook::scatter(int i) const
+{
+  return weibull > 0.0 ? HVI::weibull_factor(weibull_seed, atom->tag[i], weibull) : 1.0;
 }
 
 HVI::Conditions FixHVIJohnsonCook::conditions(int i, double p) const
@@ -254,7 +301,7 @@ void FixHVIJohnsonCook::advance(int n, const int *who, const Laws &law, double d
     s.rate = plastic[k].d_eps / dt;
     if (law.damage && plastic[k].d_eps > 0.0)
       s.damage += law.damage->increment(plastic[k].d_eps, dt, c[k].p, s.yield,
-                                        law.strength->homologous_temperature(c[k]));
+                                        law.strength->homologous_temperature(c[k]), scatter(i));
     if (s.damage >= 1.0) {
       rubble(i);
     } else if (HVI::spalls(spall, c[k].p, s.S, law.sigma_p)) {
@@ -337,67 +384,4 @@ void FixHVIJohnsonCook::reflect(int i, int op)
   reflection.symmetric(solid[i].S);
   reflection.symmetric(solid[i].sent.S);
   reflection.symmetric(solid[i].middle);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixHVIJohnsonCook::set_arrays(int i)
-{
-  solid[i] = Solid();
-  solid[i].yield = UNKNOWN;
-  solid[i].sent.p_min = -INFINITY;
-}
-
-void FixHVIJohnsonCook::grow_arrays(int n)
-{
-  solid = (Solid *) memory->srealloc(solid, n * sizeof(Solid), "hvi/johnson-cook:solid");
-}
-
-void FixHVIJohnsonCook::copy_arrays(int i, int j, int /*delflag*/)
-{
-  solid[j] = solid[i];
-}
-
-int FixHVIJohnsonCook::pack_exchange(int i, double *buf)
-{
-  memcpy(buf, &solid[i], sizeof(Solid));
-  return NSOLID;
-}
-
-int FixHVIJohnsonCook::unpack_exchange(int i, double *buf)
-{
-  memcpy((void *) &solid[i], buf, sizeof(Solid));
-  return NSOLID;
-}
-
-int FixHVIJohnsonCook::pack_restart(int i, double *buf)
-{
-  buf[0] = NSOLID + 1;
-  memcpy(&buf[1], &solid[i], sizeof(Solid));
-  return NSOLID + 1;
-}
-
-void FixHVIJohnsonCook::unpack_restart(int nlocal, int nth)
-{
-  double **stored = atom->extra;
-  int m = 0;
-  for (int i = 0; i < nth; i++) m += static_cast<int>(stored[nlocal][m]);
-  memcpy((void *) &solid[nlocal], &stored[nlocal][m + 1], sizeof(Solid));
-}
-
-int FixHVIJohnsonCook::maxsize_restart()
-{
-  return NSOLID + 1;
-}
-
-int FixHVIJohnsonCook::size_restart(int /*nlocal*/)
-{
-  return NSOLID + 1;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double FixHVIJohnsonCook::memory_usage()
-{
-  return (double) atom->nmax * sizeof(Solid);
 }

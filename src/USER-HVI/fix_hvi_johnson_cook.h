@@ -16,6 +16,7 @@ FixStyle(hvi/johnson-cook,FixHVIJohnsonCook);
 #define LMP_FIX_HVI_JOHNSON_COOK_H
 
 #include "fix.h"
+#include "hvi_data_rows.h"
 #include "hvi_spall.h"
 #include "hvi_sph.h"
 #include "hvi_strength.h"
@@ -59,6 +60,14 @@ class FixHVIJohnsonCook : public Fix {
   void unpack_restart(int, int) override;
   int maxsize_restart() override;
   int size_restart(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  void write_data_section_size(int, int &, int &) override;
+  void write_data_section_pack(int, double **) override;
+  void write_data_section_keyword(int, FILE *) override;
+  void write_data_section(int, FILE *, int, double **, int) override;
+  bigint read_data_skip_lines(char *) override { return -1; }    // one per particle
+  void read_data_section(char *, int, char *, tagint) override;
   double memory_usage() override;
 
   // called by fix hvi/sph, with the time step
@@ -67,6 +76,8 @@ class FixHVIJohnsonCook : public Fix {
   void first_half(double);
   void second_half(double);
   void reflect(int, int);
+
+  static FixHVIJohnsonCook *find(class LAMMPS *);    // of this simulation, nullptr: none
 
   // for the pair style and computes; owned particles
 
@@ -77,25 +88,35 @@ class FixHVIJohnsonCook : public Fix {
   }
   const Solid &state(int i) const { return solid[i]; }
   double temperature(int) const;
+  double plastic_work(int) const;    // energy, from the start on
   bool failed(int i) const { return solid[i].damage >= 1.0 || solid[i].spalled != 0.0; }
 
  private:
   static constexpr int NSOLID = sizeof(Solid) / sizeof(double);
+  static constexpr double UNKNOWN = -1.0;    // yield
+  static constexpr double UNSENT = -1.0;    // sent.shear, before the first forces
 
   struct Laws;    // of a type
   std::vector<std::unique_ptr<Laws>> laws;
   std::string strength_name;
   HVI::Spall spall;
   int with_damage, thermal, from_work;
+  double weibull;    // modulus of the scatter of damage, 0: none
+  int weibull_seed;
+  std::string text, restored;    // settings, and those in the restart file
 
   Solid *solid;
   class PairHVISPH *pair;
+  HVIDataRows state_rows, force_rows;    // sections of data files
 
+  HVIDataRows &rows(int section) { return section == 0 ? state_rows : force_rows; }
+  static Solid blank();         // of a new particle
   const Laws *of(int) const;    // null: no solid
   HVI::Conditions conditions(int, double) const;
   HVI::Deviator rate(int) const;
   void advance(int, const int *, const Laws &, double);
   void rubble(int);
+  double scatter(int) const;
   void send(int, const Laws *, const HVI::Deviator &);
 };
 

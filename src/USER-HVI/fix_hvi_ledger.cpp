@@ -338,6 +338,7 @@ void FixHVILedger::let_go(double dt)
   entry[LEFT] += left.energy;
   for (int k = 0; k < 3; k++) entry[LEFT_PX + k] += left.momentum[k];
   entry[LEFT_MASS] += left.mass;
+  entry[LEFT_PLASTIC] += left.plastic;
   entry[LEFT_COUNT] += left.count;
 
   // half the records with newton_bond off, where a bond has one at either end

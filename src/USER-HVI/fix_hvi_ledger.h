@@ -38,6 +38,7 @@ class FixHVILedger : public Fix {
     CLAMP_WORK,                             // work of the clamps on the particles
     CLAMP_JX, CLAMP_JY, CLAMP_JZ,           // impulse on the particles, of clamps and mirror planes
     VISCOUS,                                // heat from viscosity, a part of internal energy
+    LEFT_PLASTIC,                           // plastic work that left the box, another part
     NENTRY
   };
   // clang-format on

@@ -34,7 +34,8 @@ using namespace FixConst;
 
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), strength(nullptr),
-    dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0}, stepping(0), follow(0)
+    dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0}, stepping(0), follow(0),
+    rows(lmp, id, "going_on h_constant rho esph vx vy vz")
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
@@ -49,6 +50,7 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
   comm_forward = 1;
   maxexchange = NEXTRA;
   create_attribute = 1;
+  wd_section = 1;
 
   FixHVISPH::grow_arrays(atom->nmax);
   for (int i = 0; i < atom->nlocal; i++) FixHVISPH::set_arrays(i);
@@ -97,9 +99,9 @@ void FixHVISPH::init()
                restored, pair->description());
 
   restored.clear();    // later runs of this script may change the settings
+  rows.forget();
 
-  auto fixes = modify->get_fix_by_style("^hvi/johnson-cook$");
-  strength = fixes.empty() ? nullptr : dynamic_cast<FixHVIJohnsonCook *>(fixes[0]);
+  strength = FixHVIJohnsonCook::find(lmp);
 
   ledger = FixHVILedger::instance(lmp);
   follow = igroup != 0 && !pair->is_stock() && modify->get_fix_by_style("^sph$").empty();
@@ -312,7 +314,7 @@ void FixHVISPH::post_run()
 
 void FixHVISPH::set_arrays(int i)
 {
-  extra[i] = Extra();
+  if (!rows.take(i)) extra[i] = Extra();
 }
 
 void FixHVISPH::grow_arrays(int n)
@@ -406,6 +408,50 @@ void FixHVISPH::write_restart(FILE *fp)
 void FixHVISPH::restart(char *buf)
 {
   restored = buf;
+}
+
+/* ----------------------------------------------------------------------
+   Data files: what the last rates belong to, for particles that go on from it,
+   and the constant of variable h.  atom_style sph does not write vest.
+------------------------------------------------------------------------- */
+
+void FixHVISPH::write_data_section_size(int /*mth*/, int &nx, int &ny)
+{
+  nx = atom->nlocal;
+  ny = rows.width();
+}
+
+void FixHVISPH::write_data_section_pack(int /*mth*/, double **buf)
+{
+  rows.pack_ids(buf);
+  for (int i = 0; i < atom->nlocal; i++) {
+    const Extra &e = extra[i];
+    const bool going_on = e.mark == fingerprint(i);
+    buf[i][1] = going_on;
+    buf[i][2] = e.hscale;
+    buf[i][3] = going_on ? e.rho : atom->rho[i];
+    buf[i][4] = going_on ? e.esph : atom->esph[i];
+    for (int k = 0; k < 3; k++) buf[i][5 + k] = going_on ? atom->vest[i][k] : atom->v[i][k];
+  }
+}
+
+void FixHVISPH::write_data_section_keyword(int /*mth*/, FILE *fp)
+{
+  rows.write_keyword(fp);
+}
+
+void FixHVISPH::write_data_section(int /*mth*/, FILE *fp, int n, double **buf, int /*index*/)
+{
+  rows.write(fp, n, buf);
+}
+
+void FixHVISPH::read_data_section(char * /*keyword*/, int n, char *buf, tagint offset)
+{
+  rows.read(n, buf, offset, [this](int i, const double *c) {
+    Extra &e = extra[i];
+    e = {0.0, 0.0, c[2], c[3], c[0] != 0.0 ? fingerprint(i) : 0, c[1]};
+    for (int k = 0; k < 3; k++) atom->vest[i][k] = c[4 + k];
+  });
 }
 
 /* ---------------------------------------------------------------------- */

@@ -16,6 +16,7 @@ FixStyle(hvi/sph,FixHVISPH);
 #define LMP_FIX_HVI_SPH_H
 
 #include "fix.h"
+#include "hvi_data_rows.h"
 
 #include <cstdint>
 #include <string>
@@ -51,6 +52,12 @@ class FixHVISPH : public Fix {
   int size_restart(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+  void write_data_section_size(int, int &, int &) override;
+  void write_data_section_pack(int, double **) override;
+  void write_data_section_keyword(int, FILE *) override;
+  void write_data_section(int, FILE *, int, double **, int) override;
+  bigint read_data_skip_lines(char *) override { return -1; }    // one per particle
+  void read_data_section(char *, int, char *, tagint) override;
   double memory_usage() override;
 
   double hscale(int i) const { return extra[i].hscale; }    // owned and ghost particles
@@ -77,6 +84,7 @@ class FixHVISPH : public Fix {
   int stepping;            // in a run, so that the state is the one the last step left
   int follow;              // particles outside the group are moved by fixes that do not know vest
   std::string restored;    // settings of the pair style in the restart file
+  HVIDataRows rows;        // section of data files
 
   bool mine(int) const;    // integrated here
   void reflect();

@@ -17,6 +17,7 @@
 #include "bond.h"
 #include "comm.h"
 #include "domain.h"
+#include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_sph.h"
 #include "force.h"
 #include "hvi_compat.h"
@@ -94,6 +95,7 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
   Account a = {};
   const auto fixes = modify->get_fix_by_style("^hvi/sph$");
   const auto *const sph = fixes.empty() ? nullptr : dynamic_cast<FixHVISPH *>(fixes[0]);
+  const auto *const solids = FixHVIJohnsonCook::find(lmp);
 
   for (const int i : leaving) {
     Leaver l;
@@ -112,6 +114,7 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
     a.energy += ke;
     if (atom->esph_flag) a.energy += atom->esph[i];
     if (sph) a.energy -= sph->energy_owed(i);    // esph is ahead of the half kicks
+    if (solids) a.plastic += solids->plastic_work(i);
     if (clamped) a.clamped_energy += ke;
     for (int k = 0; k < 3; k++) {
       a.momentum[k] += m * l.v[k];

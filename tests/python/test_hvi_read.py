@@ -257,7 +257,8 @@ def test_wrong_questions(written, tmp_path):
 # ---------------------------------------------------------------------- data files
 def test_data_file(lmp, tmp_path):
     s = cube(4, cut=0.3, types=2)
-    lmp(scene(s, "s.data") + "run 7\nwrite_data out.data pair ij\n")
+    lmp(scene(s, "s.data") + "fix kept all property/atom d_q\nrun 7\nwrite_data out.data pair ij\n")
+    assert "\nkept # d_q\n" in (tmp_path / "out.data").read_text()  # sections of fixes do not disturb
     for name, step, units in (("s.data", None, None), ("out.data", 7, "lj")):
         data = DataFile(tmp_path / name)
         assert (data.step, data.units, data.masses) == (step, units, {1: 1.0, 2: 1.5})
