@@ -33,8 +33,9 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), strength(nullptr), dtv(0.0), dtf(0.0),
-    power(0.0), stepping(0), follow(0), rows(lmp, id, "going_on h_constant rho esph vx vy vz")
+    Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), strength(nullptr),
+    dtv(0.0), dtf(0.0), power(0.0), stepping(0), follow(0),
+    rows(lmp, id, "going_on h_constant rho esph vx vy vz")
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
