@@ -313,9 +313,9 @@ TEST(StrengthSection, FilesOfThePackage)
       }
     }
   }
-  EXPECT_EQ(strengths, 13);
-  EXPECT_EQ(damages, 7);
-  EXPECT_EQ(spalls, 4);
+  EXPECT_EQ(strengths, 15);
+  EXPECT_EQ(damages, 8);
+  EXPECT_EQ(spalls, 5);
 }
 
 /* ----------------------------------------------------------------------
