@@ -40,7 +40,7 @@ struct FixHVIJohnsonCook::Laws {
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), strength_name("johnson-cook"), spall(HVI::Spall::PRINCIPAL),
-    with_damage(1), thermal(1), from_work(0), solid(nullptr), pair(nullptr)
+    with_damage(1), thermal(1), from_work(0), solid(nullptr), pair(nullptr), fresh(true)
 {
   int iarg = 3;
   while (iarg < narg) {
@@ -174,6 +174,7 @@ void FixHVIJohnsonCook::init()
 
 void FixHVIJohnsonCook::start(int i, bool anew)
 {
+  fresh = true;
   const Laws *const law = of(i);
   Solid &s = solid[i];
   if (law && s.shear == 0.0 && !failed(i))
@@ -237,7 +238,8 @@ void FixHVIJohnsonCook::advance(int n, const int *who, const Laws &law, double d
     shear[k] = s.shear = law.strength->shear_modulus(c[k]);
     eps[k] = s.eps;
     trial[k] = s.middle;
-    add(trial[k], 0.5 * dt, rate(who[k]));
+    s.middle = rate(who[k]);
+    add(trial[k], 0.5 * dt, s.middle);
   }
   law.strength->radial_return(n, trial, dt, shear, eps, c, plastic);
 
@@ -284,7 +286,7 @@ void FixHVIJohnsonCook::first_half(double dt)
     Solid &s = solid[i];
     HVI::Deviator ahead = s.S;
     if (!failed(i)) {
-      const HVI::Deviator dS = rate(i);
+      const HVI::Deviator dS = fresh ? rate(i) : s.middle;
       s.middle = s.S;
       add(s.middle, 0.5 * dt, dS);
       add(ahead, dt, dS);
@@ -296,6 +298,7 @@ void FixHVIJohnsonCook::first_half(double dt)
     }
     send(i, law, ahead);
   }
+  fresh = false;
 }
 
 /* ----------------------------------------------------------------------

@@ -36,7 +36,7 @@ class FixHVIJohnsonCook : public Fix {
       HVI::Deviator S;
       double p_min, shear;
     } sent;    // extrapolated to the full step, as in the forces; changes before them only
-    HVI::Deviator middle;    // trial stress in the middle of the step
+    HVI::Deviator middle;    // trial stress in the middle of the step; between steps rate of S
     double eps;              // equivalent plastic strain
     double damage;           // failed from 1 on
     double spalled;          // 1: spalled for good
@@ -89,6 +89,7 @@ class FixHVIJohnsonCook : public Fix {
 
   Solid *solid;
   class PairHVISPH *pair;
+  bool fresh;    // a run begins: rates of S are to be made
 
   const Laws *of(int) const;    // null: no solid
   HVI::Conditions conditions(int, double) const;
