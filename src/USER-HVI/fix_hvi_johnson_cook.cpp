@@ -39,7 +39,8 @@ struct FixHVIJohnsonCook::Laws {
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), strength_name("johnson-cook"), spall(HVI::Spall::PRINCIPAL),
     with_damage(1), thermal(1), from_work(0), weibull(0.0), weibull_seed(0), solid(nullptr),
-    pair(nullptr), state_rows(lmp, id, "Sxx Syy Szz Sxy Sxz Syz eps damage spalled heat"),
+    pair(nullptr), fresh(true),
+    state_rows(lmp, id, "Sxx Syy Szz Sxy Sxz Syz eps damage spalled heat"),
     force_rows(lmp, std::string(id) + "_forces",
                "Sxx Syy Szz Sxy Sxz Syz p_min shear_then shear rate")
 {
@@ -210,6 +211,7 @@ void FixHVIJohnsonCook::init()
 
 void FixHVIJohnsonCook::start(int i, bool anew)
 {
+  fresh = true;
   const Laws *const law = of(i);
   Solid &s = solid[i];
   anew = anew || s.sent.shear == UNSENT;
@@ -284,7 +286,8 @@ void FixHVIJohnsonCook::advance(int n, const int *who, const Laws &law, double d
     shear[k] = s.shear = law.strength->shear_modulus(c[k]);
     eps[k] = s.eps;
     trial[k] = s.middle;
-    add(trial[k], 0.5 * dt, rate(who[k]));
+    s.middle = rate(who[k]);
+    add(trial[k], 0.5 * dt, s.middle);
   }
   law.strength->radial_return(n, trial, dt, shear, eps, c, plastic);
 
@@ -331,7 +334,7 @@ void FixHVIJohnsonCook::first_half(double dt)
     Solid &s = solid[i];
     HVI::Deviator ahead = s.S;
     if (!failed(i)) {
-      const HVI::Deviator dS = rate(i);
+      const HVI::Deviator dS = fresh ? rate(i) : s.middle;
       s.middle = s.S;
       add(s.middle, 0.5 * dt, dS);
       add(ahead, dt, dS);
@@ -343,6 +346,7 @@ void FixHVIJohnsonCook::first_half(double dt)
     }
     send(i, law, ahead);
   }
+  fresh = false;
 }
 
 /* ----------------------------------------------------------------------

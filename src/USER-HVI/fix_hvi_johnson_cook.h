@@ -37,7 +37,7 @@ class FixHVIJohnsonCook : public Fix {
       HVI::Deviator S;
       double p_min, shear;
     } sent;    // extrapolated to the full step, as in the forces; changes before them only
-    HVI::Deviator middle;    // trial stress in the middle of the step
+    HVI::Deviator middle;    // trial stress in the middle of the step; between steps rate of S
     double eps;              // equivalent plastic strain
     double damage;           // failed from 1 on
     double spalled;          // 1: spalled for good
@@ -94,7 +94,7 @@ class FixHVIJohnsonCook : public Fix {
  private:
   static constexpr int NSOLID = sizeof(Solid) / sizeof(double);
   static constexpr double UNKNOWN = -1.0;    // yield
-  static constexpr double UNSENT = -1.0;    // sent.shear, before the first forces
+  static constexpr double UNSENT = -1.0;     // sent.shear, before the first forces
 
   struct Laws;    // of a type
   std::vector<std::unique_ptr<Laws>> laws;
@@ -107,6 +107,7 @@ class FixHVIJohnsonCook : public Fix {
 
   Solid *solid;
   class PairHVISPH *pair;
+  bool fresh;                            // a run begins: rates of S are to be made
   HVIDataRows state_rows, force_rows;    // sections of data files
 
   HVIDataRows &rows(int section) { return section == 0 ? state_rows : force_rows; }

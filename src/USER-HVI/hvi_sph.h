@@ -272,6 +272,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
     read_columns(state, j, 1, second);
     if (SCENE & SPH_STRENGTH)
       for (int k = 0; k < LANES; k++) {
+        __builtin_prefetch(rates + j[k], 1);
         __builtin_prefetch(stress + j[k]);
         __builtin_prefetch(gradv + j[k], 1);
         __builtin_prefetch(&gradv[j[k]].zz, 1);

@@ -111,7 +111,6 @@ void PairHVISPH::compute(int eflag, int vflag)
     sending = STRESS;
     comm->reverse_comm(this);
   }
-  if (solid && corrected) correct_gradients();
 
   if (vflag_fdotr) virial_fdotr_compute();
 }
@@ -161,7 +160,7 @@ void PairHVISPH::each_particle(Record *records, Work work)
           const int j = jvisit[jj] & NEIGHMASK;
           const HVI::Vec4 d = HVI::part(&pi, 0) - HVI::part(&where[j], 0);
           __builtin_prefetch(&state[j]);
-          __builtin_prefetch(&records[j], 1);
+          if (!(SCENE & HVI::SPH_STRENGTH)) __builtin_prefetch(&records[j], 1);
           near.j[n] = j;
           near.d[n] = d;
           if (SWEEP == SECOND) {

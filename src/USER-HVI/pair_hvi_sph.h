@@ -68,11 +68,7 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
     const HVI::SphState &s = state[i];
     return laws.symmetric ? s.p * s.rho * s.rho : s.p;
   }
-  HVI::VelocityGradient velocity_gradient(int i) const
-  {
-    const HVI::SphGradV &L = gradv[i];
-    return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
-  }
+  HVI::VelocityGradient velocity_gradient(int i) const;
   double viscous_power() const { return heating; }    // of owned particles
   const HVI::MirrorPlanes &mirrors() const { return mirror; }
   const double *mirror_force() const { return images.force; }    // on this rank's particles
@@ -119,7 +115,6 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   void set_material(int ilo, int ihi, int jlo, int jhi, const std::vector<std::string> &);
   void gather();
   void gather_stress();
-  void correct_gradients();
   void scatter();
   void report_overlap(int, int, const HVI::SphNear &);
   void check_mirror() const;

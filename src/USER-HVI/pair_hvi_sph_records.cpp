@@ -23,7 +23,6 @@
 #include "neigh_list.h"
 #include "update.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <cstring>
 
@@ -106,26 +105,27 @@ void PairHVISPH::gather_stress()
 // L M^-1 is exact in a linear field.  The law sees it, forces do not.  Where neighbors lie in
 // a plane or are few, M cannot be inverted and the plain one stays.
 
-void PairHVISPH::correct_gradients()
+HVI::VelocityGradient PairHVISPH::velocity_gradient(int i) const
 {
-  for (int i = 0; i < atom->nlocal; i++) {
-    HVI::SphGradV &L = gradv[i];
-    Eigen::Matrix3d grad, M;
-    grad << L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz;
-    M << L.mxx, L.mxy, L.mxz, L.mxy, L.myy, L.myz, L.mxz, L.myz, L.mzz;
-    for (int k = laws.dim; k < 3; k++) M(k, k) = 1.0;
-    if (!(M.determinant() > 0.05)) continue;
-    const Eigen::Matrix3d c = grad * M.inverse();
-    L.xx = c(0, 0);
-    L.xy = c(0, 1);
-    L.xz = c(0, 2);
-    L.yx = c(1, 0);
-    L.yy = c(1, 1);
-    L.yz = c(1, 2);
-    L.zx = c(2, 0);
-    L.zy = c(2, 1);
-    L.zz = c(2, 2);
-  }
+  const HVI::SphGradV &L = gradv[i];
+  HVI::VelocityGradient g = {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
+  if (!corrected) return g;
+  const double xx = L.mxx, yy = laws.dim > 1 ? L.myy : 1.0, zz = laws.dim > 2 ? L.mzz : 1.0;
+  const double xy = L.mxy, xz = L.mxz, yz = L.myz;
+  const double cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
+  const double cyy = xx * zz - xz * xz, cyz = xy * xz - xx * yz, czz = xx * yy - xy * xy;
+  const double det = xx * cxx + xy * cxy + xz * cxz;
+  if (!(det > 0.05)) return g;
+  const auto correct = [&](double &x, double &y, double &z) {
+    const double gx = x / det, gy = y / det, gz = z / det;
+    x = gx * cxx + gy * cxy + gz * cxz;
+    y = gx * cxy + gy * cyy + gz * cyz;
+    z = gx * cxz + gy * cyz + gz * czz;
+  };
+  correct(g.xx, g.xy, g.xz);
+  correct(g.yx, g.yy, g.yz);
+  correct(g.zx, g.zy, g.zz);
+  return g;
 }
 
 /* ---------------------------------------------------------------------- */
