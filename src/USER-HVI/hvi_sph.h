@@ -18,12 +18,13 @@ namespace HVI {
 // what a scene adds to plain hydrodynamics with one h; bits of a template parameter
 
 enum SphScene {
-  SPH_OWN_H = 1,        // particles differ in h
-  SPH_BODIES = 2,       // pairs of types differ: bodies without tension, own viscosities
-  SPH_DENSITY = 4,      // interface density dissipation
-  SPH_RIEMANN = 8,      // Riemann problems instead of viscosity and that
-  SPH_STRENGTH = 16,    // deviatoric stress; not with SPH_RIEMANN
-  SPH_NSCENES = 24
+  SPH_OWN_H = 1,         // particles differ in h
+  SPH_BODIES = 2,        // pairs of types differ: bodies without tension, own viscosities
+  SPH_DENSITY = 4,       // interface density dissipation
+  SPH_RIEMANN = 8,       // Riemann problems instead of viscosity and that
+  SPH_STRENGTH = 16,     // deviatoric stress; not with SPH_RIEMANN
+  SPH_ARTSTRESS = 32,    // artificial stress; with SPH_STRENGTH only
+  SPH_NSCENES = 56
 };
 
 // records of a particle: where it is, what its neighbors must know (one cache line), what they do to it
@@ -85,6 +86,7 @@ struct SphLaws {
   int automatic;                                // or from the states on both sides
   int symmetric;                                // form of the equations
   int stock;                                    // energy split as in the package SPH
+  double art_eps, art_n;                        // artificial stress
   const double *row_a, *row_b, *row_tension;    // by type of the neighbor; tension: 0 or 1
 };
 
@@ -161,12 +163,15 @@ template <class Kernel, int SCENE> class SphGradient {
    Solids (form sum only) have the deviatoric stress S besides, tension positive:
      f_i += V_i V_j (S_i + S_j) grad W     dE_i -= V_i V_j v_ij.S_i grad W
      L_i -= V_j v_ij (x) grad W            M_i -= V_j x_ij (x) grad W
+   With SPH_ARTSTRESS, S + w(r)^n art takes the place of S in the first line: art has the
+   factor w(dp)^-n of f^n in it.
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
 inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n,
                          const SphLaws &laws, SphNear &near, SphRates *rates, SphRates &total,
-                         const SphStress *stress = nullptr, SphGradV *gradv = nullptr)
+                         const SphStress *stress = nullptr, SphGradV *gradv = nullptr,
+                         const SphStress *art = nullptr)
 {
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
   const SphGradient<Kernel, SCENE> gradient(laws, pi);
@@ -186,6 +191,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
   Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, same = zero;
   Vec grad[15] = {};
   const SphStress Si = SCENE & SPH_STRENGTH ? stress[i] : SphStress{};
+  const SphStress Ri = SCENE & SPH_ARTSTRESS ? art[i] : SphStress{};
 
   for (int m = 0; m < nlanes; m += LANES) {
     static constexpr int in_turn[4] = {0, 1, 2, 3};
@@ -259,9 +265,23 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
       Vec S[8], mine[16];
       read_columns(stress, j, 0, S);
       read_columns(stress, j, 1, S + 4);
+      Vec own_S[6] = {zero + Si.xx, zero + Si.yy, zero + Si.zz,
+                      zero + Si.xy, zero + Si.xz, zero + Si.yz};
+      if (SCENE & SPH_ARTSTRESS) {
+        Vec R[8];
+        read_columns(art, j, 0, R);
+        read_columns(art, j, 1, R + 4);
+        const Vec wn = pow(Kernel::template w<Vec>(r / h), laws.art_n);
+        const double own_R[6] = {Ri.xx, Ri.yy, Ri.zz, Ri.xy, Ri.xz, Ri.yz};
+        for (int k = 0; k < 6; k++) {
+          S[k] += wn * R[k];
+          own_S[k] += wn * own_R[k];
+        }
+      }
       const Vec VVF = bonded * w_i * w_j * F;
-      const Vec ti[3] = {Si.xx * dx + Si.xy * dy + Si.xz * dz, Si.xy * dx + Si.yy * dy + Si.yz * dz,
-                         Si.xz * dx + Si.yz * dy + Si.zz * dz};
+      const Vec ti[3] = {own_S[0] * dx + own_S[3] * dy + own_S[4] * dz,
+                         own_S[3] * dx + own_S[1] * dy + own_S[5] * dz,
+                         own_S[4] * dx + own_S[5] * dy + own_S[2] * dz};
       const Vec tj[3] = {S[0] * dx + S[3] * dy + S[4] * dz, S[3] * dx + S[1] * dy + S[5] * dz,
                          S[4] * dx + S[5] * dy + S[2] * dz};
       for (int k = 0; k < 3; k++) f[k] += VVF * (ti[k] + tj[k]);

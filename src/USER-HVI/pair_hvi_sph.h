@@ -91,6 +91,7 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   std::unique_ptr<HVI::SphRates[]> rates;
   std::unique_ptr<HVI::SphStress[]> stress;    // solids only, as is the next
   std::unique_ptr<HVI::SphGradV[]> gradv;
+  std::unique_ptr<HVI::SphStress[]> art;    // artificial stress, where asked for
   enum { SLOPES, STRESS } sending;
   double heating;
   class FixHVISPH *fix;
@@ -102,10 +103,11 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   void set_material(int ilo, int ihi, int jlo, int jhi, const std::vector<std::string> &);
   void gather();
   void gather_stress();
+  void artificial_stress();
   void correct_gradients();
   void scatter();
   void report_overlap(int, int, const HVI::SphNear &);
-  template <class Kernel> void choose_scene(int);
+  template <class Kernel, int SCENE = 0> void choose_scene(int);
   template <class Kernel, int SCENE> void eval();
   template <class Kernel, int SCENE> void eval_slopes();
   template <class Kernel, int SCENE, int SWEEP, class Record, class Work>
