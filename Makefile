@@ -3,7 +3,7 @@
 #   make demo    dependencies, LAMMPS, the package; then the main job with its picture
 #   make test    the same; then all tests
 #   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so
-#   make verify  the long form of the standard shocks: all methods and resolutions, report with pictures
+#   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures) and of solids
 #   make doc | bench | bench-full | sanitize | clean
 #
 # LAMMPS_VERSION=20250204|20260704   which pinned LAMMPS          LAMMPS_SOURCE_DIR=DIR   your own LAMMPS source tree
@@ -61,7 +61,8 @@ verify:
 	@cmake/deps.sh build test
 	@$(MAKE) build
 	@python=$$(cmake/find-python.sh numpy scipy matplotlib) && \
-	  cmake/env.sh $$python tests/shocks.py --lmp $(OUT)/lmp --out $(OUT)/verify --ranks $(RANKS) $(VERIFY_ARGS)
+	  cmake/env.sh $$python tests/shocks.py --lmp $(OUT)/lmp --out $(OUT)/verify --ranks $(RANKS) $(VERIFY_ARGS) && \
+	  cmake/env.sh $$python tests/solids.py --lmp $(OUT)/lmp --out $(OUT)/verify $(SOLIDS_ARGS)
 
 sanitize:
 	@$(MAKE) test BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON

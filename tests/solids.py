@@ -1,4 +1,4 @@
-"""Solids, long form: python3 tests/solids.py --lmp build/lmp [--spacing 0.7 0.5] prints what test_solids.py has no time for.
+"""Solids, long form: python3 tests/solids.py --lmp build/lmp --out FOLDER writes a report, solids.md; a part of `make verify`.
 
 Verney's shell: a thick shell of beryllium collapses and stops when its plastic work has taken up the kinetic energy. (cm, g, us, Mbar;
 incompressible, perfectly plastic: inner radius 4, outer 8.203 from u0 = 0.0619787 at the inner radius 8 of 8 to 10.)
@@ -17,8 +17,9 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 from conftest import Result  # noqa: E402
-from solid_runs import material, run  # noqa: E402
+from solid_runs import material, momentum_error, run  # noqa: E402
 from sph_scenes import Fluid  # noqa: E402
+from tensile_scenes import rings  # noqa: E402
 
 
 def runner(exe, folder):
@@ -34,7 +35,7 @@ def runner(exe, folder):
     return lmp
 
 
-def verney(lmp, folder, dx, h=1.2, kernel="cubic", words="viscosity 0.5 0.5", t_end=150.0):
+def verney(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="cubic", t_end=150.0):
     path = material(folder / "Be.hvi", "eos gruneisen rho0 1.845 C 0.7998 S1 1.124 g0 1.11 a 0.16 T0 300", "strength perfect G 1.510 Y 0.0033")
     k = int(np.ceil(10 / dx))
     x = dx * (np.stack(np.meshgrid(*[np.arange(-k, k)] * 3, indexing="ij"), -1).reshape(-1, 3) + 0.5)
@@ -48,21 +49,47 @@ def verney(lmp, folder, dx, h=1.2, kernel="cubic", words="viscosity 0.5 0.5", t_
     pair = f"pair_style hvi/sph {kernel} form sum {words} h constant\npair_coeff 1 1 file {path} h {h * dx}\n"
     start = time.time()
     r = run(lmp, folder, s, pair, "strength perfect damage no spall none", steps, dt=t_end / steps, frames=max(1, steps // 50))
-    inner, speed = [], []
+    inner = []
     for f in r.frames:
         y = f["x"] - 12.0
         rad = np.sqrt((y**2).sum(1))
         inner.append(np.median(np.cbrt(np.maximum(512 + rad**3 - r0**3, 0))))
-        speed.append(((y * f["v"]).sum(1) / rad).mean())
     k = int(np.argmin(inner))
-    rad = np.sqrt(((r.frames[k]["x"] - 12.0) ** 2).sum(1))
     t = r.thermo
-    return (f"Verney {kernel} {words} dx {dx} n {n} steps {steps} wall {time.time() - start:.0f} s: stops at inner {inner[k]:.3f} (4.000) outer "
-            f"{np.quantile(rad, 0.995) + dx / 4:.3f} (8.203), t {r.frames[k]['time']:.0f}, drift {np.abs(t['c_book[9]'] - 1).max():.1e}, kinetic left "
-            f"{t['c_book[1]'].min() / t['c_book[1]'][0]:.4f}")
+    return dict(spacing=dx, kernel=kernel, h=h, words=words, particles=n, steps=steps, seconds=time.time() - start, inner=inner[k],
+                stops_at=r.frames[k]["time"], drift=np.abs(t["c_book[9]"] - 1).max(), momentum=max(momentum_error(t)),
+                kinetic=t["c_book[1]"].min() / t["c_book[1]"][0], strength=strength(inner[k]),
+                viscous=stop(0.5 * viscosity(words) * 1.316 * h * dx / 10))
 
 
-def taylor(lmp, folder, dx, root=HERE.parent, h=1.2, V=227.0, L=32.4e-3, R=3.2e-3, t_end=80e-6):
+def strength(r):
+    """of a shell that stops at the inner radius r, in units of the exact one: kinetic energy over plastic work on the way"""
+    x = np.linspace(r, 8, 4001)
+    return 2 * 1.845 * 0.0619787**2 * 8**4 * (1 / 8 - 1 / 10) / (8 * 0.0033 * np.trapz(x * x * np.log(np.cbrt(x**3 + 488) / x), x))
+
+
+def viscosity(words):
+    """the linear coefficient"""
+    return float(words.split("viscosity")[1].split()[0])
+
+
+def stop(nu, r=8.0, R=10.0, u=0.0619787, rho=1.845, Y=0.0033):
+    """where an incompressible shell of kinematic viscosity nu stops: kinetic energy = plastic + viscous work, v = u (r/x)^2
+
+    2 pi rho u^2 r^4 (1/r - 1/R); 8 pi Y u r^2 ln(R/r); 16 pi rho nu u^2 r^4 (1/r^3 - 1/R^3).
+    Monaghan's linear viscosity is nu = a c h/10 in three dimensions, half of it where only one half of the pairs approach.
+    """
+    volume, dr = R**3 - r**3, 1e-3
+    K = 2 * np.pi * rho * u * u * r**4 * (1 / r - 1 / R)
+    while K > 0:
+        R = np.cbrt(r**3 + volume)
+        u = np.sqrt(K / (2 * np.pi * rho * r**4 * (1 / r - 1 / R)))
+        K -= dr * (8 * np.pi * Y * r * r * np.log(R / r) + 16 * np.pi * rho * nu * u * r**4 * (1 / r**3 - 1 / R**3))
+        r -= dr
+    return r
+
+
+def taylor(lmp, folder, dx, words="viscosity 1 2", root=HERE.parent, h=1.2, V=227.0, L=32.4e-3, R=3.2e-3, t_end=80e-6):
     """two cylinders meet, each the mirror image of the other: the rigid wall without friction"""
     q = dx * (np.arange(-int(R / dx) - 1, int(R / dx) + 1) + 0.5)
     z = dx * (np.arange(int(round(L / dx))) + 0.5)
@@ -74,29 +101,63 @@ def taylor(lmp, folder, dx, root=HERE.parent, h=1.2, V=227.0, L=32.4e-3, R=3.2e-
     s = Fluid(x + box / 2, np.zeros((2 * n, 3)), np.full(2 * n, 8930.0), np.zeros(2 * n), np.repeat([1, 2], n), {1: 8930 * dx**3, 2: 8930 * dx**3},
               {1: h * dx, 2: h * dx}, box, (False,) * 3)
     s.v[:, 0] = np.repeat([-V, V], n)
-    pair = f"pair_style hvi/sph cubic form sum viscosity 1 2 h constant\npair_coeff * * file {root}/potentials/Cu-OFHC.hvi h {h * dx}\n"
+    pair = f"pair_style hvi/sph cubic form sum {words} h constant\npair_coeff * * file {root}/potentials/Cu-OFHC.hvi h {h * dx}\n"
     start = time.time()
     steps = int(t_end / (0.2 * h * dx / 5500))
     r = run(lmp, folder, s, pair, "damage no spall none", steps, dt=t_end / steps, frames=steps, units="si", lost="ignore")
     y = r.frames[-1]["x"][:n] - box / 2 if len(r.frames[-1]["x"]) == 2 * n else np.full((n, 3), np.nan)
     rad = np.sqrt(y[:, 1] ** 2 + y[:, 2] ** 2)
     foot = rad[-y[:, 0] < 1e-3] if y[:, 0].mean() < 0 else rad[y[:, 0] < 1e-3]  # of a disc, from its second moment; and the outermost particle
-    return (f"Taylor dx {dx} n {2 * n} wall {time.time() - start:.0f} s: length {1e3 * (y[:, 0].max() - y[:, 0].min() + dx):.2f} mm (21.4-21.7), foot radius "
-            f"{1e3 * np.sqrt(2 * (foot**2).mean()):.2f} mm (6.97-7.24; "
-            f"outermost particle {1e3 * rad.max():.2f}, 99 % {1e3 * np.quantile(foot, 0.99):.2f}), drift {np.abs(r.thermo['c_book[9]'] - 1).max():.1e}")
+    t = r.thermo
+    return dict(spacing=1e3 * dx, words=words, particles=2 * n, steps=steps, seconds=time.time() - start,
+                length=1e3 * (y[:, 0].max() - y[:, 0].min() + dx), foot=1e3 * np.sqrt(2 * (foot**2).mean()), widest=1e3 * rad.max(),
+                drift=np.abs(t["c_book[9]"] - 1).max(), momentum=max(momentum_error(t)) / (s.m @ np.abs(s.v[:, 0])),
+                speed=np.abs(r.frames[-1]["v"]).max() / V)
+
+
+def ring_pair(lmp, folder, dx, words, h=1.5, kernel="cubic"):
+    start = time.time()
+    r, frames = rings(lmp, folder, words, dx, h, kernel)
+    return dict(spacing=dx, kernel=kernel, h=h, words=words, particles=len(r.frames[0]["x"]), steps=int(r.thermo["Step"][-1]), seconds=time.time() - start,
+                pieces=max(f["pieces"] for f in frames), nearest=min(f["near"] for f in frames), rebound=-frames[-1]["v"],
+                drift=np.abs(r.thermo["c_book[9]"] - 1).max())
+
+
+def table(rows):
+    def cell(v):
+        return f"{v:.3g}" if isinstance(v, float) and abs(v) < 1e-2 else (f"{v:.3f}" if isinstance(v, float) else str(v))
+
+    keys = list(rows[0])
+    return "\n".join(["| " + " | ".join(keys) + " |", "|" + "---|" * len(keys)] + ["| " + " | ".join(cell(r[k]) for k in keys) + " |" for r in rows])
+
+
+LOW, ART = "viscosity 0.1 0.5", "artstress 0.3 4"
+LONG = [
+    ("Verney's shell: inner radius where it stops, exact 4, as from a strength in units of Y; with the viscosity alone, by theory, *viscous*", verney,
+     [(dx, LOW) for dx in (1.0, 0.7, 0.5)] + [(dx, f"{LOW} {ART}") for dx in (1.0, 0.7, 0.5)] + [(dx, "viscosity 0.5 0.5") for dx in (0.7, 0.5)]),
+    ("Taylor's cylinder: final length and radius of the foot in mm; other codes 21.4-21.7 and 6.97-7.24", taylor,
+     [(dx, words) for dx in (0.8e-3, 0.64e-3) for words in ("viscosity 1 2", f"viscosity 1 2 {ART}")]),
+    ("Rubber rings: pieces of the worse ring, nearest neighbor (1 %) in spacings, speed after in units of that before", ring_pair,
+     [(dx, words) for dx in (0.2, 0.1) for words in ("viscosity 1 2", f"viscosity 1 2 {ART}")])]
 
 
 if __name__ == "__main__":
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     a.add_argument("--lmp", default=HERE.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
     a.add_argument("--out", default="verify-solids", type=pathlib.Path)
-    a.add_argument("--spacing", nargs="*", type=float, default=[0.7, 0.5])
-    a.add_argument("--taylor", nargs="*", type=float, default=[0.8e-3, 0.64e-3])
+    a.add_argument("--only", default="", help="a part of the names: verney, taylor, ring_pair")
     args = a.parse_args()
     args.out = args.out.resolve()
     args.out.mkdir(parents=True, exist_ok=True)
     lmp = runner(args.lmp, args.out)
-    for dx in args.spacing:
-        print(verney(lmp, args.out, dx), flush=True)
-    for dx in args.taylor:
-        print(taylor(lmp, args.out, dx), flush=True)
+    report = "# Solids\n"
+    for title, scene, cases in LONG:
+        if args.only not in scene.__name__:
+            continue
+        rows = []
+        for dx, words in cases:
+            rows.append(scene(lmp, args.out, dx, words=words))
+            print(scene.__name__, {k: float(f"{v:.4g}") if isinstance(v, float) else v for k, v in rows[-1].items()}, flush=True)
+        report += f"\n{title}\n\n{table(rows)}\n"
+        (args.out / "solids.md").write_text(report)
+    print(f"report: {args.out}/solids.md")

@@ -18,12 +18,13 @@ namespace HVI {
 // what a scene adds to plain hydrodynamics with one h; bits of a template parameter
 
 enum SphScene {
-  SPH_OWN_H = 1,        // particles differ in h
-  SPH_BODIES = 2,       // pairs of types differ: bodies without tension, own viscosities
-  SPH_DENSITY = 4,      // interface density dissipation
-  SPH_RIEMANN = 8,      // Riemann problems instead of viscosity and that
-  SPH_STRENGTH = 16,    // deviatoric stress; not with SPH_RIEMANN
-  SPH_NSCENES = 24
+  SPH_OWN_H = 1,         // particles differ in h
+  SPH_BODIES = 2,        // pairs of types differ: bodies without tension, own viscosities
+  SPH_DENSITY = 4,       // interface density dissipation
+  SPH_RIEMANN = 8,       // Riemann problems instead of viscosity and that
+  SPH_STRENGTH = 16,     // deviatoric stress; not with SPH_RIEMANN
+  SPH_ARTSTRESS = 32,    // artificial stress; with SPH_STRENGTH only
+  SPH_NSCENES = 56
 };
 
 // records of a particle: where it is, what its neighbors must know (one cache line), what they do to it
@@ -85,6 +86,7 @@ struct SphLaws {
   int automatic;                                // or from the states on both sides
   int symmetric;                                // form of the equations
   int stock;                                    // energy split as in the package SPH
+  double art_eps, art_n;                        // artificial stress
   const double *row_a, *row_b, *row_tension;    // by type of the neighbor; tension: 0 or 1
 };
 
@@ -97,6 +99,7 @@ struct SphPairs {
   Vec F;        // 0 where bodies are without tension between them
   Vec force;    // of pressure and viscosity, along d
   Vec de_j, drho_j, qheat;
+  Vec art;    // factor of the artificial stress, with SPH_ARTSTRESS only
 };
 
 struct alignas(64) SphNear {
@@ -156,13 +159,16 @@ template <class Kernel, int SCENE> class SphGradient {
    force, processors do not see far enough ahead to keep busy.
 ------------------------------------------------------------------------- */
 
+template <int SCENE>
 inline void sph_strength(int i, int nlanes, double w_i, SphNear &near, SphRates *rates,
-                         SphRates &total, const SphStress *stress, SphGradV *gradv)
+                         SphRates &total, const SphStress *stress, SphGradV *gradv,
+                         const SphStress *art)
 {
   const Vec zero = {};
   Vec fx = zero, fy = zero, fz = zero, de = zero;
   Vec grad[16] = {};
   const SphStress Si = stress[i];
+  const SphStress Ri = SCENE & SPH_ARTSTRESS ? art[i] : SphStress{};
 
   for (int m = 0; m < nlanes; m += LANES) {
     int j[LANES];    // what is written may be near.j for all the compiler knows
@@ -175,8 +181,21 @@ inline void sph_strength(int i, int nlanes, double w_i, SphNear &near, SphRates 
     read_columns(stress, j, 0, S);
     read_columns(stress, j, 1, S + 4);
     const Vec VVF = w_i * pair.w_j * pair.F;
-    const Vec ti[3] = {Si.xx * dx + Si.xy * dy + Si.xz * dz, Si.xy * dx + Si.yy * dy + Si.yz * dz,
-                       Si.xz * dx + Si.yz * dy + Si.zz * dz};
+    Vec mine_S[6] = {zero + Si.xx, zero + Si.yy, zero + Si.zz,
+                     zero + Si.xy, zero + Si.xz, zero + Si.yz};
+    if (SCENE & SPH_ARTSTRESS) {
+      Vec R[8];
+      read_columns(art, j, 0, R);
+      read_columns(art, j, 1, R + 4);
+      const double mine_R[6] = {Ri.xx, Ri.yy, Ri.zz, Ri.xy, Ri.xz, Ri.yz};
+      for (int k = 0; k < 6; k++) {
+        S[k] += pair.art * R[k];
+        mine_S[k] += pair.art * mine_R[k];
+      }
+    }
+    const Vec ti[3] = {mine_S[0] * dx + mine_S[3] * dy + mine_S[4] * dz,
+                       mine_S[3] * dx + mine_S[1] * dy + mine_S[5] * dz,
+                       mine_S[4] * dx + mine_S[5] * dy + mine_S[2] * dz};
     const Vec tj[3] = {S[0] * dx + S[3] * dy + S[4] * dz, S[3] * dx + S[1] * dy + S[5] * dz,
                        S[4] * dx + S[5] * dy + S[2] * dz};
     const Vec f[3] = {pair.force * dx + VVF * (ti[0] + tj[0]),
@@ -239,12 +258,15 @@ inline void sph_strength(int i, int nlanes, double w_i, SphNear &near, SphRates 
    Solids (form sum only) have the deviatoric stress S besides, tension positive:
      f_i += V_i V_j (S_i + S_j) grad W     dE_i -= V_i V_j v_ij.S_i grad W
      L_i -= V_j v_ij (x) grad W            M_i -= V_j x_ij (x) grad W
+   With SPH_ARTSTRESS, S + w(r)^n art takes the place of S in the first line: art has the
+   factor w(dp)^-n of f^n in it.
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
 inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n,
                          const SphLaws &laws, SphNear &near, SphRates *rates, SphRates &total,
-                         const SphStress *stress = nullptr, SphGradV *gradv = nullptr)
+                         const SphStress *stress = nullptr, SphGradV *gradv = nullptr,
+                         const SphStress *art = nullptr)
 {
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
   const SphGradient<Kernel, SCENE> gradient(laws, pi);
@@ -342,8 +364,10 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
     const Vec de_j = (others * press_i + own * press_j) * g + qheat;
 
     if (SCENE & SPH_STRENGTH) {
-      near.pairs[m / LANES] = {dx,  dy,         dz,    dvx,  dvy,    dvz,
-                               w_j, bonded * F, force, de_j, drho_j, qheat};
+      Vec art_factor = zero;
+      if (SCENE & SPH_ARTSTRESS) art_factor = pow(Kernel::template w<Vec>(r / h), laws.art_n);
+      near.pairs[m / LANES] = {dx,         dy,    dz,   dvx,    dvy,   dvz,       w_j,
+                               bonded * F, force, de_j, drho_j, qheat, art_factor};
       continue;
     }
     const Vec f[3] = {force * dx, force * dy, force * dz};
@@ -358,7 +382,8 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
     add_columns(rates, j, 0, first);
     add_columns(rates, j, 1, second);
   }
-  if (SCENE & SPH_STRENGTH) sph_strength(i, nlanes, w_i, near, rates, total, stress, gradv);
+  if (SCENE & SPH_STRENGTH)
+    sph_strength<SCENE>(i, nlanes, w_i, near, rates, total, stress, gradv, art);
 
   total.fx += sum(fx);
   total.fy += sum(fy);

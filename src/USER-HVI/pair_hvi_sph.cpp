@@ -99,10 +99,12 @@ void PairHVISPH::compute(int eflag, int vflag)
     if (riemann) slopes.reset(new HVI::SphSlopes[nmax]);
     stress.reset(solid ? new HVI::SphStress[nmax] : nullptr);    // a fix may come and go
     gradv.reset(solid ? new HVI::SphGradV[nmax] : nullptr);
+    art.reset(laws.art_eps > 0.0 ? new HVI::SphStress[nmax] : nullptr);
   }
 
   if (solid) gather_stress();
   gather();
+  if (art) artificial_stress();
   if (mirror.planes) fill_images();
   (this->*sweep)();
   if (mirror.planes) fold_images();
@@ -224,7 +226,7 @@ template <class Kernel, int SCENE> void PairHVISPH::eval()
                                                  rates.get(), sum);
         else
           same = HVI::sph_interact<Kernel, SCENE>(i, pi, state.get(), n, mine, near, rates.get(),
-                                                  sum, stress.get(), gradv.get());
+                                                  sum, stress.get(), gradv.get(), art.get());
         if (same) report_overlap(i, n, near);
 
         if (evflag && n && near.j[0] >= nlocal + atom->nghost)
@@ -338,9 +340,13 @@ void PairHVISPH::init_style()
     error->all(FLERR,
                "Pair style hvi/sph: fix hvi/johnson-cook works with form sum and dissipation "
                "monaghan");
+  if (laws.art_eps > 0.0 && !solid)
+    error->all(FLERR,
+               "Pair style hvi/sph artstress needs fix hvi/johnson-cook, which keeps the stress");
   if (solid && !stress) nmax = 0;    // arrays are to be made
   int scene = riemann ? HVI::SPH_RIEMANN : (density ? HVI::SPH_DENSITY : 0);
   if (solid) scene |= HVI::SPH_STRENGTH;
+  if (laws.art_eps > 0.0) scene |= HVI::SPH_ARTSTRESS | HVI::SPH_OWN_H;
   int first = 0;
   if (variable) scene |= HVI::SPH_OWN_H;
   for (int i = 1; i <= atom->ntypes; i++) {
@@ -369,33 +375,22 @@ void PairHVISPH::init_style()
 
 /* ---------------------------------------------------------------------- */
 
-template <class Kernel> void PairHVISPH::choose_scene(int scene)
+// bits that exclude each other make no scene; artificial stress comes with pairs' own h, for fewer of them
+
+static constexpr bool is_scene(int s)
 {
-  static constexpr decltype(sweep) table[HVI::SPH_NSCENES] = {&PairHVISPH::eval<Kernel, 0>,
-                                                              &PairHVISPH::eval<Kernel, 1>,
-                                                              &PairHVISPH::eval<Kernel, 2>,
-                                                              &PairHVISPH::eval<Kernel, 3>,
-                                                              &PairHVISPH::eval<Kernel, 4>,
-                                                              &PairHVISPH::eval<Kernel, 5>,
-                                                              &PairHVISPH::eval<Kernel, 6>,
-                                                              &PairHVISPH::eval<Kernel, 7>,
-                                                              &PairHVISPH::eval<Kernel, 8>,
-                                                              &PairHVISPH::eval<Kernel, 9>,
-                                                              &PairHVISPH::eval<Kernel, 10>,
-                                                              &PairHVISPH::eval<Kernel, 11>,
-                                                              nullptr,
-                                                              nullptr,
-                                                              nullptr,
-                                                              nullptr,
-                                                              &PairHVISPH::eval<Kernel, 16>,
-                                                              &PairHVISPH::eval<Kernel, 17>,
-                                                              &PairHVISPH::eval<Kernel, 18>,
-                                                              &PairHVISPH::eval<Kernel, 19>,
-                                                              &PairHVISPH::eval<Kernel, 20>,
-                                                              &PairHVISPH::eval<Kernel, 21>,
-                                                              &PairHVISPH::eval<Kernel, 22>,
-                                                              &PairHVISPH::eval<Kernel, 23>};
-  sweep = table[scene];
+  const bool density = s & HVI::SPH_DENSITY, riemann = s & HVI::SPH_RIEMANN;
+  const bool strength = s & HVI::SPH_STRENGTH, art = s & HVI::SPH_ARTSTRESS;
+  return !(riemann && (density || strength)) && !(art && !(strength && (s & HVI::SPH_OWN_H)));
+}
+
+template <class Kernel, int SCENE> void PairHVISPH::choose_scene(int scene)
+{
+  if constexpr (SCENE < HVI::SPH_NSCENES) {
+    if constexpr (is_scene(SCENE))
+      if (scene == SCENE) sweep = &PairHVISPH::eval<Kernel, SCENE>;
+    choose_scene<Kernel, SCENE + 1>(scene);
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -453,6 +448,7 @@ double PairHVISPH::memory_usage()
   return (double) nmax *
       (sizeof(HVI::SphPlace) + sizeof(HVI::SphState) + sizeof(HVI::SphRates) +
        (riemann ? sizeof(HVI::SphSlopes) : 0) +
-       (solid ? sizeof(HVI::SphStress) + sizeof(HVI::SphGradV) : 0)) +
+       (solid ? sizeof(HVI::SphStress) + sizeof(HVI::SphGradV) : 0) +
+       (art ? sizeof(HVI::SphStress) : 0)) +
       (double) (kept.capacity() + numkept.capacity()) * sizeof(int);
 }

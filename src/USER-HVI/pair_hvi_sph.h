@@ -101,6 +101,7 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   std::unique_ptr<HVI::SphRates[]> rates;
   std::unique_ptr<HVI::SphStress[]> stress;    // solids only, as is the next
   std::unique_ptr<HVI::SphGradV[]> gradv;
+  std::unique_ptr<HVI::SphStress[]> art;    // artificial stress, where asked for
   enum { SLOPES, STRESS } sending;
   HVI::MirrorPlanes mirror;
   HVI::Images images;
@@ -115,6 +116,7 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   void set_material(int ilo, int ihi, int jlo, int jhi, const std::vector<std::string> &);
   void gather();
   void gather_stress();
+  void artificial_stress();
   void scatter();
   void report_overlap(int, int, const HVI::SphNear &);
   void check_mirror() const;
@@ -125,7 +127,7 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   const std::vector<int> &images_near(int, const int *, int);
   void tally_image(int, int, const double *, const double *);
   tagint tag_of(int) const;
-  template <class Kernel> void choose_scene(int);
+  template <class Kernel, int SCENE = 0> void choose_scene(int);
   template <class Kernel, int SCENE> void eval();
   template <class Kernel, int SCENE> void eval_slopes();
   template <class Kernel, int SCENE, int SWEEP, class Record, class Work>

@@ -148,6 +148,13 @@ void PairHVISPH::settings(int narg, char **arg)
         error->all(FLERR, "Pair_style hvi/sph gradient must be plain or corrected, not {}", name);
       corrected = name == "corrected";
       iarg += 2;
+    } else if (key == "artstress") {
+      need(2);
+      laws.art_eps = number(1, 0.0);
+      laws.art_n = number(2, 0.0);
+      if (!(laws.art_n > 0.0 && laws.art_n <= 50.0))
+        error->all(FLERR, "Pair_style hvi/sph artstress needs 0 < n <= 50, not {}", arg[iarg + 2]);
+      iarg += 3;
     } else if (key == "h") {
       need(1);
       const std::string mode = arg[iarg + 1];
@@ -219,6 +226,7 @@ void PairHVISPH::settings(int narg, char **arg)
     if (mirror.has(k))
       text += fmt::format(" mirror {} {} {}", "xyz"[k], mirror.at[k],
                           mirror.side[k] > 0.0 ? "lo" : "hi");
+  if (laws.art_eps > 0.0) text += fmt::format(" artstress {} {}", laws.art_eps, laws.art_n);
 }
 
 /* ----------------------------------------------------------------------
@@ -438,9 +446,9 @@ void PairHVISPH::write_restart_settings(FILE *fp)
   write_text(fp, text);
   const int flags[8] = {laws.dim, laws.symmetric, laws.stock, laws.automatic,
                         variable, energy,         riemann,    corrected};
-  const double values[5] = {laws.a, laws.b, laws.alpha, hmin, hmax};
+  const double values[7] = {laws.a, laws.b, laws.alpha, hmin, hmax, laws.art_eps, laws.art_n};
   fwrite(flags, sizeof(int), 8, fp);
-  fwrite(values, sizeof(double), 5, fp);
+  fwrite(values, sizeof(double), 7, fp);
   fwrite(&mirror, sizeof(mirror), 1, fp);
 }
 
@@ -451,14 +459,14 @@ void PairHVISPH::read_restart_settings(FILE *fp)
   kernel = read_text(fp, comm->me, world, error);
   text = read_text(fp, comm->me, world, error);
   int flags[8];
-  double values[5];
+  double values[7];
   if (comm->me == 0) {
     utils::sfread(FLERR, flags, sizeof(int), 8, fp, nullptr, error);
-    utils::sfread(FLERR, values, sizeof(double), 5, fp, nullptr, error);
+    utils::sfread(FLERR, values, sizeof(double), 7, fp, nullptr, error);
     utils::sfread(FLERR, &mirror, sizeof(mirror), 1, fp, nullptr, error);
   }
   MPI_Bcast(flags, 8, MPI_INT, 0, world);
-  MPI_Bcast(values, 5, MPI_DOUBLE, 0, world);
+  MPI_Bcast(values, 7, MPI_DOUBLE, 0, world);
   MPI_Bcast(&mirror, sizeof(mirror), MPI_BYTE, 0, world);
   no_virial_fdotr_compute = mirror.planes ? 1 : 0;
 
@@ -476,6 +484,8 @@ void PairHVISPH::read_restart_settings(FILE *fp)
   density = laws.automatic || laws.alpha > 0.0;
   hmin = values[3];
   hmax = values[4];
+  laws.art_eps = values[5];
+  laws.art_n = values[6];
   HVI::with_kernel(kernel, [this](auto k) {
     support = decltype(k)::support;
     laws.norm = decltype(k)::norm(laws.dim);

@@ -126,6 +126,10 @@ void PairHVISPH::fill_images()
       reflect.symmetric(stress[a]);
       memset((void *) &gradv[a], 0, sizeof(HVI::SphGradV));
     }
+    if (art) {
+      art[a] = art[image.owner];
+      reflect.symmetric(art[a]);
+    }
     a++;
   }
 }

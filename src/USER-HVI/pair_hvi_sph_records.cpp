@@ -20,6 +20,8 @@
 #include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_sph.h"
 #include "force.h"
+#include "hvi_artstress.h"
+#include "hvi_kernel.h"
 #include "neigh_list.h"
 #include "update.h"
 
@@ -100,6 +102,38 @@ void PairHVISPH::gather_stress()
   for (int i = 0; i < atom->nlocal; i++) stress[i] = strength->stress(i);
   sending = STRESS;
   comm->forward_comm(this);
+}
+
+/* ----------------------------------------------------------------------
+   Of owned particles and ghosts, whose pressure and stress are known here.  The spacing dp is
+   that of the material's own density, (m/rho0)^(1/dim), over the H of pair_coeff: as Gray's,
+   it stays what it was at the start, and in units of h with variable h too.
+------------------------------------------------------------------------- */
+
+void PairHVISPH::artificial_stress()
+{
+  const double *const rmass = atom->rmass;
+  HVI::with_kernel(kernel, [&](auto k) {
+    for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
+      const int itype = atom->type[i];
+      if (!materials[itype]) continue;
+      const HVI::SphStress &s = stress[i];
+      const HVI::Deviator T = HVI::tensile_part(state[i].p, {s.xx, s.yy, s.zz, s.xy, s.xz, s.yz});
+      double f = 0.0;
+      if (T.xx + T.yy + T.zz > 0.0) {
+        const double V = (rmass ? rmass[i] : atom->mass[itype]) / materials[itype]->eos->rho0();
+        const double dp = laws.dim == 3 ? std::cbrt(V) : (laws.dim == 2 ? std::sqrt(V) : V);
+        const double w = decltype(k)::template w<double>(dp / htype[itype]);
+        if (!(w > 0.0))
+          error->one(FLERR,
+                     "Pair hvi/sph artstress: the spacing {} of type {} is beyond the reach of its "
+                     "h {}",
+                     dp, itype, htype[itype]);
+        f = -laws.art_eps / std::pow(w, laws.art_n);
+      }
+      art[i] = {f * T.xx, f * T.yy, f * T.zz, f * T.xy, f * T.xz, f * T.yz, 0.0, 0.0};
+    }
+  });
 }
 
 // L M^-1 is exact in a linear field.  The law sees it, forces do not.  Where neighbors lie in

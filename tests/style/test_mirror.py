@@ -46,7 +46,7 @@ def start(planes, tmp_path, material, steps=30, words="viscosity 1 2", jc="", si
         s.v = -s.v
     mirror = "".join(f" mirror {a} {s.box['xyz'.index(a)] if sides else 0.0} {'hi' if sides else 'lo'}" for a in planes)
     name = f"s{planes}{sides}.data"
-    pair = PAIR.format(words=words + mirror, path=material) + "pair_coeff 1 2 tension no\n"
+    pair = PAIR.format(kernel="cubic", words=words + mirror, path=material) + "pair_coeff 1 2 tension no\n"
     text = scene(s, tmp_path / name, pair, **kw) + (f"fix jc all hvi/johnson-cook {jc}\n" if solid else "") + "timestep 0.004\n" + more
     return text + (f"run {steps}\n" if steps else ""), shift
 
@@ -63,7 +63,7 @@ def same(whole, some, shift, planes, tolerance=1e-9):
         assert np.abs(a - b).max() <= tolerance * np.abs(whole[name]).max(), name
 
 
-@pytest.mark.parametrize("words", ["viscosity 1 2", "viscosity 1 2 h variable", "gradient plain interface 0.3"])
+@pytest.mark.parametrize("words", ["viscosity 1 2", "viscosity 1 2 h variable", "gradient plain interface 0.3", "artstress 0.3 4"])
 def test_as_the_whole(lmp, tmp_path, material, words):
     """30 steps with stress, yielding and failure: forces, rates, stress of half, quarter and eighth models"""
     text = "".join("clear\n" + start(p, tmp_path, material, words=words)[0] + OUT.format("f" + p) for p in ("", "x", "xy", "xyz"))
@@ -128,7 +128,7 @@ def test_reflected(lmp, tmp_path, material):
     s, _ = part("x")
     s.x, s.v, s.type = np.array([[1.5, 6.0, 6.0]]), np.array([[-40.0, 3.0, 0.0]]), np.array([1])
     s.rho, s.esph = np.ones(1), np.zeros(1)
-    pair = PAIR.format(words="viscosity 0 0 mirror x 0.0 lo", path=material)
+    pair = PAIR.format(kernel="cubic", words="viscosity 0 0 mirror x 0.0 lo", path=material)
     text = scene(s, tmp_path / "s.data", pair) + "fix jc all hvi/johnson-cook\ntimestep 0.001\n"
     r = lmp(text + BOOK.replace("fix step all hvi/dt 0.2\n", "") + "run 100\n" + OUT.format("f"))
     f = read(tmp_path / "f")
@@ -162,7 +162,7 @@ def test_restart(lmp, tmp_path, material):
 def test_wrong_input(lmp, tmp_path, material, words, message):
     s, _ = part("xyz")
     viscosity = "" if "riemann" in words else "viscosity 1 2 "
-    pair = PAIR.format(words=viscosity + words, path=material)
+    pair = PAIR.format(kernel="cubic", words=viscosity + words, path=material)
     r = lmp(scene(s, tmp_path / "s.data", pair) + "timestep 0.001\nrun 1\n", expect_fail=True)
     assert message.lower() in r.log.lower() + r.stdout.lower()
 
@@ -170,5 +170,5 @@ def test_wrong_input(lmp, tmp_path, material, words, message):
 def test_periodic(lmp, tmp_path, material):
     s, _ = part("xyz")
     s.periodic = (True, False, False)
-    r = lmp(scene(s, tmp_path / "s.data", PAIR.format(words="mirror x 0 lo", path=material)) + "run 1\n", expect_fail=True)
+    r = lmp(scene(s, tmp_path / "s.data", PAIR.format(kernel="cubic", words="mirror x 0 lo", path=material)) + "run 1\n", expect_fail=True)
     assert "not periodic" in r.log + r.stdout

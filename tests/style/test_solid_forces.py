@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from sph_scenes import norm, random_fluid, scene, shape
+from sph_scenes import SUPPORT, norm, random_fluid, scene, shape
 
 # si-like numbers in lj units: rho0 1, c0 4; strength and damage so that a part yields, some fail
 MATERIAL = """# DATE: 2026-01-01 UNITS: lj CONTRIBUTOR: test CITATION: none
@@ -36,7 +36,7 @@ damage johnson-cook
 spall limit
   sigma_p {sigma_p}
 """
-PAIR = "pair_style hvi/sph cubic {words}\npair_coeff 1 1 file {path} h 1.25\npair_coeff 2 2 file {path} h 1.25\n"
+PAIR = "pair_style hvi/sph {kernel} {words}\npair_coeff 1 1 file {path} h 1.25\npair_coeff 2 2 file {path} h 1.25\n"
 OUT = """compute S all hvi/atom p c eps damage spalled vm sxx syy szz sxy sxz syz
 compute R all property/atom drho desph rho esph
 dump d all custom 1 {0} id type x y z vx vy vz fx fy fz c_R[1] c_R[2] c_R[3] c_R[4] c_S[*]
@@ -76,31 +76,44 @@ def material(tmp_path):
     return path
 
 
-def start(s, tmp_path, material, words="viscosity 1 2", tension="yes", more="", steps=40, jc="", **kw):
-    pair = PAIR.format(words=words, path=material) + f"pair_coeff 1 2 tension {tension}\n"
+def start(s, tmp_path, material, words="viscosity 1 2", tension="yes", more="", steps=40, jc="", kernel="cubic", **kw):
+    pair = PAIR.format(kernel=kernel, words=words, path=material) + f"pair_coeff 1 2 tension {tension}\n"
     text = scene(s, tmp_path / "s.data", pair, **kw) + f"fix jc all hvi/johnson-cook {jc}\ntimestep 0.004\n"
     return text + more + (f"run {steps}\n" if steps else "")
 
 
-def brute_force(s, d, tension=True, visc=(1.0, 2.0), kernel="cubic", h=1.25):
-    """forces, de, drho of all pairs from the dumped state; c has the shear wave in it (G 6)"""
+def as_tensor(d):
+    """the deviator, from the whole stress of the dump"""
+    xx, yy, zz, xy, xz, yz = (d["S"] + np.outer(d["p"], [1, 1, 1, 0, 0, 0])).T
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).transpose(2, 0, 1)
+
+
+def artificial(S, p, eps):
+    """R of Gray, Monaghan & Swift 2001 (times rho^2), by the eigenvalues of the whole stress"""
+    value, axis = np.linalg.eigh(S - p[:, None, None] * np.eye(3))
+    return -eps * np.einsum("nak,nk,nbk->nab", axis, np.maximum(value, 0), axis)
+
+
+def brute_force(s, d, tension=True, visc=(1.0, 2.0), kernel="cubic", h=1.25, art=None):
+    """forces, de, drho of all pairs from the dumped state; c has the shear wave in it (G 6); art: eps, n (spacing 1); h: of each particle"""
     x, v, rho, p = d["x"], d["v"], d["rho"], d["p"]
     m, V = 1.0, 1.0 / rho
     G = np.where((d["damage"] >= 1) | (d["spalled"] > 0), 0.0, 6.0)
     c = np.sqrt(d["c"] ** 2 + 4 / 3 * G / rho)
-    S = np.zeros((len(x), 3, 3))
-    xx, yy, zz, xy, xz, yz = (d["S"] + np.outer(p, [1, 1, 1, 0, 0, 0])).T
-    S[:, 0, 0], S[:, 1, 1], S[:, 2, 2] = xx, yy, zz
-    S[:, 0, 1] = S[:, 1, 0] = xy
-    S[:, 0, 2] = S[:, 2, 0] = xz
-    S[:, 1, 2] = S[:, 2, 1] = yz
+    S = as_tensor(d)
     i, j = np.nonzero(~np.eye(len(x), dtype=bool))
     r = x[i] - x[j]
     r -= s.box * np.round(r / s.box)
     q = np.sqrt((r**2).sum(1))
-    near = q < 2 * h
-    i, j, r, q = i[near], j[near], r[near], q[near]
+    h = 0.5 * (np.broadcast_to(h, len(x))[i] + np.broadcast_to(h, len(x))[j])
+    near = q < SUPPORT[kernel] * h
+    i, j, r, q, h = i[near], j[near], r[near], q[near], h[near]
     grad = r * (norm(kernel, 3) / h**4 * shape(kernel, q / h)[1] / q)[:, None]
+    Si, Sj = S[i], S[j]
+    if art:
+        R = artificial(S, p, art[0])
+        fn = ((shape(kernel, q / h)[0] / shape(kernel, np.array([1 / 1.25]))[0]) ** art[1])[:, None, None]
+        Si, Sj = Si + fn * R[i], Sj + fn * R[j]
     vij = v[i] - v[j]
     g, vr = (vij * grad).sum(1), (vij * r).sum(1)
     mu = np.where(vr < 0, h * vr / (q**2 + 0.01 * h * h), 0.0)
@@ -108,8 +121,8 @@ def brute_force(s, d, tension=True, visc=(1.0, 2.0), kernel="cubic", h=1.25):
     bonded = np.full(len(i), True) if tension else d["type"][i] == d["type"][j]
     open_ = bonded | (p[i] + p[j] > 0)
     VV = V[i] * V[j]
-    f = -((VV * (p[i] + p[j]) * open_ + Q))[:, None] * grad + (VV * bonded)[:, None] * np.einsum("kab,kb->ka", S[i] + S[j], grad)
-    de = VV * p[i] * open_ * g + 0.5 * Q * g - VV * bonded * np.einsum("ka,kab,kb->k", vij, S[i], grad)
+    f = -((VV * (p[i] + p[j]) * open_ + Q))[:, None] * grad + (VV * bonded)[:, None] * np.einsum("kab,kb->ka", Si + Sj, grad)
+    de = VV * p[i] * open_ * g + 0.5 * Q * g - VV * bonded * np.einsum("ka,kab,kb->k", vij, Si, grad)
     drho = rho[i] * V[j] * g * (open_ | (vr < 0))
     n = len(x)
 
@@ -136,14 +149,66 @@ def test_forces(lmp, tmp_path, material, tension):
     assert d["de"].sum() == pytest.approx(-(d["f"] * d["v"]).sum(), rel=1e-11)
 
 
+@pytest.mark.parametrize("kernel, tension, eps, n", [
+    ("cubic", "yes", 0.3, 4), ("cubic", "no", 0.3, 2.55), ("quintic", "yes", 0.5, 0.5), ("wendland2", "no", 0.3, 4), ("gauss", "yes", 0.2, 3),
+    ("quadratic", "yes", 0.3, 4), ("quartic", "yes", 0.3, 4), ("wendland4", "yes", 0.3, 4)])
+def test_artificial_stress(lmp, tmp_path, material, kernel, tension, eps, n):
+    """the same with artstress, in bodies that expand; energy of pairs and momentum to round-off"""
+    s = state(seed=25)
+    s.rho *= 0.97
+    text = start(s, tmp_path, material, tension=tension, kernel=kernel, words=f"viscosity 1 2 artstress {eps} {n}", steps=10)
+    lmp(text + "velocity all ramp vx 0.0 0.3 x 0.0 8.0 sum yes units box\n" + OUT.format("f"))
+    d = read(tmp_path / "f")
+    want = brute_force(s, d, tension == "yes", kernel=kernel, art=(eps, n))
+    without = brute_force(s, d, tension == "yes", kernel=kernel)
+    # only a part of the axes is in tension; a part of the particles is in none
+    T = artificial(as_tensor(d), d["p"], 1.0)
+    rank = (np.linalg.eigvalsh(-T) > 1e-9).sum(1)
+    assert {0, 1, 2, 3} >= set(rank) and len(set(rank)) >= 3
+    for name in want:
+        assert np.abs(d[name] - want[name]).max() <= 1e-11 * np.abs(want[name]).max(), name
+        if name != "drho":
+            assert np.abs(d[name] - without[name]).max() > 1e-3 * np.abs(want[name]).max(), name
+    assert d["de"].sum() == pytest.approx(-(d["f"] * d["v"]).sum(), rel=1e-11)
+    assert np.abs(d["f"].sum(0)).max() < 1e-11 * np.abs(d["f"]).max() * len(d["f"])
+
+
+ART = "viscosity 1 2 artstress 0.3 4"
+
+
+def test_artificial_stress_variable_h(lmp, tmp_path, material):
+    """h follows density, h of the start and the spacing of the start belong together"""
+    s = state(seed=26)
+    s.rho *= 0.97
+    lmp(start(s, tmp_path, material, words=f"{ART} h variable", steps=10) + "velocity all ramp vx 0.0 0.3 x 0.0 8.0 sum yes units box\n" + OUT.format("f"))
+    d = read(tmp_path / "f")
+    h = 1.25 * np.cbrt(0.97 / d["rho"])
+    assert np.ptp(h) > 0.01
+    want = brute_force(s, d, art=(0.3, 4), h=h)
+    for name in want:
+        assert np.abs(d[name] - want[name]).max() <= 1e-11 * np.abs(want[name]).max(), name
+
+
+def test_no_artificial_stress(lmp, tmp_path, material):
+    """eps 0 is none at all"""
+    s, found = state(seed=26), []
+    for words in ("viscosity 1 2", "viscosity 1 2 artstress 0 4"):
+        lmp(start(s, tmp_path, material, words=words, steps=10) + OUT.format("f"))
+        found.append(read(tmp_path / "f"))
+    for name in found[0]:
+        assert np.array_equal(found[0][name], found[1][name]), name
+
+
+@pytest.mark.parametrize("words", ["viscosity 1 2", ART], ids=["", "artstress"])
 @pytest.mark.parametrize("nranks", [1, 2, 3, 4])
-def test_layouts(lmp, tmp_path, material, nranks):
+def test_layouts(lmp, tmp_path, material, nranks, words):
     """newton on and off, brick and tiled, 20 steps with stress: as on one rank"""
     s = state(seed=22)
+    s.rho *= 0.97
     cases = list(itertools.product(("on", "off"), ("brick", "tiled")))
-    text = "".join("clear\n" + start(s, tmp_path, material, steps=20, newton=newton, comm=comm) + OUT.format(f"f.{k}")
+    text = "".join("clear\n" + start(s, tmp_path, material, words, steps=20, newton=newton, comm=comm) + OUT.format(f"f.{k}")
                    for k, (newton, comm) in enumerate(cases))
-    lmp(start(s, tmp_path, material, steps=20) + OUT.format("one"))
+    lmp(start(s, tmp_path, material, words, steps=20) + OUT.format("one"))
     lmp(text, nranks=nranks)
     one = read(tmp_path / "one")
     assert one["eps"].max() > 0.01
@@ -153,11 +218,12 @@ def test_layouts(lmp, tmp_path, material, nranks):
             assert np.abs(got[name] - one[name]).max() <= 1e-9 * np.abs(one[name]).max(), (case, name)
 
 
+@pytest.mark.parametrize("words", ["viscosity 1 2", ART], ids=["", "artstress"])
 @pytest.mark.parametrize("nranks", [1, 2])
-def test_restart(lmp, tmp_path, material, nranks):
+def test_restart(lmp, tmp_path, material, nranks, words):
     """30 steps, restart, 30 more: the same bits as 60 at once"""
     s = state(seed=23)
-    lmp(start(s, tmp_path, material, steps=0, sort=False, more="restart 30 half\n") + "run 59\n" + OUT.format("whole"), nranks=nranks)
+    lmp(start(s, tmp_path, material, words, steps=0, sort=False, more="restart 30 half\n") + "run 59\n" + OUT.format("whole"), nranks=nranks)
     text = "read_restart half.30\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\nfix sph all hvi/sph\n"
     lmp(text + "fix jc all hvi/johnson-cook\ntimestep 0.004\nrun 29\n" + OUT.format("part"), nranks=nranks)
     one, two = read(tmp_path / "whole"), read(tmp_path / "part")
@@ -166,12 +232,13 @@ def test_restart(lmp, tmp_path, material, nranks):
         assert np.array_equal(one[name], two[name]), name
 
 
-@pytest.mark.parametrize("jc", ["", "damage no spall none", "spall pressure", "spall zero damage no", "temperature work"])
-def test_books_close(lmp, tmp_path, material, jc):
+@pytest.mark.parametrize("jc, words", [("", ART), ("damage no spall none", ART), *((jc, "viscosity 1 2") for jc in (
+    "", "damage no spall none", "spall pressure", "spall zero damage no", "temperature work"))])
+def test_books_close(lmp, tmp_path, material, jc, words):
     """energy to 1e-3, momentum to round-off, whatever the model"""
     s = state(seed=24)
     more = "fix step all hvi/dt 0.2\ncompute book all hvi/energy\nthermo 10\nthermo_style custom step c_book[1] c_book[2] c_book[9] c_book[10] c_book[11]\n"
-    t = lmp(start(s, tmp_path, material, steps=0, jc=jc, more=more + "thermo_modify format float %.17g\nrun 300\n")).thermo
+    t = lmp(start(s, tmp_path, material, words, steps=0, jc=jc, more=more + "thermo_modify format float %.17g\nrun 300\n")).thermo
     assert np.abs(t["c_book[9]"] - 1).max() < 1e-3
     assert t["c_book[1]"][-1] < 0.9 * t["c_book[1]"][0]
     for k in (10, 11):

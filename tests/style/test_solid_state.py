@@ -21,7 +21,7 @@ read_data half.data add merge fix sph NULL NULL fix jc NULL NULL fix jc NULL jc_
 
 
 def reader(path, words="viscosity 1 2", jc="", map="array"):
-    return READ.format(map=map, fixes=FIXES.format(jc)) + PAIR.format(words=words, path=path) + "pair_coeff 1 2 tension yes\n" + NEIGHBOR
+    return READ.format(map=map, fixes=FIXES.format(jc)) + PAIR.format(kernel="cubic", words=words, path=path) + "pair_coeff 1 2 tension yes\n" + NEIGHBOR
 
 
 def compare(one, two, tolerance):
@@ -171,7 +171,7 @@ def test_plastic_work_that_leaves(lmp, tmp_path, material):  # noqa: F811
     s = state(seed=28, periodic=False)
     s.x += 0.5
     s.box += 1.0
-    pair = PAIR.format(words="viscosity 1 2", path=material) + "pair_coeff 1 2 tension yes\n"
+    pair = PAIR.format(kernel="cubic", words="viscosity 1 2", path=material) + "pair_coeff 1 2 tension yes\n"
     book = "compute book all hvi/energy\nthermo 10\nthermo_style custom step atoms c_book[2] c_book[6] c_book[8] c_book[21] c_book[29]\n"
     text = scene(s, tmp_path / "s.data", pair) + "fix jc all hvi/johnson-cook\ntimestep 0.004\n" + book
     t = lmp(text + "thermo_modify norm no format float %.17g lost ignore\nrun 400\n").thermo
@@ -193,7 +193,7 @@ def test_clamped_rim(lmp, tmp_path, material):  # noqa: F811
     regions = f"region inner block {lo[0]} {hi[0]} {lo[1]} {hi[1]} INF INF\ngroup inner region inner\ngroup rim subtract all inner\n"
     book = "compute book all hvi/energy clamps rim\nthermo 10\nthermo_style custom step c_book[1] c_book[8] c_book[9] " + " ".join(
         f"c_book[{k}]" for k in range(10, 19)) + "\nthermo_modify norm no format float %.17g lost error\n"
-    pair = PAIR.format(words="viscosity 1 2", path=material) + "pair_coeff 1 2 tension yes\n"
+    pair = PAIR.format(kernel="cubic", words="viscosity 1 2", path=material) + "pair_coeff 1 2 tension yes\n"
     for kept, fixes in ((True, "fix sph all hvi/sph\nfix hold rim setforce 0 0 0\n"), (True, "fix sph inner hvi/sph\nfix rim rim sph/stationary\n"),
                         (False, "fix sph inner hvi/sph\n")):
         text = scene(s, tmp_path / "s.data", pair, fix="") + regions + book + "velocity rim set 0 0 0\nfix jc all hvi/johnson-cook\n" + fixes

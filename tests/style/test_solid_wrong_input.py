@@ -50,3 +50,27 @@ def test_what_it_needs(refused):
     refused("has no section damage johnson-cook; use damage no", text=text[:text.index("damage")] + text[text.index("spall"):])
     refused("no material has a section strength", pair="pair_style hvi/sph cubic\npair_coeff * * eos tait 1.0 4.0 7 h 1.2\n")
     refused("needs fix hvi/johnson-cook", jc="all hvi/dt 0.2", more="compute s all hvi/atom damage\nrun 0\n")
+
+
+@pytest.mark.parametrize("words, message", [
+    ("artstress", "Illegal pair_style hvi/sph artstress command: missing argument"),
+    ("artstress 0.3", "Illegal pair_style hvi/sph artstress command: missing argument"),
+    ("artstress -0.3 4", "artstress must be >= 0, not -0.3"),
+    ("artstress 0.3 -4", "artstress must be >= 0, not -4"),
+    ("artstress 0.3 0", "artstress needs 0 < n <= 50, not 0"),
+    ("artstress 0.3 51", "artstress needs 0 < n <= 50, not 51"),
+    ("artstress some 4", "some"),
+    ("artstress 0.3 four", "four"),
+    ("artstress nan 4", "nan"),
+    ("artstress 0.3 inf", "inf"),
+    ("artstress 0.3 4 dissipation riemann", "form sum and dissipation monaghan"),
+    ("artstress 0.3 4 form symmetric", "form sum and dissipation monaghan")])
+def test_artificial_stress(refused, words, message):
+    refused(message, words=words)
+
+
+def test_artificial_stress_needs(refused):
+    refused("artstress needs fix hvi/johnson-cook, which keeps the stress", words="artstress 0.3 4", jc="all hvi/dt 0.2")
+    # a row of h 0.4: the next particle is beyond its reach
+    path = "pair_style hvi/sph cubic artstress 0.3 4\npair_coeff * * file test.hvi h 0.4\n"
+    refused("is beyond the reach of its h 0.4", pair=path, more="set group all sph/rho 0.9\n")
