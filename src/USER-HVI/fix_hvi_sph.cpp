@@ -33,8 +33,8 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), strength(nullptr), dtv(0.0), dtf(0.0),
-    power(0.0), stepping(0), follow(0)
+    Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), strength(nullptr),
+    dtv(0.0), dtf(0.0), power(0.0), stepping(0), follow(0)
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
@@ -49,6 +49,10 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
   comm_forward = 1;
   maxexchange = NEXTRA;
   create_attribute = 1;
+  vector_flag = 1;
+  size_vector = atom->ntypes;
+  global_freq = 1;
+  extvector = 0;
 
   FixHVISPH::grow_arrays(atom->nmax);
   for (int i = 0; i < atom->nlocal; i++) FixHVISPH::set_arrays(i);
@@ -370,6 +374,18 @@ void FixHVISPH::write_restart(FILE *fp)
 void FixHVISPH::restart(char *buf)
 {
   restored = buf;
+}
+
+/* ----------------------------------------------------------------------
+   Reference density of a type's material, so that inputs need not repeat what
+   its file says; known before the first run.
+------------------------------------------------------------------------- */
+
+double FixHVISPH::compute_vector(int n)
+{
+  const auto *now = PairHVISPH::find(lmp);
+  const auto *material = now && now->allocated ? now->material(n + 1) : nullptr;
+  return material ? material->eos->rho0() : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */

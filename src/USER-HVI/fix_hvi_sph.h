@@ -51,6 +51,7 @@ class FixHVISPH : public Fix {
   int size_restart(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+  double compute_vector(int) override;
   double memory_usage() override;
 
   double hscale(int i) const { return extra[i].hscale; }    // owned and ghost particles
