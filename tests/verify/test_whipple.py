@@ -81,7 +81,7 @@ def test_verdict_is_that_of_another_program(shield, tmp_path):
     assert largest > 1.5 * frame.m.max()  # not all single particles
     wall = frame["type"] == 2
     assert r["wall1_momentum_N_s"] == pytest.approx(frame.m[wall] @ frame.v[wall, 2], rel=1e-4)
-    assert frame.m[frame["type"] == 1].sum() == pytest.approx(ball, rel=1e-10)  # of what is in the material file
+    assert frame.m[frame["type"] == 1].sum() == pytest.approx(ball, rel=1e-5)  # of what is in the material file
 
 
 @pytest.mark.parametrize("thickness, perforated, spall", [(1.6, True, True), (4, True, None), (8, False, False)])
