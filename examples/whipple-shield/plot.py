@@ -37,8 +37,8 @@ def read(path):
 
 
 def slice_of(data):
-    """what is near the plane y = 0, a spacing and a half to either side"""
-    return data[np.abs(data[:, 4]) < 1.5 * result["dx_mm"]]
+    """what is near the plane y = 0"""
+    return data[np.abs(data[:, 4]) < max(2.0, 1.5 * result["dx_mm"])]
 
 
 walls, zones = result["walls_reached"], result.get("zones", 1)
