@@ -54,6 +54,8 @@ for k, (ax, data) in enumerate(zip(axes[0], frames)):
     if k < walls - 1:
         for w, color in zip(range(walls + 1), COLORS):
             m = wall_of(cut) == w
+            if not m.any():
+                continue
             ax.scatter(cut[m, 5], cut[m, 3], s=4, c=color, lw=0, label="wall %d" % w if w else "projectile")
         ax.legend(loc="upper left", fontsize=8)
         ax.set_title("before wall %d, %.1f us" % (k + 2, result["wall%d_until_us" % (k + 1)]))
