@@ -28,6 +28,12 @@ EXAMPLES = {
     "view": """  python3 -m hvi view debris.dump --data debris.data --axis z --thickness 8e-3 --figure side
   python3 -m hvi view debris.dump --data debris.data --axis z --plane 4.05e-3 \\
       --color fragment --bonds bonds.dump --figure pieces""",
+    "plate": """  python3 -m hvi plate wall.data --radius 20e-3 --thickness 0.8e-3 --spacing 0.2e-3 --layers 8 --angles 0 45 \\
+      --material potentials/Al2024-T3.hvi
+  python3 -m hvi plate far.data --radius 140e-3 --thickness 0.8e-3 --spacing 0.2e-3 --zones 20e-3 40e-3 80e-3 \\
+      --density 2785 --quarter""",
+    "impacts": """  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --figure witness
+  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --quarter --after 0 --bins 60 --figure witness.png""",
     "compare": """  python3 -m hvi compare run1/result.yaml run2/result.yaml
   python3 -m hvi compare run1 run2 --rtol 0.05 --keys length_ratio fragmentation
   python3 -m hvi compare run1/debris.dump run2/debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 \\
@@ -167,6 +173,31 @@ def options():
     _rules(sub)
     _reading(sub)
     _output(sub, "the view", required=True, out=False)
+
+    sub = command("plate", "a plate for SPH: lattice in layers, each turned by its angle, coarser outward, as a LAMMPS data file")
+    sub.add_argument("file", metavar="FILE", help="data file to write (atom_style sph; read_data FILE add append)")
+    for name, text in (("radius", "of the plate"), ("thickness", "of the plate"), ("spacing", "of particles in the plane")):
+        sub.add_argument("--" + name, type=positive, required=True, metavar=name[0].upper(), help=text)
+    sub.add_argument("--layers", type=int, metavar="N", help="particles through the thickness (default: as wide as in the plane)")
+    sub.add_argument("--angles", type=float, nargs="+", default=[0.0], metavar="DEG",
+                     help="one for all layers, one per layer, or a set that is stacked symmetric and balanced (default: 0)")
+    sub.add_argument("--zones", type=positive, nargs="+", default=[], metavar="R",
+                     help="beyond each of these radii the spacing doubles and the type is the next")
+    sub.add_argument("--quarter", action="store_true", help="only x > 0, y > 0, for mirrors")
+    group = sub.add_mutually_exclusive_group(required=True)
+    group.add_argument("--density", type=positive, metavar="RHO", help="of the material, in units of the run")
+    group.add_argument("--material", metavar="FILE.hvi", help="material file; the run must have its units")
+
+    sub = command("impacts", "where a cloud will strike a wall: momentum and energy per area of particles that fly on freely")
+    _files(sub)
+    _frame(sub)
+    _cloud(sub, needed=True)
+    sub.add_argument("--after", type=float, metavar="X", help="only particles beyond this coordinate (default: all before the wall)")
+    sub.add_argument("--bins", type=int, default=80, metavar="N", help="bins across the map (default: 80)")
+    sub.add_argument("--reach", type=positive, metavar="R", help="half width of the map (default: where 99 %% of the energy is)")
+    sub.add_argument("--quarter", action="store_true", help="the dump is of a quarter model: add the mirror images")
+    _reading(sub)
+    _output(sub, "both maps", out=False)
 
     sub = command("compare", "two runs side by side: result.yaml (or its folder), or the same measures of two dumps")
     for name in "AB":

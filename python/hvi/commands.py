@@ -138,6 +138,35 @@ def map(args):
     _save(draw(_open(args)[args.frame], args.axis, args.plane, **bins), args.figure)
 
 
+def plate(args):
+    from . import plates
+
+    made = plates.make(args.radius, args.thickness, args.spacing, args.layers, args.angles, args.zones, args.quarter)
+    density, units = (args.density, None) if args.material is None else plates.density_of(args.material)
+    plates.write(args.file, made, density, " ".join(os.path.basename(args.file).split()))
+    count = np.bincount(made.type, minlength=len(made.volume) + 1)[1:]
+    print(f"particles: {len(made.x)}")
+    print(f"angles: {' '.join(f'{a:g}' for a in made.angles)}")
+    print(f"density: {density:.10g}" + (f" (units {units})" if units else ""))
+    print(f"mass: {density * (count @ made.volume):.6g}")
+    rows = [(k + 1, count[k], made.spacing[k], made.step, density * made.volume[k]) for k in range(len(count))]
+    print(tables.text(("type", "particles", "spacing", "step", "mass"), rows))
+
+
+def impacts(args):
+    from . import maps
+
+    frame = _open(args)[args.frame]
+    found = maps.impacts(frame, args.axis, args.plane, args.bins, args.after, args.reach, args.quarter)
+    print(_moment(frame))
+    for name, value in found.summary.items():
+        print(f"{name}: {tables.number(value)}")
+    if args.figure:
+        from . import figures
+
+        _save(figures.impacts(frame, found, args.axis), args.figure)
+
+
 def view(args):
     from . import figures
 

@@ -241,6 +241,24 @@ def field(source, axis, plane=None, bins=(200, 100)):
 
 
 # ---------------------------------------------------------------------- distribution, time
+def impacts(source, found, axis="z"):
+    """Momentum and energy per area on a wall (maps.impacts)."""
+    frame = as_frame(source)
+    factor, unit = unit_systems.scale("distance", found.x, frame.units)
+    names = [name for name in "xyz" if name != axis]
+    figure, ((left, right),) = _figure(3.2, 2)
+    for ax, values, quantity in ((left, found.momentum, "momentum"), (right, found.energy, "energy")):
+        shown = np.where(values > 0.0, values, np.nan)
+        top = np.nanmax(shown)
+        mesh = ax.pcolormesh(found.x / factor, found.x / factor, shown.T, cmap="inferno", norm=LogNorm(1e-4 * top, top), rasterized=True)
+        text = f"{unit_systems.name(quantity, frame.units)}/{unit_systems.name('distance', frame.units)}^2"
+        _bar(figure, mesh, f"{quantity} per area ({text})", "min", ax=ax, orientation="horizontal", pad=0.02, fraction=0.05)
+        ax.set_aspect("equal")
+        _label(ax, unit_systems.label(names[0], unit), unit_systems.label(names[1], unit))
+    left.set_title(_moment(frame), fontsize=STYLE["size"], loc="left")
+    return figure
+
+
 def distribution(masses, fits=(), units="si"):
     """N(>m) on logarithmic axes, with Fits as lines over their range."""
     from .distribution import cumulative

@@ -68,5 +68,51 @@ def field(source, axis, plane=None, bins=(200, 100)):
     return Map(_ratio(momentum, mass), *edges)
 
 
+@dataclasses.dataclass
+class Impacts:
+    """momentum (along the axis) and energy per area, (n, n) of the edges x (n + 1,) in both directions; summary: dict of totals"""
+
+    momentum: np.ndarray
+    energy: np.ndarray
+    x: np.ndarray
+    summary: dict
+
+
+def impacts(source, axis, plane, bins=80, after=None, reach=None, quarter=False):
+    """Where particles on the way to the plane will strike it if they fly on freely: a witness plate.
+
+    after: only particles beyond this coordinate; reach: half the width of the map, default where 99 % of the energy is
+    quarter: of a quarter model; its mirror images in the planes through 0 are added
+    """
+    frame = as_frame(source)
+    along = axis_number(axis)
+    across = [k for k in range(3) if k != along]
+    coming = (frame.x[:, along] < plane) & (frame.v[:, along] > 0.0)
+    if after is not None:
+        coming &= frame.x[:, along] > after
+    frame = frame.select(coming)
+    if not len(frame) or bins < 1:
+        raise HVIError(f"{frame.where}: nothing is on the way to {axis} = {plane:g}" if bins >= 1 else f"a map needs bins, not {bins}")
+    m, v = frame.m, frame.v
+    flight = (plane - frame.x[:, along]) / v[:, along]
+    x = frame.x[:, across] + flight[:, None] * v[:, across]
+    p, e = m * v[:, along], 0.5 * frame.mvv2e * m * np.einsum("ij,ij->i", v, v)
+    if quarter:
+        x = np.concatenate([x * sign for sign in ((1, 1), (1, -1), (-1, 1), (-1, -1))])
+        p, e, m, flight = (np.tile(values, 4) for values in (p, e, m, flight))
+    r = np.hypot(*x.T)
+    order = np.argsort(r)
+    share = np.cumsum(e[order]) / e.sum()
+    if reach is None:
+        reach = r[order][np.searchsorted(share, 0.99)] or 1.0
+    edges = np.linspace(-reach, reach, bins + 1)
+    area = (edges[1] - edges[0]) ** 2
+    both = [np.histogram2d(*x.T, (edges, edges), weights=w)[0] / area for w in (p, e)]
+    return Impacts(*both, edges, {
+        "particles": len(m), "mass": m.sum(), "momentum": p.sum(), "kinetic_energy": e.sum(), "first_arrival_in": flight.min(),
+        "radius_of_half_the_energy": r[order][np.searchsorted(share, 0.5)],
+        "largest_momentum_per_area": both[0].max(), "largest_energy_per_area": both[1].max()})
+
+
 def _ratio(a, b):
     return np.divide(a, b, out=np.full_like(a, np.nan), where=b > 0.0)

@@ -16,8 +16,10 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_hvi_johnson_cook.h"
 #include "force.h"
 #include "memory.h"
+#include "modify.h"
 #include "neigh_list.h"
 #include "neigh_request.h"
 #include "neighbor.h"
@@ -55,7 +57,7 @@ ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg
 
 ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg, int keywords) :
     Compute(lmp, narg, arg), iarg(3), components(world), mode(BONDS), cutoff(0.0), damage(0),
-    list(nullptr), nmax(0), fragment(nullptr), node(nullptr)
+    strength(nullptr), list(nullptr), nmax(0), fragment(nullptr), node(nullptr)
 {
   comm_forward = NODE_SIZE;
 
@@ -102,7 +104,9 @@ void ComputeHVIFragmentAtom::init()
     return;
   }
 
-  if (damage) find_damage();
+  auto solids = modify->get_fix_by_style("^hvi/johnson-cook$");
+  strength = solids.empty() ? nullptr : dynamic_cast<FixHVIJohnsonCook *>(solids[0]);
+  if (damage && !strength) find_damage();
 
   // what the neighbor list would leave out
 
@@ -138,7 +142,7 @@ void ComputeHVIFragmentAtom::init_list(int /*which*/, NeighList *ptr)
 }
 
 /* ----------------------------------------------------------------------
-   damage of the particles, as fixes that compute it keep it
+   damage of the particles where it is not kept by fix hvi/johnson-cook
 ------------------------------------------------------------------------- */
 
 const double *ComputeHVIFragmentAtom::find_damage() const
@@ -192,9 +196,9 @@ void ComputeHVIFragmentAtom::find_fragments(Region *region)
   }
 
   if (damage) {
-    const double *const d = find_damage();
+    const double *const d = strength ? nullptr : find_damage();
     for (int i = 0; i < nlocal; i++)
-      if (!(d[i] < 1.0)) id[i] = -id[i];
+      if (strength ? strength->failed(i) : !(d[i] < 1.0)) id[i] = -id[i];
   }
 
   components.start(id, nlocal + atom->nghost);

@@ -28,7 +28,8 @@ namespace LAMMPS_NS {
    bonds         bonded particles hang together: live bonds only, as the bond
                  style has left them in the last force evaluation
    distance R    particles closer than R hang together; with "damage yes" those
-                 whose damage (property d_hvi_damage) has reached 1 stay alone
+                 that have failed (fix hvi/johnson-cook, or property
+                 d_hvi_damage at 1) stay alone
 ------------------------------------------------------------------------- */
 
 class ComputeHVIFragmentAtom : public Compute {
@@ -56,7 +57,8 @@ class ComputeHVIFragmentAtom : public Compute {
 
   Mode mode;
   double cutoff;
-  int damage;    // 1: failed particles stay alone
+  int damage;                           // 1: failed particles stay alone
+  class FixHVIJohnsonCook *strength;    // which then knows, if there is one
   class NeighList *list;
   int nmax;
   double *fragment;

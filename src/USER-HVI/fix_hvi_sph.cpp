@@ -51,6 +51,10 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
   maxexchange = NEXTRA;
   create_attribute = 1;
   wd_section = 1;
+  vector_flag = 1;
+  size_vector = atom->ntypes;
+  global_freq = 1;
+  extvector = 0;
 
   FixHVISPH::grow_arrays(atom->nmax);
   for (int i = 0; i < atom->nlocal; i++) FixHVISPH::set_arrays(i);
@@ -452,6 +456,18 @@ void FixHVISPH::read_data_section(char * /*keyword*/, int n, char *buf, tagint o
     e = {0.0, 0.0, c[2], c[3], c[0] != 0.0 ? fingerprint(i) : 0, c[1]};
     for (int k = 0; k < 3; k++) atom->vest[i][k] = c[4 + k];
   });
+}
+
+/* ----------------------------------------------------------------------
+   Reference density of a type's material, so that inputs need not repeat what
+   its file says; known before the first run.
+------------------------------------------------------------------------- */
+
+double FixHVISPH::compute_vector(int n)
+{
+  const auto *now = PairHVISPH::find(lmp);
+  const auto *material = now && now->allocated ? now->material(n + 1) : nullptr;
+  return material ? material->eos->rho0() : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -58,6 +58,7 @@ class FixHVISPH : public Fix {
   void write_data_section(int, FILE *, int, double **, int) override;
   bigint read_data_skip_lines(char *) override { return -1; }    // one per particle
   void read_data_section(char *, int, char *, tagint) override;
+  double compute_vector(int) override;
   double memory_usage() override;
 
   double hscale(int i) const { return extra[i].hscale; }    // owned and ghost particles
