@@ -11,7 +11,7 @@ KEYS = """hole1_diameter_mm hole2_diameter_mm perforated front_velocity_m_s clou
 PER_WALL = """reached perforated detached_spall spall_mass_mg fragments largest_fragment_mm largest_fragment_mass_fraction
     largest_fragment_velocity_m_s momentum_N_s momentum_ratio energy_J energy_ratio passed_mass_mg cloud_velocity_ratio
     cloud_front_velocity_ratio cloud_momentum_ratio cloud_energy_ratio""".split()
-SMALL = dict(quarter="no", dx=0.6, spacing=12, radius1=7, radius2=9, behind=20, tstop=8, timpact=1)
+SMALL = dict(quarter="no", kernel="cubic", eta=1.2, dx=0.6, spacing=12, radius1=7, radius2=9, behind=20, tstop=8, timpact=1)
 
 
 @pytest.fixture
@@ -113,10 +113,21 @@ def test_lists_of_walls(shield, root, tmp_path):
     (dict(walls=2, material=["Al2024-T3.hvi"] * 3), "more values of material than walls, 2"),
     (dict(walls=2, gap=[0, 5, 5]), "more values of gap than walls, 2"),
     (dict(walls=0), "walls must be a whole number"), (dict(walls=1.5), "walls must be a whole number"),
-    (dict(quarter="half"), "quarter must be yes or no, not half"), (dict(quarter="yes", angle=30), "quarter=yes needs angle=0"),
+    (dict(quarter="half"), "quarter must be auto, yes or no, not half"), (dict(quarter="yes", angle=30), "quarter=yes needs angle=0"),
     (dict(edge="soft"), "edge must be free, clamp or absorb, not soft"), (dict(probes="maybe"), "probes must be yes or no"),
     (dict(t1=-1), "wall 1: thickness and radius must be above 0"), (dict(plate=["missing.data", "plain"]), "neither plain nor a file"),
     (dict(zones=0), "zones must be a whole number"), (dict(material_t="Unobtainium.hvi"), "Unobtainium.hvi")], ids=str)
 def test_wrong_input(shield, variables, message):
     r = shield(fails=True, **{"quarter": "no", "dx": 0.8, **variables})
     assert message in r.log + r.stdout
+
+
+def test_quarter_is_the_whole(shield):
+    """until the cloud of wall 1 has passed, a quarter between mirrors is what the whole is, to what is printed"""
+    quarter, whole = [shield(folder=q, **{**SMALL, "quarter": q}) for q in ("yes", "no")]
+    assert 4 * quarter["particles"] == whole["particles"]
+    for key in PER_WALL:
+        if key not in ("reached", "perforated", "detached_spall", "fragments"):
+            assert quarter[f"wall1_{key}"] == pytest.approx(whole[f"wall1_{key}"], rel=1e-3), key
+    assert quarter["hole1_diameter_mm"] == pytest.approx(whole["hole1_diameter_mm"], rel=0.03)
+    assert abs(quarter["energy_ratio"] - 1) < 1e-3 and quarter["momentum_error"] < 1e-10
