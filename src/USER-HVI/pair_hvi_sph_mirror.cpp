@@ -63,7 +63,7 @@ void PairHVISPH::check_sides() const
   for (int i = 0; i < atom->nlocal; i++) {
     if (!materials[atom->type[i]]) continue;
     for (int k = 0; k < 3; k++)
-      if (mirror.has(k) && !(mirror.depth(k, atom->x[i]) > 1.0e-6 * htype[atom->type[i]]))
+      if (mirror.has(k) && !(mirror.depth(k, atom->x[i]) > 1.0e-12 * htype[atom->type[i]]))
         error->one(FLERR,
                    "Pair style hvi/sph: particle {} at {} = {} is on the mirror plane {} or beyond "
                    "it (mirror {} {} {} wants all {} it); a lattice is best half a spacing away",
