@@ -57,7 +57,7 @@ ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg
 
 ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg, int keywords) :
     Compute(lmp, narg, arg), iarg(3), components(world), mode(BONDS), cutoff(0.0), damage(0),
-    strength(nullptr), list(nullptr), nmax(0), fragment(nullptr), node(nullptr)
+    list(nullptr), nmax(0), fragment(nullptr), node(nullptr)
 {
   comm_forward = NODE_SIZE;
 
@@ -104,9 +104,7 @@ void ComputeHVIFragmentAtom::init()
     return;
   }
 
-  auto solids = modify->get_fix_by_style("^hvi/johnson-cook$");
-  strength = solids.empty() ? nullptr : dynamic_cast<FixHVIJohnsonCook *>(solids[0]);
-  if (damage && !strength) find_damage();
+  if (damage && !FixHVIJohnsonCook::find(lmp)) find_damage();
 
   // what the neighbor list would leave out
 
@@ -196,6 +194,7 @@ void ComputeHVIFragmentAtom::find_fragments(Region *region)
   }
 
   if (damage) {
+    const FixHVIJohnsonCook *const strength = FixHVIJohnsonCook::find(lmp);
     const double *const d = strength ? nullptr : find_damage();
     for (int i = 0; i < nlocal; i++)
       if (strength ? strength->failed(i) : !(d[i] < 1.0)) id[i] = -id[i];

@@ -57,8 +57,7 @@ class ComputeHVIFragmentAtom : public Compute {
 
   Mode mode;
   double cutoff;
-  int damage;                           // 1: failed particles stay alone
-  class FixHVIJohnsonCook *strength;    // which then knows, if there is one
+  int damage;    // 1: failed particles stay alone
   class NeighList *list;
   int nmax;
   double *fragment;

@@ -84,7 +84,14 @@ class FixHVIJohnsonCook : public Fix {
   HVI::SphStress stress(int i) const
   {
     const HVI::Deviator &S = solid[i].sent.S;
-    return {S.xx, S.yy, S.zz, S.xy, S.xz, S.yz, solid[i].sent.p_min, solid[i].sent.shear};
+    return {S.xx,
+            S.yy,
+            S.zz,
+            S.xy,
+            S.xz,
+            S.yz,
+            solid[i].sent.p_min,
+            solid[i].sent.shear > 0.0 ? solid[i].sent.shear : 0.0};
   }
   const Solid &state(int i) const { return solid[i]; }
   double temperature(int) const;

@@ -144,7 +144,8 @@ void FixHVIJohnsonCook::write_data_section(int section, FILE *fp, int n, double 
 
 void FixHVIJohnsonCook::read_data_section(char *keyword, int n, char *buf, tagint offset)
 {
-  const bool forces = keyword == force_rows.title();
+  const bool forces =    // sections of another fix end alike
+      keyword != state_rows.title() && utils::strmatch(keyword, "_forces$");
   rows(forces).read(n, buf, offset, [this, forces](int i, const double *c) {
     if (!state_rows.has(i) && !force_rows.has(i)) solid[i] = blank();
     Solid &s = solid[i];

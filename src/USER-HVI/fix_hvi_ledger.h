@@ -74,6 +74,7 @@ class FixHVILedger : public Fix {
   // for fix hvi/sph
 
   void book_viscous(double heat) { entry[VISCOUS] += heat; }
+  bool clamps(int mask) const { return mask & clampbit; }    // which books itself what they get
   void book_mirror(const double *impulse)
   {
     for (int k = 0; k < 3; k++) entry[CLAMP_JX + k] += impulse[k];

@@ -261,8 +261,9 @@ void FixHVISPH::reflect()
       if (!mirror.has(k) || mirror.depth(k, atom->x[i]) >= 0.0) continue;
       op |= 1 << k;
       atom->x[i][k] = 2.0 * mirror.at[k] - atom->x[i][k];
-      impulse[k] -=
-          2.0 * (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * atom->v[i][k];
+      if (!ledger->clamps(atom->mask[i]))
+        impulse[k] -=
+            2.0 * (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * atom->v[i][k];
       atom->v[i][k] = -atom->v[i][k];
       atom->vest[i][k] = -atom->vest[i][k];
     }

@@ -215,6 +215,7 @@ template <class Law> class StrengthModel final : public Strength {
 
   static Plastic returned(const Deviator &trial, double stress, double G, double y)
   {
+    y = y < stress ? y : stress;    // the root may be past it by a rounding
     const double d_eps = (stress - y) / (3.0 * G);
     return {scaled(trial, y / stress), d_eps, y * d_eps, y};
   }

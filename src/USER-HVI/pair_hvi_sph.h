@@ -113,7 +113,8 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
 
   void allocate();
   void deallocate();
-  void set_material(int ilo, int ihi, int jlo, int jhi, const std::vector<std::string> &);
+  void set_material(int ilo, int ihi, int jlo, int jhi, const std::vector<std::string> &,
+                    bool with_mass);
   void gather();
   void gather_stress();
   void artificial_stress();

@@ -41,6 +41,7 @@ void PairHVISPH::allocate()
   for (int i = 0; i < np1; i++)
     for (int j = 0; j < np1; j++) {
       setflag[i][j] = 0;
+      cutsq[i][j] = 0.0;    // pairs of other styles in a hybrid
       visc_a[i][j] = laws.a;
       visc_b[i][j] = laws.b;
       tension[i][j] = (i == j || laws.stock) ? 1.0 : 0.0;
@@ -244,7 +245,7 @@ void PairHVISPH::coeff(int narg, char **arg)
 
   const std::vector<std::string> words(arg + 2, arg + narg);
   if (words[0] == "file" || words[0] == "eos") {
-    set_material(ilo, ihi, jlo, jhi, words);
+    set_material(ilo, ihi, jlo, jhi, words, true);
     return;
   }
 
@@ -296,7 +297,7 @@ void PairHVISPH::coeff(int narg, char **arg)
 /* ---------------------------------------------------------------------- */
 
 void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
-                              const std::vector<std::string> &words)
+                              const std::vector<std::string> &words, bool with_mass)
 {
   // after the material: h and its value, and what a particle's volume is to be at rest
 
@@ -368,7 +369,7 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
     materials[i] = made;
     specs[i] = spec;
     htype[i] = h;
-    if (mass > 0.0) atom->set_mass(FLERR, i, mass);
+    if (with_mass && mass > 0.0) atom->set_mass(FLERR, i, mass);
     count++;
   }
   if (count == 0)
@@ -424,7 +425,7 @@ void PairHVISPH::read_restart(FILE *fp)
   const int np1 = atom->ntypes + 1;
   for (int i = 1; i < np1; i++) {
     const std::string spec = read_text(fp, me, world, error);
-    if (!spec.empty()) set_material(i, i, i, i, utils::split_words(spec));
+    if (!spec.empty()) set_material(i, i, i, i, utils::split_words(spec), false);
     if (me == 0) {
       utils::sfread(FLERR, setflag[i], sizeof(int), np1, fp, nullptr, error);
       utils::sfread(FLERR, visc_a[i], sizeof(double), np1, fp, nullptr, error);

@@ -84,8 +84,16 @@ void PairHVISPH::find_images()
   reachsq = 0.0;
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = 1; j <= atom->ntypes; j++)
-      if (materials[i] && materials[j])
+      if (materials[i] && materials[j] && cutsq[i][j] > 0.0)
         reachsq = MAX(reachsq, square(std::sqrt(cutsq[i][j]) + neighbor->skin));
+
+  for (int i = 0; i < nlocal; i++)
+    for (int k = 0; k < 3; k++)
+      if (mirror.has(k) && materials[atom->type[i]] && mirror.depth(k, atom->x[i]) < 0.0)
+        error->one(FLERR,
+                   "Pair style hvi/sph: particle {} is beyond the mirror plane {} at step {}: fix "
+                   "hvi/sph does not integrate it, so does not put it back",
+                   atom->tag[i], "xyz"[k], update -> ntimestep);
 
   images.all.clear();
   images.first = nall;

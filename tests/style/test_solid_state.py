@@ -45,6 +45,16 @@ def test_data_file(lmp, tmp_path, material, words, jc, nranks, map):  # noqa: F8
     compare(whole, part, 1e-9)
 
 
+def test_data_file_for_another_fix(lmp, tmp_path, material):  # noqa: F811
+    """sections of fixes with other IDs, given by name"""
+    s = state(seed=23)
+    lmp(start(s, tmp_path, material, steps=30) + "write_data half.data\n" + OUT.format("half"))
+    text = reader(material).replace("fix jc all", "fix solids all").replace("fix jc NULL NULL fix jc NULL jc_forces",
+                                                                           "fix solids NULL jc fix solids NULL jc_forces")
+    lmp(text + OUT.format("read"))
+    compare(read(tmp_path / "half"), read(tmp_path / "read"), 1e-13)
+
+
 def test_data_file_before_a_run_and_after_changes(lmp, tmp_path, material):  # noqa: F811
     """particles that were new, or changed after the run, start anew from a data file as they would have without it"""
     s = state(seed=25)
