@@ -150,7 +150,8 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
     const int itype = atom->type[i];
     if (!pair->material(itype)) continue;
     Extra &e = extra[i];
-    if (atom->rho[i] == 0.0 && e.mark == 0) atom->rho[i] = pair->material(itype)->eos->rho0();
+    if (atom->rho[i] == 0.0 && e.mark == 0 && pair->has_volume(itype))
+      atom->rho[i] = pair->material(itype)->eos->rho0();
     if (e.hscale == 0.0) {
       if (pair->variable_h() && !(atom->rho[i] > 0.0))
         error->one(FLERR,

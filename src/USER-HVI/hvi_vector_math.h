@@ -21,6 +21,7 @@ namespace HVI {
 ------------------------------------------------------------------------- */
 
 typedef long long Bits __attribute__((vector_size(8 * LANES)));
+typedef unsigned long long UBits __attribute__((vector_size(8 * LANES)));    // these may overflow
 
 static constexpr double LN2_HIGH = 0x1.62e42fefa3800p-1, LN2_LOW = 0x1.ef35793c76730p-45;
 
@@ -50,17 +51,17 @@ HVI_INLINE Vec exp(const Vec &number)
       0.5,         1.0 / 6,      1.0 / 24,      1.0 / 120,      1.0 / 720,       1.0 / 5040,
       1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800};
   const Vec fraction = 1.0 + (r + r * r * polynomial(over, r));
-  return (Vec) ((Bits) fraction + ((Bits) shifted << 52));    // times 2^n
+  return (Vec) ((UBits) fraction + ((UBits) shifted << 52));    // times 2^n
 }
 
 HVI_INLINE Vec log(const Vec &x)
 {
   // x = 2^n m, m within sqrt(1/2) and sqrt(2);  ln m = 2 artanh((m - 1)/(m + 1))
 
-  static constexpr long long ROOT = 0x3fe6a09e667f3bcd;    // bits of sqrt(1/2)
-  const Bits up = ((Bits) x - ROOT) >> 52;
-  const Vec m = (Vec) ((Bits) x - (up << 52));
-  const Vec n = (Vec) (up + 0x4338000000000000) - 0x1.8p52;
+  static constexpr unsigned long long ROOT = 0x3fe6a09e667f3bcd;    // bits of sqrt(1/2)
+  const Bits up = (Bits) ((UBits) x - ROOT) >> 52;
+  const Vec m = (Vec) ((UBits) x - ((UBits) up << 52));
+  const Vec n = (Vec) ((UBits) up + 0x4338000000000000ull) - 0x1.8p52;
   const Vec f = (m - 1.0) / (m + 1.0), s = f * f;
   static constexpr double odd[12] = {1.0 / 3,  1.0 / 5,  1.0 / 7,  1.0 / 9,  1.0 / 11, 1.0 / 13,
                                      1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21, 1.0 / 23, 1.0 / 25};

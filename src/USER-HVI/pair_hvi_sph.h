@@ -54,6 +54,10 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
 
   static PairHVISPH *find(class LAMMPS *);    // of this simulation, nullptr if there is none
   const HVI::Material *material(int itype) const { return materials[itype].get(); }
+  bool has_volume(int itype) const    // pair_coeff says what a particle's volume is at rest
+  {
+    return specs[itype].find(" volume ") != std::string::npos;
+  }
   double start_h(int itype) const { return htype[itype]; }
   bool is_stock() const { return laws.stock; }
   bool has_energy() const { return energy; }
