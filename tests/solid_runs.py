@@ -101,6 +101,21 @@ def consistency(kernel, h, dim, F=None, spacing=1.0):
     return -(spacing**dim * np.linalg.det(F)) * np.einsum("ka,kb,k->ab", x, x, dW / r)
 
 
+def sheet(kernel, h, layers, high=1.0):
+    """the same along a wall of even layers, spacing 1 in the plane and high across: mean over the layers of M_xx"""
+    reach = SUPPORT[kernel] * h
+    grid = np.arange(-int(reach) - 1, int(reach) + 2)
+    z = high * np.arange(layers)
+    total = 0.0
+    for here in z:
+        x, y, dz = np.meshgrid(grid, grid, z - here, indexing="ij")
+        r = np.sqrt(x**2 + y**2 + dz**2)
+        near = (r > 0) & (r < reach)
+        dW = norm(kernel, 3) / h**4 * shape(kernel, r[near] / h)[1]
+        total -= high * (x[near] ** 2 * dW / r[near]).sum()
+    return total / layers
+
+
 class Gruneisen:
     """Mie-Grueneisen, linear Hugoniot, Gamma rho = const"""
 

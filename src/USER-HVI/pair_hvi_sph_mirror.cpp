@@ -67,7 +67,7 @@ void PairHVISPH::check_sides() const
         error->one(FLERR,
                    "Pair style hvi/sph: particle {} at {} = {} is on the mirror plane {} or beyond "
                    "it (mirror {} {} {} wants all {} it); a lattice is best half a spacing away",
-                   atom->tag[i], "xyz"[k], atom -> x[i][k], mirror.at[k], "xyz"[k], mirror.at[k],
+                   atom->tag[i], "xyz"[k], atom->x[i][k], mirror.at[k], "xyz"[k], mirror.at[k],
                    mirror.side[k] > 0 ? "lo" : "hi", mirror.side[k] > 0 ? "above" : "below");
   }
 }
@@ -93,7 +93,7 @@ void PairHVISPH::find_images()
         error->one(FLERR,
                    "Pair style hvi/sph: particle {} is beyond the mirror plane {} at step {}: fix "
                    "hvi/sph does not integrate it, so does not put it back",
-                   atom->tag[i], "xyz"[k], update -> ntimestep);
+                   atom->tag[i], "xyz"[k], update->ntimestep);
 
   images.all.clear();
   images.first = nall;

@@ -6,7 +6,7 @@ plateaus of a row then are off by |M - 1|. A front is known to a spacing. The in
 
 import numpy as np
 import pytest
-from solid_runs import Gruneisen, consistency, crossings, material, momentum_error, piston, row, run
+from solid_runs import Gruneisen, consistency, crossings, material, momentum_error, piston, row, run, sheet
 from sph_scenes import Fluid
 
 ENERGY = 1e-3  # largest drift of the ledger, as everywhere in this package
@@ -542,3 +542,13 @@ def test_disc_under_stress(lmp, tmp_path, kernel, h, words):
     plain = disc(lmp, tmp_path, 12, 0.1, kernel, h, words=f"viscosity 0 0 {words} gradient plain", pulse=0.03, name="plain")[1]
     print("plain: J", plain.min(), plain.max())
     assert np.abs(plain - 1).max() > 10 * np.abs(J - 1).max()
+
+
+@pytest.mark.parametrize("kernel,h", [("cubic", 1.2), ("wendland2", 1.6), ("quintic", 1.0)])
+def test_faces_of_a_sheet_bear_part_of_the_stress(kernel, h):
+    """the table of Howto_shield: less the fewer layers there are, all of it in a thick wall but for its faces"""
+    factor = [sheet(kernel, h, n) for n in (2, 3, 4, 6, 16)]
+    assert np.all(np.diff(factor) > 0) and 0.7 < factor[0] < 0.8 and 0.84 < factor[2] < 0.9
+    inside = consistency(kernel, h, 3)[0, 0]
+    assert inside - sheet(kernel, h, 64) == pytest.approx(4 * (inside - factor[-1]) / 16, rel=0.02)
+    assert sheet(kernel, h, 2, high=0.25) < 0.3
