@@ -17,10 +17,10 @@
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_sph.h"
+#include "fix_hvi_store.h"
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
-#include "pair_hvi_sph.h"
 #include "update.h"
 
 #include <algorithm>
@@ -38,7 +38,8 @@ static const char *const NAMES[] = {"p",      "e",      "T",       "c",   "h",  
 /* ---------------------------------------------------------------------- */
 
 ComputeHVIAtom::ComputeHVIAtom(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), nmax(0), table(nullptr), pair(nullptr), fix(nullptr), strength(nullptr)
+    Compute(lmp, narg, arg), nmax(0), table(nullptr), store(nullptr), integrator(nullptr),
+    strength(nullptr)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "compute hvi/atom", error);
 
@@ -71,16 +72,22 @@ ComputeHVIAtom::~ComputeHVIAtom()
 
 void ComputeHVIAtom::init()
 {
-  pair = PairHVISPH::find(lmp);
-  const auto fixes = modify->get_fix_by_style("^hvi/sph$");
-  fix = fixes.empty() ? nullptr : dynamic_cast<FixHVISPH *>(fixes[0]);
-  const auto solids = modify->get_fix_by_style("^hvi/johnson-cook$");
-  strength = solids.empty() ? nullptr : dynamic_cast<FixHVIJohnsonCook *>(solids[0]);
+  find_sources();
+}
+
+void ComputeHVIAtom::find_sources()
+{
+  store = force->pair_match("^hvi/sph$", 0) ? FixHVIStore::find(lmp) : nullptr;
+  const auto integrators = modify->get_fix_by_style("^hvi/sph$");
+  integrator = integrators.empty() ? nullptr : dynamic_cast<FixHVISPH *>(integrators[0]);
+  strength = FixHVIJohnsonCook::find(lmp);
   for (const Value v : values) {
-    if (v != BONDS && !pair)
+    if (v != BONDS && !store)
       error->all(FLERR, "Compute hvi/atom {} needs pair style hvi/sph", NAMES[v]);
     if (v >= EPS && v < MISES && !strength)
       error->all(FLERR, "Compute hvi/atom {} needs fix hvi/johnson-cook", NAMES[v]);
+    if (v == LENGTH && store->fields.settings.variable && !integrator)
+      error->all(FLERR, "Compute hvi/atom {} needs fix hvi/sph, which keeps it", NAMES[v]);
   }
 }
 
@@ -91,10 +98,11 @@ double ComputeHVIAtom::value_of(Value value, int i) const
   if (value == BONDS) return nbonds[i];
 
   const int itype = atom->type[i];
-  const HVI::Material *const material = pair->material(itype);
+  const HVI::Material *const material = store->materials.of(itype);
   if (!material) return 0.0;
   if (value == LENGTH)
-    return pair->smoothing_length(itype, atom->rho[i], fix ? fix->hscale(i) : 0.0);
+    return store->fields.settings.smoothing_length(itype, atom->rho[i],
+                                                   integrator ? integrator->hscale(i) : 0.0);
 
   // from density and energy as they are in output: those of the forces were extrapolated
 
@@ -152,6 +160,7 @@ double ComputeHVIAtom::solid_value(Value value, int i, double p) const
 void ComputeHVIAtom::compute_peratom()
 {
   invoked_peratom = update->ntimestep;
+  find_sources();
 
   const int ncols = values.size();
   if (atom->nmax > nmax) {

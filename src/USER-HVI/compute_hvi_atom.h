@@ -56,10 +56,14 @@ class ComputeHVIAtom : public Compute {
   int nmax;
   double **table;
   std::vector<double> nbonds;    // of owned and ghost particles
-  class PairHVISPH *pair;
-  class FixHVISPH *fix;
+
+  // found anew for each evaluation: fixes may have gone since the last run
+
+  class FixHVIStore *store;
+  class FixHVISPH *integrator;
   class FixHVIJohnsonCook *strength;
 
+  void find_sources();
   double value_of(Value, int) const;
   double solid_value(Value, int, double) const;
 

@@ -14,8 +14,8 @@
 #include "atom.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_hvi_store.h"
 #include "force.h"
-#include "pair_hvi_sph.h"
 #include "update.h"
 
 #include <algorithm>
@@ -88,7 +88,8 @@ void ComputeHVICloud::compute_vector()
 
   const double *const *const v = atom->v;
   const int across[2] = {(axis + 1) % 3, (axis + 2) % 3};
-  const PairHVISPH *const sph = PairHVISPH::find(lmp);
+  const auto *const store = force->pair_match("^hvi/sph$", 0) ? FixHVIStore::find(lmp) : nullptr;
+  const HVI::MirrorPlanes mirror = store ? store->fields.settings.mirror : HVI::MirrorPlanes();
 
   // sums over the cloud
 
@@ -130,8 +131,8 @@ void ComputeHVICloud::compute_vector()
 
   double center[2], drift[2];
   for (int k = 0; k < 2; k++) {
-    const bool mirrored = sph && sph->mirrors().has(across[k]);
-    center[k] = mirrored ? sph->mirrors().at[across[k]] : sum[SY + k] / sum[SMASS];
+    const bool mirrored = mirror.has(across[k]);
+    center[k] = mirrored ? mirror.at[across[k]] : sum[SY + k] / sum[SMASS];
     drift[k] = mirrored ? 0.0 : sum[SVY + k] / sum[SMASS];
   }
 

@@ -120,7 +120,8 @@ void FixHVIDt::init()
   auto *spring = dynamic_cast<HVI::TimeStepSource *>(force->bond_match("hvi/spring"));
   if (spring) sources.push_back(spring);
   elastic = !sources.empty();
-  if (PairHVISPH *sph = PairHVISPH::find(lmp)) sources.push_back(sph);
+  if (auto *sph = dynamic_cast<PairHVISPH *>(force->pair_match("^hvi/sph$", 0)))
+    sources.push_back(sph);
   if (sources.empty())
     error->all(
         FLERR,

@@ -15,12 +15,13 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix_hvi_store.h"
+#include "force.h"
 #include "hvi_damage.h"
 #include "hvi_material.h"
 #include "hvi_strength_laws.h"
 #include "memory.h"
 #include "modify.h"
-#include "pair_hvi_sph.h"
 
 #include <cmath>
 #include <cstring>
@@ -39,7 +40,7 @@ struct FixHVIJohnsonCook::Laws {
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), strength_name("johnson-cook"), spall(HVI::Spall::PRINCIPAL),
     with_damage(1), thermal(1), from_work(0), weibull(0.0), weibull_seed(0), solid(nullptr),
-    pair(nullptr), fresh(true),
+    store(nullptr), fresh(true),
     state_rows(lmp, id, "Sxx Syy Szz Sxy Sxz Syz eps damage spalled heat"),
     force_rows(lmp, std::string(id) + "_forces",
                "Sxx Syy Szz Sxy Sxz Syz p_min shear_then shear rate")
@@ -140,8 +141,9 @@ void FixHVIJohnsonCook::init()
     error->all(FLERR, "More than one fix hvi/johnson-cook: it keeps the stress of all solids");
   if (modify->get_fix_by_style("^hvi/sph$").empty())
     error->all(FLERR, "Fix hvi/johnson-cook needs fix hvi/sph, which calls it");
-  pair = PairHVISPH::find(lmp);
-  if (!pair) error->all(FLERR, "Fix hvi/johnson-cook needs pair style hvi/sph");
+  store = FixHVIStore::find(lmp);
+  if (!store || !force->pair_match("^hvi/sph$", 0))
+    error->all(FLERR, "Fix hvi/johnson-cook needs pair style hvi/sph");
   if (!restored.empty() && restored != text)
     error->all(FLERR,
                "Fix hvi/johnson-cook: the restart file was written with {}, this run uses {}",
@@ -154,7 +156,7 @@ void FixHVIJohnsonCook::init()
   bool found = false;
   laws.resize(atom->ntypes + 1);
   for (int itype = 1; itype <= atom->ntypes; itype++) {
-    const HVI::Material *const material = pair->material(itype);
+    const HVI::Material *const material = store->materials.of(itype);
     if (!material) continue;
     const HVI::Section *const section = material->section("strength", strength_name);
     if (!section) continue;    // types without strength are fluids
@@ -235,7 +237,7 @@ double FixHVIJohnsonCook::temperature(int i) const
   if (from_work && laws[itype])
     return laws[itype]->T0 + laws[itype]->chi * solid[i].heat / laws[itype]->cp;
   const double m = atom->rmass ? atom->rmass[i] : atom->mass[itype];
-  return pair->material(itype)->eos->temperature(atom->rho[i], atom->esph[i] / m);
+  return store->materials.of(itype)->eos->temperature(atom->rho[i], atom->esph[i] / m);
 }
 
 double FixHVIJohnsonCook::plastic_work(int i) const
@@ -250,7 +252,7 @@ double FixHVIJohnsonCook::scatter(int i) const
 
 HVI::Conditions FixHVIJohnsonCook::conditions(int i, double p) const
 {
-  const double rho0 = pair->material(atom->type[i])->eos->rho0();
+  const double rho0 = store->materials.of(atom->type[i])->eos->rho0();
   return {atom->rho[i], rho0, p, thermal ? temperature(i) : NAN};
 }
 
@@ -261,7 +263,7 @@ HVI::Conditions FixHVIJohnsonCook::conditions(int i, double p) const
 
 HVI::Deviator FixHVIJohnsonCook::rate(int i) const
 {
-  return HVI::jaumann_rate(pair->velocity_gradient(i), solid[i].shear, solid[i].sent.S);
+  return HVI::jaumann_rate(store->fields.velocity_gradient(i), solid[i].shear, solid[i].sent.S);
 }
 
 static void add(HVI::Deviator &s, double dt, const HVI::Deviator &r)
@@ -282,7 +284,7 @@ void FixHVIJohnsonCook::advance(int n, const int *who, const Laws &law, double d
   HVI::Plastic plastic[HVI::LANES];
   for (int k = 0; k < n; k++) {
     Solid &s = solid[who[k]];
-    c[k] = conditions(who[k], pair->pressure(who[k]));
+    c[k] = conditions(who[k], store->fields.pressure(who[k]));
     shear[k] = s.shear = law.strength->shear_modulus(c[k]);
     eps[k] = s.eps;
     trial[k] = s.middle;
@@ -340,8 +342,9 @@ void FixHVIJohnsonCook::first_half(double dt)
       add(ahead, dt, dS);
       const double stress = HVI::von_mises(ahead);
       if (s.yield == UNKNOWN)
-        s.yield = s.rate > 0.0 ? HVI::von_mises(s.S)
-                               : law->strength->yield(s.eps, 0.0, conditions(i, pair->pressure(i)));
+        s.yield = s.rate > 0.0
+            ? HVI::von_mises(s.S)
+            : law->strength->yield(s.eps, 0.0, conditions(i, store->fields.pressure(i)));
       if (stress > s.yield) ahead = HVI::scaled(ahead, s.yield / stress);
     }
     send(i, law, ahead);

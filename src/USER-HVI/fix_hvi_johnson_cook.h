@@ -113,7 +113,7 @@ class FixHVIJohnsonCook : public Fix {
   std::string text, restored;    // settings, and those in the restart file
 
   Solid *solid;
-  class PairHVISPH *pair;
+  class FixHVIStore *store;
   bool fresh;                            // a run begins: rates of S are to be made
   HVIDataRows state_rows, force_rows;    // sections of data files
 

@@ -18,10 +18,10 @@
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_ledger.h"
+#include "fix_hvi_store.h"
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
-#include "pair_hvi_sph.h"
 #include "update.h"
 
 #include <cstring>
@@ -33,7 +33,7 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), strength(nullptr),
+    Fix(lmp, narg, arg), extra(nullptr), store(nullptr), ledger(nullptr), strength(nullptr),
     dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0}, stepping(0), follow(0),
     rows(lmp, id, "going_on h_constant rho esph vx vy vz")
 {
@@ -94,13 +94,15 @@ void FixHVISPH::init()
   if (domain->deform_vremap)
     error->all(FLERR, "Fix hvi/sph does not support fix deform with remap v");
 
-  pair = PairHVISPH::find(lmp);
-  if (!pair) error->all(FLERR, "Fix hvi/sph needs pair style hvi/sph");
-  if (!restored.empty() && restored != pair->description())
+  store = FixHVIStore::find(lmp);
+  if (!store || !force->pair_match("^hvi/sph$", 0))
+    error->all(FLERR, "Fix hvi/sph needs pair style hvi/sph");
+  const HVI::SphSettings &set = store->fields.settings;
+  if (!restored.empty() && restored != set.text)
     error->all(FLERR,
                "Fix hvi/sph: the restart file was written with pair_style hvi/sph {}, this run "
                "uses {}",
-               restored, pair->description());
+               restored, set.text);
 
   restored.clear();    // later runs of this script may change the settings
   rows.forget();
@@ -108,7 +110,7 @@ void FixHVISPH::init()
   strength = FixHVIJohnsonCook::find(lmp);
 
   ledger = FixHVILedger::instance(lmp);
-  follow = igroup != 0 && !pair->is_stock() && modify->get_fix_by_style("^sph$").empty();
+  follow = igroup != 0 && !set.is_stock() && modify->get_fix_by_style("^sph$").empty();
   reset_dt();
 }
 
@@ -139,32 +141,38 @@ uint64_t FixHVISPH::fingerprint(int i) const
   return mark | 1;    // 0: never integrated
 }
 
-bool FixHVISPH::mine(int i) const
+bool FixHVISPH::has_material(int i) const
 {
-  return (atom->mask[i] & groupbit) && pair->material(atom->type[i]);
+  return store->fields.settings.h[atom->type[i]] > 0.0;
+}
+
+bool FixHVISPH::integrates(int i) const
+{
+  return (atom->mask[i] & groupbit) && has_material(i);
 }
 
 void FixHVISPH::setup_pre_force(int /*vflag*/)
 {
+  const HVI::SphSettings &set = store->fields.settings;
   for (int i = 0; i < atom->nlocal; i++) {
     const int itype = atom->type[i];
-    if (!pair->material(itype)) continue;
+    if (!has_material(i)) continue;
     Extra &e = extra[i];
-    if (atom->rho[i] == 0.0 && e.mark == 0 && pair->has_volume(itype))
-      atom->rho[i] = pair->material(itype)->eos->rho0();
+    if (atom->rho[i] == 0.0 && e.mark == 0 && store->materials.entry(itype).volume > 0.0)
+      atom->rho[i] = store->materials.of(itype)->eos->rho0();
     if (e.hscale == 0.0) {
-      if (pair->variable_h() && !(atom->rho[i] > 0.0))
+      if (set.variable && !(atom->rho[i] > 0.0))
         error->one(FLERR,
                    "Fix hvi/sph: h variable needs the density of particle {} at the start of its "
                    "first run, not {}",
                    atom->tag[i], atom->rho[i]);
-      e.hscale = pair->hscale(itype, atom->rho[i]);
+      e.hscale = set.hscale(itype, atom->rho[i]);
     }
-    const bool anew = pair->is_stock() || !mine(i) || e.mark != fingerprint(i);
-    if (anew && (mine(i) || follow))
+    const bool anew = set.is_stock() || !integrates(i) || e.mark != fingerprint(i);
+    if (anew && (integrates(i) || follow))
       for (int k = 0; k < 3; k++) atom->vest[i][k] = atom->v[i][k];
     if (strength) strength->start(i, anew);
-    if (!mine(i)) continue;
+    if (!integrates(i)) continue;
     if (anew) {
       e.rho = atom->rho[i];
       e.esph = atom->esph[i];
@@ -174,7 +182,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
     e.drho = atom->rho[i];
   }
   comm->forward_comm();
-  if (pair->variable_h()) comm->forward_comm(this);
+  if (set.variable) comm->forward_comm(this);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -183,7 +191,7 @@ void FixHVISPH::setup(int /*vflag*/)
 {
   stepping = 1;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!mine(i)) continue;
+    if (!integrates(i)) continue;
     Extra &e = extra[i];
 
     // unless sph/rhosum has replaced the density in the meantime
@@ -195,8 +203,8 @@ void FixHVISPH::setup(int /*vflag*/)
     e.drho = 0.0;
     std::swap(e.esph, atom->esph[i]);
   }
-  power = pair->viscous_power();
-  for (int k = 0; k < 3; k++) push[k] = pair->mirror_force()[k];
+  power = store->fields.viscous_power;
+  for (int k = 0; k < 3; k++) push[k] = store->fields.plane_force[k];
 }
 
 /* ----------------------------------------------------------------------
@@ -214,7 +222,7 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
   const double *const *const f = atom->f;
   double *const rho = atom->rho;
   double *const esph = atom->esph;
-  const double ahead = pair->is_stock() ? 0.0 : 1.0;
+  const double ahead = store->fields.settings.is_stock() ? 0.0 : 1.0;
   if (strength) strength->first_half(dtv);
 
   for (int i = 0; i < atom->nlocal; i++) {
@@ -240,10 +248,10 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
 
 void FixHVISPH::post_integrate()
 {
-  if (pair->mirrors().planes) reflect();
+  if (store->fields.settings.mirror.planes) reflect();
   if (!follow) return;
   for (int i = 0; i < atom->nlocal; i++)
-    if (!(atom->mask[i] & groupbit) && pair->material(atom->type[i]))
+    if (!(atom->mask[i] & groupbit) && has_material(i))
       for (int k = 0; k < 3; k++) atom->vest[i][k] = atom->v[i][k];
 }
 
@@ -253,10 +261,10 @@ void FixHVISPH::post_integrate()
 
 void FixHVISPH::reflect()
 {
-  const HVI::MirrorPlanes &mirror = pair->mirrors();
+  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
   double impulse[3] = {0.0, 0.0, 0.0};
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!mine(i)) continue;
+    if (!integrates(i)) continue;
     int op = 0;
     for (int k = 0; k < 3; k++) {
       if (!mirror.has(k) || mirror.depth(k, atom->x[i]) >= 0.0) continue;
@@ -295,14 +303,14 @@ void FixHVISPH::final_integrate()
   }
   if (strength) strength->second_half(dtv);
 
-  const double now = pair->viscous_power();
+  const double now = store->fields.viscous_power;
   ledger->book_viscous(dtf * (power + now));
   power = now;
-  if (pair->mirrors().planes) {
+  if (store->fields.settings.mirror.planes) {
     double impulse[3];
     for (int k = 0; k < 3; k++) {
-      impulse[k] = dtf * (push[k] + pair->mirror_force()[k]);
-      push[k] = pair->mirror_force()[k];
+      impulse[k] = dtf * (push[k] + store->fields.plane_force[k]);
+      push[k] = store->fields.plane_force[k];
     }
     ledger->book_mirror(impulse);
   }
@@ -312,7 +320,7 @@ void FixHVISPH::final_integrate()
 
 void FixHVISPH::post_run()
 {
-  for (int i = 0; i < atom->nlocal; i++) extra[i].mark = mine(i) ? fingerprint(i) : 0;
+  for (int i = 0; i < atom->nlocal; i++) extra[i].mark = integrates(i) ? fingerprint(i) : 0;
   stepping = 0;
 }
 
@@ -376,7 +384,7 @@ void FixHVISPH::unpack_forward_comm(int n, int first, double *buf)
 int FixHVISPH::pack_restart(int i, double *buf)
 {
   Extra e = extra[i];
-  if (stepping) e.mark = mine(i) ? fingerprint(i) : 0;
+  if (stepping) e.mark = integrates(i) ? fingerprint(i) : 0;
   buf[0] = NEXTRA + 1;
   memcpy(&buf[1], &e, sizeof(Extra));
   return NEXTRA + 1;
@@ -405,7 +413,7 @@ int FixHVISPH::size_restart(int /*nlocal*/)
 void FixHVISPH::write_restart(FILE *fp)
 {
   if (comm->me) return;
-  const std::string text = pair ? pair->description() : restored;
+  const std::string text = store ? store->fields.settings.text : restored;
   const int size = text.size() + 1;
   fwrite(&size, sizeof(int), 1, fp);
   fwrite(text.c_str(), 1, size, fp);
@@ -467,8 +475,8 @@ void FixHVISPH::read_data_section(char * /*keyword*/, int n, char *buf, tagint o
 
 double FixHVISPH::compute_vector(int n)
 {
-  const auto *now = PairHVISPH::find(lmp);
-  const auto *material = now && now->allocated ? now->material(n + 1) : nullptr;
+  const auto *const now = FixHVIStore::find(lmp);
+  const auto *const material = now ? now->materials.of(n + 1) : nullptr;
   return material ? material->eos->rho0() : 0.0;
 }
 

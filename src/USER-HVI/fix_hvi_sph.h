@@ -76,7 +76,7 @@ class FixHVISPH : public Fix {
   static constexpr int NEXTRA = sizeof(Extra) / sizeof(double);
 
   Extra *extra;
-  class PairHVISPH *pair;
+  class FixHVIStore *store;    // materials, and records of the last forces
   class FixHVILedger *ledger;
   class FixHVIJohnsonCook *strength;    // of solids, which it integrates when asked to
   double dtv, dtf;
@@ -87,7 +87,8 @@ class FixHVISPH : public Fix {
   std::string restored;    // settings of the pair style in the restart file
   HVIDataRows rows;        // section of data files
 
-  bool mine(int) const;    // integrated here
+  bool integrates(int) const;
+  bool has_material(int) const;
   void reflect();
   uint64_t fingerprint(int) const;
 };

@@ -9,7 +9,7 @@
 #ifndef LMP_HVI_MIRROR_H
 #define LMP_HVI_MIRROR_H
 
-#include "hvi_sph.h"
+#include "hvi_sph_records.h"
 
 #include <vector>
 
@@ -87,20 +87,48 @@ struct Reflection {
   }
 };
 
-// images of the particles near the planes; their records follow those of ghosts
+/* ----------------------------------------------------------------------
+   Images of the particles near the planes, within reach of others or soon: the time step
+   wants to know.  Their records follow those of ghosts.
+------------------------------------------------------------------------- */
 
-struct Images {
+class Images {
+ public:
+  double force[3] = {0, 0, 0};    // of the planes on the particles
+
+  // before records are filled: is_ours by type, reach of what is in lists
+
+  void find(const MirrorPlanes &, const double *const *x, const int *type,
+            const std::vector<char> &is_ours, int nlocal, int nall, double reachsq);
+  int end() const { return first + images.size(); }    // of the records
+
+  // those of the particles are there; and after the loop, what happened to images
+
+  void fill(const MirrorPlanes &, const SphView &) const;
+  void fold(const SphView &, bool newton);
+
+  // images that particle i may interact with: those of its neighbors, and its own.  Valid until the next call.
+
+  const std::vector<int> &near(int i, const int *jlist, int jnum);
+
+  double reachsq() const { return reach_squared; }
+  bool is_image(int j) const { return j >= first; }
+  int owner(int j) const { return images[j - first].owner; }
+  int operation(int j) const { return images[j - first].op; }
+  bool is_own(int j) const { return images[j - first].self; }    // seen by its owner
+
+ private:
   struct Image {
     int owner, op;
     bool self;    // of an owned particle, for itself: what happens to this one is of no concern
   };
-  std::vector<Image> all;
-  double reachsq = 0.0;    // of what is in lists
-  int first = 0;           // index of the first record
+  std::vector<Image> images;
+  int nlocal = 0, first = 0;    // index of the first record
+  double reach_squared = 0.0;
   std::vector<int>
       of[MirrorPlanes::NOPS];    // by operation and particle: index of its image, or -1,
   std::vector<int> self[MirrorPlanes::NOPS];    // and of the one for itself
-  double force[3] = {0, 0, 0};                  // of the planes on the particles
+  std::vector<int> nearby;
 };
 
 }    // namespace HVI

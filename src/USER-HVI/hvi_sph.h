@@ -9,7 +9,7 @@
 #ifndef LMP_HVI_SPH_H
 #define LMP_HVI_SPH_H
 
-#include "hvi_vector.h"
+#include "hvi_sph_records.h"
 
 // what SPH particles do to each other; no LAMMPS in here
 
@@ -26,54 +26,6 @@ enum SphScene {
   SPH_ARTSTRESS = 32,    // artificial stress; with SPH_STRENGTH only
   SPH_NSCENES = 56
 };
-
-// records of a particle: where it is, what its neighbors must know (one cache line), what they do to it
-
-struct alignas(32) SphPlace {
-  double x, y, z, h;
-};
-
-struct alignas(64) SphState {
-  double vx, vy, vz;
-  double w;    // weight in sums over particles: m/rho in form sum, m in form symmetric
-  double p;    // pressure, in form symmetric p/rho^2
-  double c;    // speed of sound
-  double rho;
-  double type;
-};
-
-struct alignas(64) SphRates {
-  double fx, fy, fz;    // force
-  double de;            // of the internal energy of the particle
-  double drho;
-  double heat;    // viscous part of de
-  double unused[2];
-};
-// of solids: deviatoric stress, which neighbors must know; velocity gradient L_ab = d v_a/d x_b, and what
-// it comes out as if L is 1
-
-struct alignas(64) SphStress {
-  static constexpr int SENT = 8;
-  double xx, yy, zz, xy;
-  double xz, yz;
-  double p_min;    // what pressure cannot fall below: 0 in rubble
-  double shear;    // modulus
-};
-
-struct alignas(64) SphGradV {
-  static constexpr int SENT = 15;
-  double xx, xy, xz, yx;
-  double yy, yz, zx, zy;
-  double zz, mxx, myy,
-      mzz;    // M = - sum_j V_j x_ij (x) grad W_ij: 1 where particles are even all around
-  double mxy, mxz, myz, unused;
-};
-
-static_assert(sizeof(SphStress) == 2 * sizeof(Vec4) && sizeof(SphGradV) == 4 * sizeof(Vec4),
-              "records are read as vectors");
-static_assert(sizeof(SphPlace) == sizeof(Vec4) && sizeof(SphState) == 2 * sizeof(Vec4) &&
-                  sizeof(SphRates) == 2 * sizeof(Vec4),
-              "records are read as vectors");
 
 // laws of pairs: uniform, or from tables of type pairs (row of one type) in a scene with SPH_BODIES
 
@@ -177,25 +129,25 @@ inline void sph_strength(int i, int nlanes, double w_i, SphNear &near, SphRates 
     const Vec dx = pair.dx, dy = pair.dy, dz = pair.dz;
     const Vec dvx = pair.dvx, dvy = pair.dvy, dvz = pair.dvz;
 
-    Vec S[8], mine[16];
+    Vec S[8], on_j[16];
     read_columns(stress, j, 0, S);
     read_columns(stress, j, 1, S + 4);
     const Vec VVF = w_i * pair.w_j * pair.F;
-    Vec mine_S[6] = {zero + Si.xx, zero + Si.yy, zero + Si.zz,
-                     zero + Si.xy, zero + Si.xz, zero + Si.yz};
+    Vec S_i[6] = {zero + Si.xx, zero + Si.yy, zero + Si.zz,
+                  zero + Si.xy, zero + Si.xz, zero + Si.yz};
     if (SCENE & SPH_ARTSTRESS) {
       Vec R[8];
       read_columns(art, j, 0, R);
       read_columns(art, j, 1, R + 4);
-      const double mine_R[6] = {Ri.xx, Ri.yy, Ri.zz, Ri.xy, Ri.xz, Ri.yz};
+      const double R_i[6] = {Ri.xx, Ri.yy, Ri.zz, Ri.xy, Ri.xz, Ri.yz};
       for (int k = 0; k < 6; k++) {
         S[k] += pair.art * R[k];
-        mine_S[k] += pair.art * mine_R[k];
+        S_i[k] += pair.art * R_i[k];
       }
     }
-    const Vec ti[3] = {mine_S[0] * dx + mine_S[3] * dy + mine_S[4] * dz,
-                       mine_S[3] * dx + mine_S[1] * dy + mine_S[5] * dz,
-                       mine_S[4] * dx + mine_S[5] * dy + mine_S[2] * dz};
+    const Vec ti[3] = {S_i[0] * dx + S_i[3] * dy + S_i[4] * dz,
+                       S_i[3] * dx + S_i[1] * dy + S_i[5] * dz,
+                       S_i[4] * dx + S_i[5] * dy + S_i[2] * dz};
     const Vec tj[3] = {S[0] * dx + S[3] * dy + S[4] * dz, S[3] * dx + S[1] * dy + S[5] * dz,
                        S[4] * dx + S[5] * dy + S[2] * dz};
     const Vec f[3] = {pair.force * dx + VVF * (ti[0] + tj[0]),
@@ -224,10 +176,10 @@ inline void sph_strength(int i, int nlanes, double w_i, SphNear &near, SphRates 
     static constexpr int column[15] = {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 1, 2, 2};
     for (int k = 0; k < 15; k++) {
       grad[k] += a[row[k]] * gi[column[k]];
-      mine[k] = a[row[k]] * gj[column[k]];
+      on_j[k] = a[row[k]] * gj[column[k]];
     }
-    mine[15] = zero;
-    for (int k = 0; k < 4; k++) add_columns(gradv, j, k, mine + 4 * k);
+    on_j[15] = zero;
+    for (int k = 0; k < 4; k++) add_columns(gradv, j, k, on_j + 4 * k);
   }
 
   total.fx += sum(fx);
@@ -283,7 +235,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
   const double V_i = w_i * (add + sym / rho_i);
 
   const Vec zero = {}, one = zero + 1.0;
-  Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, same = zero;
+  Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, overlaps = zero;
 
   for (int m = 0; m < nlanes; m += LANES) {
     static constexpr int in_turn[4] = {0, 1, 2, 3};
@@ -303,7 +255,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
     const Vec dx = d[0], dy = d[1], dz = d[2];
     const Vec rsq = dx * dx + dy * dy + dz * dz;
     const Vec r = sqrt(rsq);
-    same += rsq > 0.0 ? zero : one;
+    overlaps += rsq > 0.0 ? zero : one;
 
     Vec h;
     const Vec F = gradient.F(r, d[3], h);
@@ -316,7 +268,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
 
     // bodies without tension between them push, but do not pull, nor do they stretch each other
 
-    Vec a = zero + laws.a, b = zero + laws.b, bonded = one, open = one, stretch = one;
+    Vec a = zero + laws.a, b = zero + laws.b, bonded = one, acts = one, stretch = one;
     if (SCENE & SPH_BODIES) {
       for (int k = 0; k < LANES; k++) {
         const int jtype = static_cast<int>(second[3][k]);
@@ -324,8 +276,8 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
         b[k] = laws.row_b[jtype];
         bonded[k] = laws.row_tension[jtype];
       }
-      open = p_i + p_j > 0.0 ? one : bonded;
-      stretch = rdotv < 0.0 ? one : open;
+      acts = p_i + p_j > 0.0 ? one : bonded;
+      stretch = rdotv < 0.0 ? one : acts;
     }
 
     // Monaghan 1992, for pairs that approach: mu = h v.x/(r^2 + 0.01 h^2),
@@ -336,7 +288,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
     const Vec Pi = hv * (2.0 * b * hv - a * (c_i + c_j) * soft) / (soft * soft * (rho_i + rho_j));
     const Vec visc = w_i * rhow_i * w_j * rhow_j * Pi;
 
-    const Vec ww = open * w_i * w_j;
+    const Vec ww = acts * w_i * w_j;
     const Vec press_i = ww * P_i, press_j = ww * P_j;
     const Vec force = -(press_i + press_j + visc) * F;
     const Vec qheat = 0.5 * visc * g;
@@ -351,11 +303,11 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
       const Vec dv = sqrt(dvx * dvx + dvy * dvy + dvz * dvz);
       const Vec wave = bonded * (z_i < z_j ? zero + z_i : z_j) * dv;
       const Vec excess = (size > wave ? size - wave : zero) / (size + 1.0e-300);
-      const Vec both = laws.automatic * excess / (z_i + z_j);
-      const Vec same_alpha = laws.alpha / (c_i + c_j);
-      const Vec phi = 2.0 * open * dp * F * r;
-      drho_i += phi * V_j * (same_alpha + both * rho_i);
-      drho_j -= phi * V_i * (same_alpha + both * rho_j);
+      const Vec by_states = laws.automatic * excess / (z_i + z_j);
+      const Vec constant = laws.alpha / (c_i + c_j);
+      const Vec phi = 2.0 * acts * dp * F * r;
+      drho_i += phi * V_j * (constant + by_states * rho_i);
+      drho_j -= phi * V_i * (constant + by_states * rho_j);
     }
 
     de += (own * press_i + others * press_j) * g + qheat;
@@ -391,7 +343,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
   total.de += sum(de);
   total.drho += sum(drho);
   total.heat += sum(heat);
-  return sum(same) > 0.0;
+  return sum(overlaps) > 0.0;
 }
 
 }    // namespace HVI

@@ -15,20 +15,6 @@
 
 namespace HVI {
 
-// gradients at a particle: of velocity the symmetric part, and of pressure; and how its density
-// follows from the number of particles n = sum_j W(x_ij, h_i), itself included
-
-struct alignas(32) SphSlopes {
-  static constexpr int SENT = 11;    // of the numbers below, to other ranks
-  double xx, yy, zz, xy;
-  double xz, yz, px, py;
-  double pz;
-  double volume;    // first n, then 1/(n Omega)
-  double omega;     // first h dW/dh summed over neighbors, then 1/Omega
-  double unused;
-};
-static_assert(sizeof(SphSlopes) == 3 * sizeof(Vec4), "records are read as vectors");
-
 // each particle has its own kernel here: grad W(r, h_i) = F_i d, and grad W(r, h_j) = F_j d
 
 template <class Kernel, int SCENE> class SphTwoKernels {
@@ -113,14 +99,14 @@ inline void sph_slopes(int i, const SphPlace &pi, const SphState *state, int n, 
                             p * d[1],
                             p * d[2]};
     const Vec w_j = first[3];
-    Vec mine[9];
+    Vec on_j[9];
     for (int k = 0; k < 9; k++) {
       sum_i[k] += w_j * product[k];
-      mine[k] = si.w * product[k];
+      on_j[k] = si.w * product[k];
     }
-    add_columns(slopes, j, 0, mine);
-    add_columns(slopes, j, 1, mine + 4);
-    add_column(slopes, j, &SphSlopes::pz, mine[8]);
+    add_columns(slopes, j, 0, on_j);
+    add_columns(slopes, j, 1, on_j + 4);
+    add_column(slopes, j, &SphSlopes::pz, on_j[8]);
     sum_i[9] += W_i;
     add_column(slopes, j, &SphSlopes::volume, W_j);
     if (SCENE & SPH_OWN_H) {
@@ -179,7 +165,7 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
   const double V_i = si.w, rho_i = si.rho, c_i = si.c, p_i = si.p;
 
   const Vec zero = {}, one = zero + 1.0;
-  Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, same = zero;
+  Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, overlaps = zero;
 
   for (int m = 0; m < nlanes; m += LANES) {
     static constexpr int in_turn[4] = {0, 1, 2, 3};
@@ -194,7 +180,7 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     const Vec V_j = first[3], p_j = second[0], c_j = second[1], rho_j = second[2];
     const Vec rsq = dx * dx + dy * dy + dz * dz;
     const Vec r = sqrt(rsq);
-    same += rsq > 0.0 ? zero : one;
+    overlaps += rsq > 0.0 ? zero : one;
     Vec F_i, F_j;
     kernels.F(r, d[3], F_i, F_j);
 
@@ -222,10 +208,10 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     // all other quotients in one
 
     const Vec c = r * (c_i < c_j ? zero + c_i : c_j);
-    const Vec steep = c + STEEP * closing, both = z_i + z_j;
-    const Vec left = steep * both, right = rsq * (V_i + V_j), inverse = 1.0 / (left * right);
-    const Vec keep = 0.5 * c * inverse * right * both;     // c/steep
-    const Vec zinv = inverse * right * steep;              // 1/both
+    const Vec steep = c + STEEP * closing, z_sum = z_i + z_j;
+    const Vec left = steep * z_sum, right = rsq * (V_i + V_j), inverse = 1.0 / (left * right);
+    const Vec keep = 0.5 * c * inverse * right * z_sum;    // c/steep
+    const Vec zinv = inverse * right * steep;              // 1/z_sum
     const Vec squareinv = inverse * left * (V_i + V_j);    // 1/r^2
     const Vec Vinv = inverse * left * rsq;                 // 1/(V_i + V_j)
 
@@ -245,10 +231,10 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     if (SCENE & SPH_BODIES) {
       Vec bonded;
       for (int k = 0; k < LANES; k++) bonded[k] = laws.row_tension[static_cast<int>(second[3][k])];
-      const Vec open = pstar > 0.0 ? one : bonded;
-      pstar *= open;
-      delta *= open;
-      stretch = u < 0.0 ? u : open * u;
+      const Vec acts = pstar > 0.0 ? one : bonded;
+      pstar *= acts;
+      delta *= acts;
+      stretch = u < 0.0 ? u : acts * u;
     }
 
     const Vec volume_j = read_column(slopes, j, &SphSlopes::volume);
@@ -283,7 +269,7 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
   total.de += sum(de);
   total.drho += sum(drho);
   total.heat += sum(heat);
-  return sum(same) > 0.0;
+  return sum(overlaps) > 0.0;
 }
 
 }    // namespace HVI

@@ -15,10 +15,9 @@ PairStyle(hvi/sph,PairHVISPH);
 #ifndef LMP_PAIR_HVI_SPH_H
 #define LMP_PAIR_HVI_SPH_H
 
-#include "hvi_material.h"
+#include "fix_hvi_store.h"
 #include "hvi_mirror.h"
-#include "hvi_sph_riemann.h"
-#include "hvi_stress.h"
+#include "hvi_sph_sweep.h"
 #include "hvi_timestep.h"
 #include "pair.h"
 
@@ -28,7 +27,7 @@ PairStyle(hvi/sph,PairHVISPH);
 
 namespace LAMMPS_NS {
 
-class PairHVISPH : public Pair, public HVI::TimeStepSource {
+class PairHVISPH : public Pair, public HVI::TimeStepSource, private HVI::SphWatcher {
  public:
   PairHVISPH(class LAMMPS *);
   ~PairHVISPH() override;
@@ -50,94 +49,60 @@ class PairHVISPH : public Pair, public HVI::TimeStepSource {
   void tighten(HVI::TimeStepBounds &) override;
   double memory_usage() override;
 
-  // for fixes and computes
-
-  static PairHVISPH *find(class LAMMPS *);    // of this simulation, nullptr if there is none
-  const HVI::Material *material(int itype) const { return materials[itype].get(); }
-  bool has_volume(int itype) const    // pair_coeff says what a particle's volume is at rest
-  {
-    return specs[itype].find(" volume ") != std::string::npos;
-  }
-  double start_h(int itype) const { return htype[itype]; }
-  bool is_stock() const { return laws.stock; }
-  bool has_energy() const { return energy; }
-  bool variable_h() const { return variable; }
-  double smoothing_length(int itype, double rho, double hscale) const;
-  double hscale(int itype, double rho) const;    // h rho^(1/dim), which stays as it is
-
-  // of the last forces, owned particles
-
-  double pressure(int i) const
-  {
-    const HVI::SphState &s = state[i];
-    return laws.symmetric ? s.p * s.rho * s.rho : s.p;
-  }
-  HVI::VelocityGradient velocity_gradient(int i) const;
-  double viscous_power() const { return heating; }    // of owned particles
-  const HVI::MirrorPlanes &mirrors() const { return mirror; }
-  const double *mirror_force() const { return images.force; }    // on this rank's particles
-  const std::string &description() const { return text; }
-
  private:
-  // pair_style
+  // pair_style and pair_coeff; published in the store when a run begins
 
-  std::string kernel, text;
-  double support;
-  HVI::SphLaws laws;
-  bool variable, energy, density, riemann, solid, corrected;
-  double hmin, hmax;    // in units of the start value
+  HVI::SphSettings set;
+  std::vector<std::string> specs;          // by type: what made materials, for restart files
+  double **visc_a, **visc_b, **tension;    // by types, rows have ntypes+1 entries
 
-  // pair_coeff
+  // a run
 
-  std::vector<std::shared_ptr<const HVI::Material>> materials;
-  std::vector<std::string> specs;    // what made them, for restart files
-  std::vector<double> htype;
-  double **visc_a, **visc_b, **tension;    // NAN: as in pair_style; rows have ntypes+1 entries
+  class FixHVIStore *store;             // of materials and records
+  class FixHVISPH *integrator;          // null: another fix integrates
+  class FixHVIJohnsonCook *strength;    // keeps the stress of solids; null: there are none
+  std::unique_ptr<HVI::SphSweeps> sweeps;
+  std::vector<char> is_ours;    // by type: has a material of this pair style
+  HVI::Images images;           // of mirror planes
+  HVI::SphKept kept;
 
-  // a step; of two sweeps over the list the second knows who is within reach
+  // records that are being communicated: the first numbers of each, as many as are sent
 
-  enum { ONLY, FIRST, SECOND };
-  int nmax;
-  std::unique_ptr<HVI::SphPlace[]> place;    // arrays of owned and ghost particles
-  std::unique_ptr<HVI::SphState[]> state;
-  std::unique_ptr<HVI::SphSlopes[]> slopes;    // dissipation riemann only
-  std::vector<int> kept, numkept;              // of the neighbor list: those within reach
-  std::unique_ptr<HVI::SphRates[]> rates;
-  std::unique_ptr<HVI::SphStress[]> stress;    // solids only, as is the next
-  std::unique_ptr<HVI::SphGradV[]> gradv;
-  std::unique_ptr<HVI::SphStress[]> art;    // artificial stress, where asked for
-  enum { SLOPES, STRESS } sending;
-  HVI::MirrorPlanes mirror;
-  HVI::Images images;
-  std::vector<int> nearby;
-  double heating;
-  class FixHVISPH *fix;
-  class FixHVIJohnsonCook *strength;    // keeps the stress of solids
-  void (PairHVISPH::*sweep)();
+  struct {
+    double *first;
+    int stride, number;
+  } halo;
 
   void allocate();
   void deallocate();
   void set_material(int ilo, int ihi, int jlo, int jhi, const std::vector<std::string> &,
                     bool with_mass);
+
+  // checks: pair_hvi_sph_checks.cpp
+
+  void check_fixes() const;
+  void check_materials() const;
+  void check_mirror() const;
+  void check_sides() const;
+  void check_extent();
+
+  // of a force evaluation
+
+  int choose_scene();
+  void find_images();
   void gather();
   void gather_stress();
   void artificial_stress();
+  void finish_slopes();
   void scatter();
-  void report_overlap(int, int, const HVI::SphNear &);
-  void check_mirror() const;
-  void check_sides() const;
-  void find_images();
-  void fill_images();
-  void fold_images();
-  const std::vector<int> &images_near(int, const int *, int);
+  template <class Record> void forward(Record *);
+  template <class Record> void reverse(Record *);
+
+  // told by the sweeps
+
+  void tally(int, int, const HVI::SphNear &, bool) override;
   void tally_image(int, int, const double *, const double *);
-  tagint tag_of(int) const;
-  template <class Kernel, int SCENE = 0> void choose_scene(int);
-  template <class Kernel, int SCENE> void eval();
-  template <class Kernel, int SCENE> void eval_slopes();
-  template <class Kernel, int SCENE, int SWEEP, class Record, class Work>
-  void each_particle(Record *, Work);
-  void keep_lists();
+  void overlap(int, int) override;
 };
 
 }    // namespace LAMMPS_NS

@@ -26,6 +26,8 @@
 
 using namespace LAMMPS_NS;
 
+static constexpr char OWNER[] = "pair style hvi/sph";    // of materials
+
 /* ---------------------------------------------------------------------- */
 
 void PairHVISPH::allocate()
@@ -42,13 +44,14 @@ void PairHVISPH::allocate()
     for (int j = 0; j < np1; j++) {
       setflag[i][j] = 0;
       cutsq[i][j] = 0.0;    // pairs of other styles in a hybrid
-      visc_a[i][j] = laws.a;
-      visc_b[i][j] = laws.b;
-      tension[i][j] = (i == j || laws.stock) ? 1.0 : 0.0;
+      visc_a[i][j] = set.laws.a;
+      visc_b[i][j] = set.laws.b;
+      tension[i][j] = (i == j || set.laws.stock) ? 1.0 : 0.0;
     }
-  materials.assign(np1, nullptr);
   specs.assign(np1, "");
-  htype.assign(np1, 0.0);
+  set.h.assign(np1, 0.0);
+  store = FixHVIStore::instance(lmp);
+  store->materials.forget(OWNER);    // of an earlier pair style of this name
 }
 
 /* ---------------------------------------------------------------------- */
@@ -71,25 +74,20 @@ void PairHVISPH::settings(int narg, char **arg)
   if (narg < 1) utils::missing_cmd_args(FLERR, "pair_style hvi/sph", error);
   deallocate();    // new settings, for instance after read_restart, ask for new coefficients
 
-  laws = HVI::SphLaws();
+  set = HVI::SphSettings();
+  HVI::SphLaws &laws = set.laws;
   laws.dim = domain->dimension;
   laws.a = 1.0;
   laws.b = 2.0;
-  variable = density = riemann = false;
-  corrected = true;
-  energy = true;
-  hmin = 0.5;
-  hmax = 1.25;
-  nmax = 0;    // arrays for what is asked for now
-  mirror = HVI::MirrorPlanes();
   int form_given = 0, viscosity_given = 0;
 
-  kernel = arg[0];
-  if (kernel == "gaussian") kernel = "gauss";    // pair style hybrid takes gauss for a pair style
-  if (!HVI::with_kernel(kernel, [this](auto k) {
-        support = decltype(k)::support;
+  set.kernel = arg[0];
+  if (set.kernel == "gaussian")
+    set.kernel = "gauss";    // pair style hybrid takes gauss for a pair style
+  if (!HVI::with_kernel(set.kernel, [this](auto k) {
+        set.support = decltype(k)::support;
       }))
-    error->all(FLERR, "Unknown pair_style hvi/sph kernel {}: use one of {}", kernel,
+    error->all(FLERR, "Unknown pair_style hvi/sph kernel {}: use one of {}", set.kernel,
                HVI::KERNEL_NAMES);
 
   int iarg = 1;
@@ -132,7 +130,7 @@ void PairHVISPH::settings(int narg, char **arg)
       need(1);
       laws.automatic = strcmp(arg[iarg + 1], "auto") == 0;
       laws.alpha = laws.automatic ? 0.0 : number(1, 0.0);
-      density = laws.automatic || laws.alpha > 0.0;
+      set.density = laws.automatic || laws.alpha > 0.0;
       iarg += 2;
     } else if (key == "dissipation") {
       need(1);
@@ -140,14 +138,14 @@ void PairHVISPH::settings(int narg, char **arg)
       if (name != "monaghan" && name != "riemann")
         error->all(FLERR, "Pair_style hvi/sph dissipation must be monaghan or riemann, not {}",
                    name);
-      riemann = name == "riemann";
+      set.riemann = name == "riemann";
       iarg += 2;
     } else if (key == "gradient") {
       need(1);
       const std::string name = arg[iarg + 1];
       if (name != "plain" && name != "corrected")
         error->all(FLERR, "Pair_style hvi/sph gradient must be plain or corrected, not {}", name);
-      corrected = name == "corrected";
+      set.corrected = name == "corrected";
       iarg += 2;
     } else if (key == "artstress") {
       need(2);
@@ -161,14 +159,14 @@ void PairHVISPH::settings(int narg, char **arg)
       const std::string mode = arg[iarg + 1];
       if (mode != "constant" && mode != "variable")
         error->all(FLERR, "Pair_style hvi/sph h must be constant or variable, not {}", mode);
-      variable = mode == "variable";
+      set.variable = mode == "variable";
       iarg += 2;
-      if (variable && iarg < narg && utils::is_double(arg[iarg])) {
+      if (set.variable && iarg < narg && utils::is_double(arg[iarg])) {
         iarg -= 2;
         need(3);
-        hmin = number(2, 0.0);
-        hmax = number(3, 0.0);
-        if (!(hmin > 0.0 && hmin <= 1.0 && hmax >= 1.0))
+        set.hmin = number(2, 0.0);
+        set.hmax = number(3, 0.0);
+        if (!(set.hmin > 0.0 && set.hmin <= 1.0 && set.hmax >= 1.0))
           error->all(FLERR, "Pair_style hvi/sph h variable needs 0 < hmin <= 1 <= hmax, not {} {}",
                      arg[iarg + 2], arg[iarg + 3]);
         iarg += 4;
@@ -179,21 +177,21 @@ void PairHVISPH::settings(int narg, char **arg)
       const int k = direction.size() == 1 ? direction[0] - 'x' : -1;
       if (k < 0 || k > 2)
         error->all(FLERR, "Pair_style hvi/sph mirror must be x, y or z, not {}", direction);
-      if (mirror.has(k))
+      if (set.mirror.has(k))
         error->all(FLERR, "Pair_style hvi/sph has more than one mirror {}", direction);
       if (which != "lo" && which != "hi")
         error->all(FLERR, "Pair_style hvi/sph mirror {} must be lo or hi, not {}", direction,
                    which);
-      mirror.planes |= 1 << k;
-      mirror.at[k] = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
-      if (!std::isfinite(mirror.at[k]))
+      set.mirror.planes |= 1 << k;
+      set.mirror.at[k] = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+      if (!std::isfinite(set.mirror.at[k]))
         error->all(FLERR, "Pair_style hvi/sph mirror {} must be at a number, not {}", direction,
                    arg[iarg + 2]);
-      mirror.side[k] = which == "lo" ? 1.0 : -1.0;
+      set.mirror.side[k] = which == "lo" ? 1.0 : -1.0;
       iarg += 4;
     } else if (key == "energy") {
       need(1);
-      energy = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      set.energy = utils::logical(FLERR, arg[iarg + 1], false, lmp);
       iarg += 2;
     } else if (key == "stock") {
       need(1);
@@ -203,31 +201,32 @@ void PairHVISPH::settings(int narg, char **arg)
       error->all(FLERR, "Unknown pair_style hvi/sph keyword: {}", key);
   }
 
-  if (riemann && (viscosity_given || density || laws.symmetric || laws.stock))
+  if (set.riemann && (viscosity_given || set.density || laws.symmetric || laws.stock))
     error->all(FLERR,
                "Pair_style hvi/sph dissipation riemann takes the place of viscosity and interface, "
                "and has its own form of the equations: do not give viscosity, interface, form "
                "symmetric or stock yes with it");
   if (laws.stock) {
-    if (kernel != "lucy" || variable || density || !energy || laws.dim != domain->dimension ||
-        laws.dim < 2 || (form_given && !laws.symmetric))
+    if (set.kernel != "lucy" || set.variable || set.density || !set.energy ||
+        laws.dim != domain->dimension || laws.dim < 2 || (form_given && !laws.symmetric))
       error->all(FLERR,
                  "Pair_style hvi/sph stock yes does what the package SPH does: kernel lucy, form "
                  "symmetric, dim of the box, constant h, energy yes, no interface dissipation");
     laws.symmetric = 1;
   }
-  HVI::with_kernel(kernel, [this](auto k) {
+  HVI::with_kernel(set.kernel, [&laws](auto k) {
     laws.norm = decltype(k)::norm(laws.dim);
   });
-  no_virial_fdotr_compute = mirror.planes ? 1 : 0;    // planes push, too
-  text = fmt::format("{} dim {} form {} h {}{}", kernel, laws.dim,
-                     laws.symmetric ? "symmetric" : "sum", variable ? "variable" : "constant",
-                     laws.stock ? " stock yes" : (riemann ? " dissipation riemann" : ""));
+  no_virial_fdotr_compute = set.mirror.planes ? 1 : 0;    // planes push, too
+  set.text =
+      fmt::format("{} dim {} form {} h {}{}", set.kernel, laws.dim,
+                  laws.symmetric ? "symmetric" : "sum", set.variable ? "variable" : "constant",
+                  laws.stock ? " stock yes" : (set.riemann ? " dissipation riemann" : ""));
   for (int k = 0; k < 3; k++)
-    if (mirror.has(k))
-      text += fmt::format(" mirror {} {} {}", "xyz"[k], mirror.at[k],
-                          mirror.side[k] > 0.0 ? "lo" : "hi");
-  if (laws.art_eps > 0.0) text += fmt::format(" artstress {} {}", laws.art_eps, laws.art_n);
+    if (set.mirror.has(k))
+      set.text += fmt::format(" mirror {} {} {}", "xyz"[k], set.mirror.at[k],
+                              set.mirror.side[k] > 0.0 ? "lo" : "hi");
+  if (laws.art_eps > 0.0) set.text += fmt::format(" artstress {} {}", laws.art_eps, laws.art_n);
 }
 
 /* ----------------------------------------------------------------------
@@ -299,7 +298,7 @@ void PairHVISPH::coeff(int narg, char **arg)
 void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
                               const std::vector<std::string> &words, bool with_mass)
 {
-  // after the material: h and its value, and what a particle's volume is to be at rest
+  // after the material: h and its value; what a particle's volume is to be at rest; that it is a liquid
 
   const std::size_t nwords = words.size();
   auto made = std::make_shared<HVI::Material>();
@@ -342,10 +341,22 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
   if (!(h > 0.0) || !std::isfinite(h))
     error->all(FLERR, "Pair_coeff hvi/sph h must be > 0, not {}", words[used + 1]);
   used += 2;
-  double mass = 0.0;
-  if (used < nwords && words[used] == "volume") {
+  double volume = 0.0;
+  bool liquid = false;
+  while (used < nwords && (words[used] == "volume" || words[used] == "strength")) {
+    if (words[used] == "strength") {
+      if (used + 2 > nwords) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph strength", error);
+      if (words[used + 1] != "none")
+        error->all(FLERR,
+                   "Pair_coeff hvi/sph strength must be none, not {}: laws of strength are chosen "
+                   "by fix hvi/johnson-cook",
+                   words[used + 1]);
+      liquid = true;
+      used += 2;
+      continue;
+    }
     if (used + 2 > nwords) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph volume", error);
-    const double volume = utils::numeric(FLERR, words[used + 1], false, lmp);
+    volume = utils::numeric(FLERR, words[used + 1], false, lmp);
     if (!(volume > 0.0) || !std::isfinite(volume))
       error->all(FLERR, "Pair_coeff hvi/sph volume must be > 0, not {}", words[used + 1]);
     if (!(made->eos->rho0() > 0.0))
@@ -353,7 +364,6 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
     if (!atom->mass)
       error->all(FLERR,
                  "Pair_coeff hvi/sph volume sets masses of types, but particles have their own");
-    mass = made->eos->rho0() * volume;
     used += 2;
   }
   if (used < nwords)
@@ -366,10 +376,10 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
   int count = 0;
   for (int i = ilo; i <= ihi; i++) {
     if (i < jlo || i > jhi) continue;
-    materials[i] = made;
+    store->materials.set(i, {made, OWNER, volume, liquid});
     specs[i] = spec;
-    htype[i] = h;
-    if (with_mass && mass > 0.0) atom->set_mass(FLERR, i, mass);
+    set.h[i] = h;
+    if (with_mass && volume > 0.0) atom->set_mass(FLERR, i, made->eos->rho0() * volume);
     count++;
   }
   if (count == 0)
@@ -443,52 +453,63 @@ void PairHVISPH::read_restart(FILE *fp)
 
 void PairHVISPH::write_restart_settings(FILE *fp)
 {
-  write_text(fp, kernel);
-  write_text(fp, text);
-  const int flags[8] = {laws.dim, laws.symmetric, laws.stock, laws.automatic,
-                        variable, energy,         riemann,    corrected};
-  const double values[7] = {laws.a, laws.b, laws.alpha, hmin, hmax, laws.art_eps, laws.art_n};
+  write_text(fp, set.kernel);
+  write_text(fp, set.text);
+  const HVI::SphLaws &laws = set.laws;
+  const int flags[8] = {laws.dim,     laws.symmetric, laws.stock,  laws.automatic,
+                        set.variable, set.energy,     set.riemann, set.corrected};
+  const double values[7] = {laws.a,   laws.b,       laws.alpha, set.hmin,
+                            set.hmax, laws.art_eps, laws.art_n};
   fwrite(flags, sizeof(int), 8, fp);
   fwrite(values, sizeof(double), 7, fp);
-  fwrite(&mirror, sizeof(mirror), 1, fp);
+  fwrite(&set.mirror.planes, sizeof(int), 1, fp);
+  fwrite(set.mirror.at, sizeof(double), 3, fp);
+  fwrite(set.mirror.side, sizeof(double), 3, fp);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void PairHVISPH::read_restart_settings(FILE *fp)
 {
-  kernel = read_text(fp, comm->me, world, error);
-  text = read_text(fp, comm->me, world, error);
-  int flags[8];
-  double values[7];
+  set = HVI::SphSettings();
+  set.kernel = read_text(fp, comm->me, world, error);
+  set.text = read_text(fp, comm->me, world, error);
+  int flags[9];
+  double values[13];
   if (comm->me == 0) {
     utils::sfread(FLERR, flags, sizeof(int), 8, fp, nullptr, error);
     utils::sfread(FLERR, values, sizeof(double), 7, fp, nullptr, error);
-    utils::sfread(FLERR, &mirror, sizeof(mirror), 1, fp, nullptr, error);
+    utils::sfread(FLERR, flags + 8, sizeof(int), 1, fp, nullptr, error);
+    utils::sfread(FLERR, values + 7, sizeof(double), 6, fp, nullptr, error);
   }
-  MPI_Bcast(flags, 8, MPI_INT, 0, world);
-  MPI_Bcast(values, 7, MPI_DOUBLE, 0, world);
-  MPI_Bcast(&mirror, sizeof(mirror), MPI_BYTE, 0, world);
-  no_virial_fdotr_compute = mirror.planes ? 1 : 0;
+  MPI_Bcast(flags, 9, MPI_INT, 0, world);
+  MPI_Bcast(values, 13, MPI_DOUBLE, 0, world);
 
+  HVI::SphLaws &laws = set.laws;
   laws.dim = flags[0];
   laws.symmetric = flags[1];
   laws.stock = flags[2];
   laws.automatic = flags[3];
-  variable = flags[4];
-  energy = flags[5];
-  riemann = flags[6];
-  corrected = flags[7];
+  set.variable = flags[4];
+  set.energy = flags[5];
+  set.riemann = flags[6];
+  set.corrected = flags[7];
   laws.a = values[0];
   laws.b = values[1];
   laws.alpha = values[2];
-  density = laws.automatic || laws.alpha > 0.0;
-  hmin = values[3];
-  hmax = values[4];
+  set.density = laws.automatic || laws.alpha > 0.0;
+  set.hmin = values[3];
+  set.hmax = values[4];
   laws.art_eps = values[5];
   laws.art_n = values[6];
-  HVI::with_kernel(kernel, [this](auto k) {
-    support = decltype(k)::support;
+  set.mirror.planes = flags[8];
+  for (int k = 0; k < 3; k++) {
+    set.mirror.at[k] = values[7 + k];
+    set.mirror.side[k] = values[10 + k];
+  }
+  no_virial_fdotr_compute = set.mirror.planes ? 1 : 0;
+  HVI::with_kernel(set.kernel, [&](auto k) {
+    set.support = decltype(k)::support;
     laws.norm = decltype(k)::norm(laws.dim);
   });
 }

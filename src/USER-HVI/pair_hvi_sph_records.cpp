@@ -10,25 +10,28 @@
    Contributing authors: the lammps-hvi developers
 ------------------------------------------------------------------------- */
 
-// the records of particles, before and after the loop over pairs, which is in pair_hvi_sph.cpp
+// the records of particles, before and after the loop over pairs, which is in hvi_sph_sweep.cpp
 
 #include "pair_hvi_sph.h"
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_sph.h"
 #include "force.h"
 #include "hvi_artstress.h"
-#include "hvi_kernel.h"
+#include "math_special.h"
 #include "neigh_list.h"
+#include "neighbor.h"
 #include "update.h"
 
 #include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
+using MathSpecial::square;
 
 /* ----------------------------------------------------------------------
    owned and ghost particles: pressure and speed of sound of all that have a
@@ -44,44 +47,49 @@ void PairHVISPH::gather()
   const double *const rmass = atom->rmass;
   const int *const type = atom->type;
   const int nall = atom->nlocal + atom->nghost;
+  const HVI::SphView &records = store->fields.view();
+  const HVI::SphLaws &laws = set.laws;
 
   for (int i = 0; i < nall; i++) {
     const int itype = type[i];
-    rates[i] = {};
-    if (solid) gradv[i] = {};
-    if (!materials[itype]) continue;    // of another style in a hybrid
+    records.rates[i] = {};
+    if (records.gradv) records.gradv[i] = {};
+    if (records.slopes) records.slopes[i] = {};
+    if (!is_ours[itype]) continue;    // of another style in a hybrid
+    const HVI::Eos &eos = *store->materials.of(itype)->eos;
     const double m = rmass ? rmass[i] : atom->mass[itype];
     double p, csq;
-    if (!std::isfinite(esph[i]) || !materials[itype]->eos->evaluate(rho[i], esph[i] / m, p, csq))
+    if (!std::isfinite(esph[i]) || !eos.evaluate(rho[i], esph[i] / m, p, csq))
       error->one(FLERR,
                  "Pair hvi/sph: equation of state {} of particle {} (type {}) has no answer at "
                  "density {} and energy per mass {} at step {}",
-                 materials[itype]->eos->name(), atom->tag[i], itype, rho[i], esph[i] / m,
-                 update->ntimestep);
+                 eos.name(), atom->tag[i], itype, rho[i], esph[i] / m, update->ntimestep);
 
     // failed particles are not pulled; signals in solids are longitudinal
 
-    if (solid) {
-      p = MAX(p, stress[i].p_min);
-      csq += 4.0 / 3.0 * stress[i].shear / rho[i];
+    if (records.stress) {
+      p = MAX(p, records.stress[i].p_min);
+      csq += 4.0 / 3.0 * records.stress[i].shear / rho[i];
     }
 
     // the package SPH takes the speed of sound of liquids as constant, of gases as sqrt(p/rho)
 
     if (laws.stock) {
-      const double c0 = materials[itype]->eos->c0();
+      const double c0 = eos.c0();
       csq = c0 > 0.0 ? c0 * c0 : p / rho[i];
       if (!(csq >= 0.0))
         error->one(FLERR, "Pair hvi/sph: energy {} of particle {} is negative at step {}", esph[i],
                    atom->tag[i], update->ntimestep);
     }
 
-    place[i].x = x[i][0];
-    place[i].y = x[i][1];
-    place[i].z = x[i][2];
-    place[i].h = variable ? smoothing_length(itype, rho[i], fix->hscale(i)) : htype[itype];
+    HVI::SphPlace &place = records.place[i];
+    place.x = x[i][0];
+    place.y = x[i][1];
+    place.z = x[i][2];
+    place.h = set.variable ? set.smoothing_length(itype, rho[i], integrator->hscale(i))
+                           : set.h[itype];
 
-    HVI::SphState &s = state[i];
+    HVI::SphState &s = records.state[i];
     s.vx = vest[i][0];
     s.vy = vest[i][1];
     s.vz = vest[i][2];
@@ -99,9 +107,9 @@ void PairHVISPH::gather()
 
 void PairHVISPH::gather_stress()
 {
+  HVI::SphStress *const stress = store->fields.view().stress;
   for (int i = 0; i < atom->nlocal; i++) stress[i] = strength->stress(i);
-  sending = STRESS;
-  comm->forward_comm(this);
+  forward(stress);
 }
 
 /* ----------------------------------------------------------------------
@@ -112,119 +120,152 @@ void PairHVISPH::gather_stress()
 
 void PairHVISPH::artificial_stress()
 {
+  const HVI::SphView &records = store->fields.view();
+  const HVI::SphLaws &laws = set.laws;
   const double *const rmass = atom->rmass;
-  HVI::with_kernel(kernel, [&](auto k) {
-    for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
-      const int itype = atom->type[i];
-      if (!materials[itype]) continue;
-      const HVI::SphStress &s = stress[i];
-      const HVI::Deviator T = HVI::tensile_part(state[i].p, {s.xx, s.yy, s.zz, s.xy, s.xz, s.yz});
-      double f = 0.0;
-      if (T.xx + T.yy + T.zz > 0.0) {
-        const double V = (rmass ? rmass[i] : atom->mass[itype]) / materials[itype]->eos->rho0();
-        const double dp = laws.dim == 3 ? std::cbrt(V) : (laws.dim == 2 ? std::sqrt(V) : V);
-        const double w = decltype(k)::template w<double>(dp / htype[itype]);
-        if (!(w > 0.0))
-          error->one(FLERR,
-                     "Pair hvi/sph artstress: the spacing {} of type {} is beyond the reach of its "
-                     "h {}",
-                     dp, itype, htype[itype]);
-        f = -laws.art_eps / std::pow(w, laws.art_n);
-      }
-      art[i] = {f * T.xx, f * T.yy, f * T.zz, f * T.xy, f * T.xz, f * T.yz, 0.0, 0.0};
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
+    const int itype = atom->type[i];
+    if (!is_ours[itype]) continue;
+    const HVI::SphStress &s = records.stress[i];
+    const HVI::Deviator T =
+        HVI::tensile_part(records.state[i].p, {s.xx, s.yy, s.zz, s.xy, s.xz, s.yz});
+    double f = 0.0;
+    if (T.xx + T.yy + T.zz > 0.0) {
+      const double rho0 = store->materials.of(itype)->eos->rho0();
+      const double V = (rmass ? rmass[i] : atom->mass[itype]) / rho0;
+      const double dp = laws.dim == 3 ? std::cbrt(V) : (laws.dim == 2 ? std::sqrt(V) : V);
+      const double w = sweeps->w(dp / set.h[itype]);
+      if (!(w > 0.0))
+        error->one(FLERR,
+                   "Pair hvi/sph artstress: the spacing {} of type {} is beyond the reach of its "
+                   "h {}",
+                   dp, itype, set.h[itype]);
+      f = -laws.art_eps / std::pow(w, laws.art_n);
     }
-  });
+    records.art[i] = {f * T.xx, f * T.yy, f * T.zz, f * T.xy, f * T.xz, f * T.yz, 0.0, 0.0};
+  }
 }
 
-// L M^-1 is exact in a linear field.  The law sees it, forces do not.  Where neighbors lie in
-// a plane or are few, M cannot be inverted and the plain one stays.
+/* ----------------------------------------------------------------------
+   Of dissipation riemann, when the first sweep has the sums of all neighbors.  Omega is 1
+   where h stays as it is, and far from 1 only for particles nearly alone: bounded.
+------------------------------------------------------------------------- */
 
-HVI::VelocityGradient PairHVISPH::velocity_gradient(int i) const
+void PairHVISPH::finish_slopes()
 {
-  const HVI::SphGradV &L = gradv[i];
-  HVI::VelocityGradient g = {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
-  if (!corrected) return g;
-  const double xx = L.mxx, yy = laws.dim > 1 ? L.myy : 1.0, zz = laws.dim > 2 ? L.mzz : 1.0;
-  const double xy = L.mxy, xz = L.mxz, yz = L.myz;
-  const double cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
-  const double cyy = xx * zz - xz * xz, cyz = xy * xz - xx * yz, czz = xx * yy - xy * xy;
-  const double det = xx * cxx + xy * cxy + xz * cxz;
-  if (!(det > 0.05)) return g;
-  const auto correct = [&](double &x, double &y, double &z) {
-    const double gx = x / det, gy = y / det, gz = z / det;
-    x = gx * cxx + gy * cxy + gz * cxz;
-    y = gx * cxy + gy * cyy + gz * cyz;
-    z = gx * cxz + gy * cyz + gz * czz;
-  };
-  correct(g.xx, g.xy, g.xz);
-  correct(g.yx, g.yy, g.yz);
-  correct(g.zx, g.zy, g.zz);
-  return g;
+  const HVI::SphView &records = store->fields.view();
+  if (force->newton_pair) reverse(records.slopes);
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_ours[atom->type[i]]) continue;
+    HVI::SphSlopes &slopes = records.slopes[i];
+    const double start = set.h[atom->type[i]], h = records.place[i].h;
+    const double W0 = sweeps->w(0.0) * set.laws.norm / MathSpecial::powint(h, set.laws.dim);
+    const double n = slopes.volume + W0;
+    const bool follows = set.variable && h > set.hmin * start && h < set.hmax * start;
+    const double omega = follows ? 1.0 + (slopes.omega / set.laws.dim - W0) / n : 1.0;
+    slopes.omega = 1.0 / MAX(omega, 0.25);
+    slopes.volume = slopes.omega / n;
+  }
+  forward(records.slopes);
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   records of owned particles to their ghosts; of ghosts added up at their owners
+------------------------------------------------------------------------- */
 
-// one of two kinds of records, all numbers of theirs that others need
-
-template <class Record>
-static int pack(const Record *records, const int *list, int n, int first, int size, double *buf)
+template <class Record> void PairHVISPH::forward(Record *records)
 {
-  for (int k = 0; k < n; k++)
-    memcpy(buf + k * size, &records[list ? list[k] : first + k], size * sizeof(double));
-  return n * size;
+  halo = {&records->xx, (int) (sizeof(Record) / sizeof(double)), Record::SENT};
+  comm->forward_comm(this, Record::SENT);
 }
+
+template <class Record> void PairHVISPH::reverse(Record *records)
+{
+  halo = {&records->xx, (int) (sizeof(Record) / sizeof(double)), Record::SENT};
+  comm->reverse_comm(this, Record::SENT);
+}
+
+template void PairHVISPH::reverse(HVI::SphGradV *);
 
 int PairHVISPH::pack_forward_comm(int n, int *sent, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {
-  if (sending == SLOPES) return pack(slopes.get(), sent, n, 0, HVI::SphSlopes::SENT, buf);
-  return pack(stress.get(), sent, n, 0, HVI::SphStress::SENT, buf);
+  for (int k = 0; k < n; k++)
+    memcpy(buf + k * halo.number, halo.first + sent[k] * (std::size_t) halo.stride,
+           halo.number * sizeof(double));
+  return n * halo.number;
 }
 
 void PairHVISPH::unpack_forward_comm(int n, int first, double *buf)
 {
   for (int k = 0; k < n; k++)
-    if (sending == SLOPES)
-      memcpy((void *) &slopes[first + k], buf + k * HVI::SphSlopes::SENT,
-             HVI::SphSlopes::SENT * sizeof(double));
-    else
-      memcpy((void *) &stress[first + k], buf + k * HVI::SphStress::SENT,
-             HVI::SphStress::SENT * sizeof(double));
+    memcpy(halo.first + (first + k) * (std::size_t) halo.stride, buf + k * halo.number,
+           halo.number * sizeof(double));
 }
 
 int PairHVISPH::pack_reverse_comm(int n, int first, double *buf)
 {
-  if (sending == SLOPES) return pack(slopes.get(), nullptr, n, first, HVI::SphSlopes::SENT, buf);
-  return pack(gradv.get(), nullptr, n, first, HVI::SphGradV::SENT, buf);
+  for (int k = 0; k < n; k++)
+    memcpy(buf + k * halo.number, halo.first + (first + k) * (std::size_t) halo.stride,
+           halo.number * sizeof(double));
+  return n * halo.number;
 }
 
 void PairHVISPH::unpack_reverse_comm(int n, int *owned, double *buf)
 {
-  const int size = sending == SLOPES ? HVI::SphSlopes::SENT : HVI::SphGradV::SENT;
   for (int k = 0; k < n; k++) {
-    double *const to = sending == SLOPES ? &slopes[owned[k]].xx : &gradv[owned[k]].xx;
-    for (int l = 0; l < size; l++) to[l] += buf[k * size + l];
+    double *const to = halo.first + owned[k] * (std::size_t) halo.stride;
+    for (int l = 0; l < halo.number; l++) to[l] += buf[k * halo.number + l];
   }
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Heat is that of particles which fix hvi/sph integrates: what flows to others is
+   in no energy of theirs.
+------------------------------------------------------------------------- */
 
 void PairHVISPH::scatter()
 {
   double *const *const f = atom->f;
   double *const drho = atom->drho;
   double *const desph = atom->desph;
+  const HVI::SphRates *const rates = store->fields.view().rates;
   const int n = atom->nlocal + (force->newton_pair ? atom->nghost : 0);
+  const int integrated = integrator ? integrator->groupbit : 0;
 
-  heating = 0.0;
+  double heating = 0.0;
   for (int i = 0; i < n; i++) {
     f[i][0] += rates[i].fx;
     f[i][1] += rates[i].fy;
     f[i][2] += rates[i].fz;
     drho[i] += rates[i].drho;
-    if (!energy) continue;
+    if (!set.energy) continue;
     desph[i] += rates[i].de;
-    heating += rates[i].heat;
+    if (atom->mask[i] & integrated) heating += rates[i].heat;
   }
+  store->fields.viscous_power = heating;
+  for (int k = 0; k < 3; k++) store->fields.plane_force[k] = images.force[k];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::find_images()
+{
+  double reachsq = 0.0;
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = 1; j <= atom->ntypes; j++)
+      if (is_ours[i] && is_ours[j] && cutsq[i][j] > 0.0)
+        reachsq = MAX(reachsq, square(std::sqrt(cutsq[i][j]) + neighbor->skin));
+
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++)
+      if (set.mirror.has(k) && is_ours[atom->type[i]] && set.mirror.depth(k, atom->x[i]) < 0.0)
+        error->one(FLERR,
+                   "Pair style hvi/sph: particle {} is beyond the mirror plane {} at step {}: fix "
+                   "hvi/sph does not integrate it, so does not put it back",
+                   atom->tag[i], "xyz"[k], update -> ntimestep);
+
+  images.find(set.mirror, atom->x, atom->type, is_ours, atom->nlocal, atom->nlocal + atom->nghost,
+              reachsq);
 }
 
 /* ----------------------------------------------------------------------
@@ -235,11 +276,13 @@ void PairHVISPH::scatter()
 
 void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
 {
-  const double scale = 0.5 * support;
+  const HVI::SphPlace *const place = store->fields.view().place;
+  const HVI::SphState *const state = store->fields.view().state;
+  const double scale = 0.5 * set.support;
   double shortest = bounds.signal;
 
   for (int i = 0; i < atom->nlocal; i++)
-    if (materials[atom->type[i]] && !(scale * place[i].h >= shortest * state[i].c))
+    if (is_ours[atom->type[i]] && !(scale * place[i].h >= shortest * state[i].c))
       shortest = scale * place[i].h / state[i].c;
 
   for (int ii = 0; ii < list->inum; ii++) {
@@ -250,10 +293,12 @@ void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
     const double *const row_b = visc_b[atom->type[i]];
     const int *const jlist = list->firstneigh[i];
     const int jnum = list->numneigh[i];
-    const int nimages = mirror.planes ? images_near(i, jlist, jnum).size() : 0;
+    const std::vector<int> *const nearby = set.mirror.planes ? &images.near(i, jlist, jnum)
+                                                             : nullptr;
+    const int nimages = nearby ? nearby->size() : 0;
 
     for (int jj = 0; jj < jnum + nimages; jj++) {
-      const int j = jj < jnum ? jlist[jj] & NEIGHMASK : nearby[jj - jnum];
+      const int j = jj < jnum ? jlist[jj] & NEIGHMASK : (*nearby)[jj - jnum];
       const HVI::SphPlace &pj = place[j];
       const HVI::SphState &sj = state[j];
       const double dx = pi.x - pj.x;
@@ -265,7 +310,7 @@ void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
       // also pairs that are not yet within reach: they will be soon
 
       const double rsq = dx * dx + dy * dy + dz * dz;
-      if (jj >= jnum && rsq > images.reachsq) continue;
+      if (jj >= jnum && rsq > images.reachsq()) continue;
       const double h = 0.5 * (pi.h + pj.h);
       const double c = MAX(si.c, sj.c);
       const double mu = -h * rdotv / (rsq + 0.01 * h * h);

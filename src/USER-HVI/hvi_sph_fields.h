@@ -1,0 +1,99 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_HVI_SPH_FIELDS_H
+#define LMP_HVI_SPH_FIELDS_H
+
+#include "hvi_mirror.h"
+#include "hvi_sph.h"
+#include "hvi_stress.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace HVI {
+
+// what pair_style and pair_coeff hvi/sph say; written by that pair style, read by all
+
+struct SphSettings {
+  std::string kernel;    // empty: there was no pair_style hvi/sph yet
+  std::string text;      // all of pair_style, for messages and restart files
+  double support = 0.0;
+  SphLaws laws = {};
+  bool variable = false;             // h
+  double hmin = 0.5, hmax = 1.25;    // its bounds, in units of the start value
+  bool energy = true, density = false, riemann = false, corrected = true;
+  MirrorPlanes mirror;
+  std::vector<double> h;    // by type, 0: not a particle of this style
+
+  bool is_stock() const { return laws.stock; }
+
+  // Zisis et al. eq 20, dh/dt = -(1/D) (h/rho) drho/dt, integrates to h rho^(1/D) = const:
+  // only the constant, hscale, is kept for a particle
+
+  double hscale(int itype, double rho) const;
+  double smoothing_length(int itype, double rho, double hscale) const;
+};
+
+/* ----------------------------------------------------------------------
+   The packed records of SPH particles, in one place.
+
+   record     of                        written by, when                               read by
+   place      owned, ghosts, images     pair hvi/sph, before its loop                  loop, its time step
+   state      owned, ghosts, images     pair hvi/sph, before its loop                  loop, its time step, pressure()
+   stress     owned                     pair, from the fix that integrates it          loop
+              ghosts, images            pair, forward communication; reflected
+   art        owned, ghosts, images     pair, after state and stress                   loop
+   slopes     owned, ghosts             first sweep; reverse, then forward comm.       second sweep
+   rates      owned, ghosts, images     loop; images folded back to owners             pair: f, drho, desph
+   gradv      owned, ghosts, images     loop; images folded, reverse communication     velocity_gradient()
+
+   They hold from a force evaluation to the next exchange of particles, that is: through
+   final_integrate and end_of_step, and through the initial_integrate that follows.
+   Nothing here migrates, nothing is in restart files: what must outlive a
+   step is in the arrays of LAMMPS and of fixes.  What a scene has no use for is
+   not allocated.
+------------------------------------------------------------------------- */
+
+class SphFields {
+ public:
+  SphSettings settings;    // of the present run
+
+  // for the pair style
+
+  void choose(bool slopes, bool stress, bool art);    // which records the scene has
+  void grow(int n, int spare = 0);    // to hold n of each, if they do not: contents are lost
+  const SphView &view() const { return records; }
+  double bytes_per_particle() const;
+  double bytes() const { return nmax * bytes_per_particle(); }
+
+  // of the last forces, for fixes; owned particles, sums over this rank
+
+  double pressure(int i) const;
+  VelocityGradient velocity_gradient(int i) const;
+  double viscous_power = 0.0;    // heat of viscosity, of particles that fix hvi/sph integrates
+  double plane_force[3] = {0, 0, 0};    // of mirror planes on the particles
+  bool along[3] = {true, true,
+                   true};    // the directions in which particles extend, laws.dim of them
+
+ private:
+  int nmax = 0;
+  bool has_slopes = false, has_stress = false, has_art = false;
+  SphView records;
+  std::unique_ptr<SphPlace[]> place;
+  std::unique_ptr<SphState[]> state;
+  std::unique_ptr<SphRates[]> rates;
+  std::unique_ptr<SphSlopes[]> slopes;
+  std::unique_ptr<SphStress[]> stress, art;
+  std::unique_ptr<SphGradV[]> gradv;
+};
+
+}    // namespace HVI
+
+#endif

@@ -1,0 +1,227 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "hvi_sph_sweep.h"
+
+#include "hvi_kernel.h"
+#include "hvi_sph_riemann.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace HVI {
+
+namespace {
+
+  enum Pass { ONLY, FIRST, SECOND };
+
+  template <class Kernel, int SCENE> class Sweeps final : public SphSweeps {
+   public:
+    bool has_first() const override { return (SCENE & SPH_RIEMANN) != 0; }
+    void first(SphWork &) const override;
+    void forces(SphWork &) const override;
+    double w(double q) const override { return Kernel::template w<double>(q); }
+
+   private:
+    template <class Record, class Law>
+    static void each_particle(SphWork &, Pass, Record *, const Law &);
+    template <class Record>
+    static int within_reach(const SphWork &, const SphPlace &, const int *, int, const Record *,
+                            SphNear &);
+    static int all_of(const SphWork &, const SphPlace &, const int *, int, SphNear &);
+  };
+
+  /* ----------------------------------------------------------------------
+     squeeze out those beyond reach without a branch
+  ------------------------------------------------------------------------- */
+
+  template <class Kernel, int SCENE>
+  template <class Record>
+  inline int Sweeps<Kernel, SCENE>::within_reach(const SphWork &work, const SphPlace &pi,
+                                                 const int *jlist, int number,
+                                                 const Record *records, SphNear &near)
+  {
+    const SphPlace *const place = work.records.place;
+    const SphState *const state = work.records.state;
+    const double reachsq = Kernel::support * Kernel::support * work.laws.h * work.laws.h;
+    int n = 0;
+    for (int jj = 0; jj < number; jj++) {
+      const int j = jlist[jj] & NEIGHBOR_INDEX;
+      const Vec4 d = part(&pi, 0) - part(&place[j], 0);
+      __builtin_prefetch(&state[j]);
+      if (!(SCENE & SPH_STRENGTH)) __builtin_prefetch(&records[j], 1);
+      near.j[n] = j;
+      near.d[n] = d;
+      const Vec4 square = d * d;
+      const double rsq = square[0] + square[2] + square[1];
+      if (SCENE & SPH_OWN_H) {
+        const double h = SCENE & SPH_RIEMANN ? std::max(pi.h, pi.h - d[3]) : pi.h - 0.5 * d[3];
+        n += rsq < Kernel::support * Kernel::support * h * h;
+      } else
+        n += rsq < reachsq;
+    }
+    return n;
+  }
+
+  // who is within reach is known already
+
+  template <class Kernel, int SCENE>
+  inline int Sweeps<Kernel, SCENE>::all_of(const SphWork &work, const SphPlace &pi,
+                                           const int *jlist, int number, SphNear &near)
+  {
+    const SphPlace *const place = work.records.place;
+    const SphState *const state = work.records.state;
+    for (int jj = 0; jj < number; jj++) {
+      const int j = jlist[jj];
+      __builtin_prefetch(&state[j]);
+      if (SCENE & SPH_RIEMANN) {
+        __builtin_prefetch(&work.records.rates[j], 1);
+        __builtin_prefetch(&work.records.slopes[j]);
+        __builtin_prefetch(&work.records.slopes[j].pz);
+      }
+      near.j[jj] = j;
+      near.d[jj] = part(&pi, 0) - part(&place[j], 0);
+    }
+    return number;
+  }
+
+  /* ----------------------------------------------------------------------
+     One sweep, in two passes over the neighbors of a particle: who is within reach; then
+     law(i, place, n, laws, near, sum) works out the pairs in vectors, and adds what happens to
+     the neighbors to their records.
+  ------------------------------------------------------------------------- */
+
+  template <class Kernel, int SCENE>
+  template <class Record, class Law>
+  void Sweeps<Kernel, SCENE>::each_particle(SphWork &work, Pass pass, Record *records,
+                                            const Law &law)
+  {
+    const SphList &list = work.list;
+    SphKept &kept = *work.kept;
+    SphLaws laws = work.laws;
+    SphNear near;
+    std::size_t nkept = 0;
+
+    if (pass == FIRST) {
+      std::size_t most = 0;
+      for (int ii = 0; ii < list.inum; ii++) most += list.numneigh[list.ilist[ii]];
+      if (most > kept.j.size()) kept.j.resize(1.1 * most);
+      if ((std::size_t) list.inum > kept.number.size()) kept.number.resize(1.1 * list.inum);
+    }
+
+    for (int ii = 0; ii < list.inum; ii++) {
+      const int i = list.ilist[ii];
+      const SphPlace pi = work.records.place[i];
+      const int *const jlist = pass == SECOND ? &kept.j[nkept] : list.firstneigh[i];
+      const int jnum = pass == SECOND ? kept.number[ii] : list.numneigh[i];
+      Record sum = {};
+
+      if (SCENE & SPH_BODIES) {
+        laws.row_a = work.visc_a[work.type[i]];
+        laws.row_b = work.visc_b[work.type[i]];
+        laws.row_tension = work.tension[work.type[i]];
+      }
+
+      // images are near those who are near: they are looked for anew in a second sweep
+
+      auto visit = [&](const int *jvisit, int number, Pass how) {
+        int found = 0;
+        for (int jfirst = 0; jfirst < number; jfirst += SphNear::MAX) {
+          const int nvisit = std::min(+SphNear::MAX, number - jfirst);
+          const int n = how == SECOND
+              ? all_of(work, pi, jvisit + jfirst, nvisit, near)
+              : within_reach(work, pi, jvisit + jfirst, nvisit, records, near);
+          if (how == FIRST) memcpy(&kept.j[nkept + found], near.j, n * sizeof(int));
+          found += n;
+          law(i, pi, n, laws, near, sum);
+        }
+        return found;
+      };
+      const int found = visit(jlist, jnum, pass);
+      if (pass == FIRST) kept.number[ii] = found;
+      nkept += found;
+      if (work.images) {
+        const std::vector<int> &also = work.images->near(i, jlist, jnum);
+        if (!also.empty()) visit(also.data(), also.size(), ONLY);
+      }
+      for (int k = 0; k < (int) (sizeof(Record) / sizeof(Vec4)); k++)
+        part(&records[i], k) += part(&sum, k);
+    }
+  }
+
+  /* ---------------------------------------------------------------------- */
+
+  template <class Kernel, int SCENE> void Sweeps<Kernel, SCENE>::first(SphWork &work) const
+  {
+    if constexpr ((SCENE & SPH_RIEMANN) != 0) {
+      const SphState *const state = work.records.state;
+      SphSlopes *const slopes = work.records.slopes;
+      each_particle(work, FIRST, slopes,
+                    [=](int i, const SphPlace &pi, int n, const SphLaws &laws, SphNear &near,
+                        SphSlopes &sum) {
+                      sph_slopes<Kernel, SCENE>(i, pi, state, n, laws, near, slopes, sum);
+                    });
+    }
+  }
+
+  template <class Kernel, int SCENE> void Sweeps<Kernel, SCENE>::forces(SphWork &work) const
+  {
+    const SphView &r = work.records;
+    each_particle(
+        work, has_first() ? SECOND : ONLY, r.rates,
+        [&](int i, const SphPlace &pi, int n, const SphLaws &laws, SphNear &near, SphRates &sum) {
+          bool overlaps;
+          if constexpr ((SCENE & SPH_RIEMANN) != 0)
+            overlaps =
+                sph_riemann<Kernel, SCENE>(i, pi, r.state, r.slopes, n, laws, near, r.rates, sum);
+          else
+            overlaps = sph_interact<Kernel, SCENE>(i, pi, r.state, n, laws, near, r.rates, sum,
+                                                   r.stress, r.gradv, r.art);
+          if (overlaps)
+            for (int m = 0; m < n; m++)
+              if (near.d[m][0] == 0.0 && near.d[m][1] == 0.0 && near.d[m][2] == 0.0)
+                work.watcher->overlap(i, near.j[m]);
+          if (work.tally && n) work.watcher->tally(i, n, near, (SCENE & SPH_STRENGTH) != 0);
+        });
+  }
+
+  // the scenes that are compiled; bits that exclude each other make none
+
+  constexpr bool is_scene(int s)
+  {
+    const bool density = s & SPH_DENSITY, riemann = s & SPH_RIEMANN;
+    const bool strength = s & SPH_STRENGTH, art = s & SPH_ARTSTRESS;
+    return !(riemann && (density || strength)) && !(art && !(strength && (s & SPH_OWN_H)));
+  }
+
+  template <class Kernel, int SCENE = 0> std::unique_ptr<SphSweeps> make(int scene)
+  {
+    if constexpr (SCENE < SPH_NSCENES) {
+      if constexpr (is_scene(SCENE))
+        if (scene == SCENE) return std::make_unique<Sweeps<Kernel, SCENE>>();
+      return make<Kernel, SCENE + 1>(scene);
+    }
+    return nullptr;
+  }
+}    // namespace
+
+std::unique_ptr<SphSweeps> make_sph_sweeps(const std::string &kernel, int scene)
+{
+  if (scene & SPH_ARTSTRESS) scene |= SPH_OWN_H;
+  std::unique_ptr<SphSweeps> made;
+  with_kernel(kernel, [&](auto k) {
+    made = make<decltype(k)>(scene);
+  });
+  return made;
+}
+
+}    // namespace HVI

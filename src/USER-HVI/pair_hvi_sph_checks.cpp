@@ -1,0 +1,176 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+// what must be right before a run; the rest of the class is in pair_hvi_sph.cpp
+
+#include "pair_hvi_sph.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_hvi_johnson_cook.h"
+#include "fix_hvi_sph.h"
+#include "force.h"
+#include "modify.h"
+#include "update.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+static constexpr double BIG = 1.0e100;
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::check_fixes() const
+{
+  if (utils::strmatch(force->pair_style, "^hybrid")) {
+    // it scales forces, but neither rates of density nor of energy
+    if (utils::strmatch(force->pair_style, "^hybrid/scaled"))
+      error->all(FLERR,
+                 "Pair style hvi/sph does not work under pair_style hybrid/scaled, which would "
+                 "scale its forces but not its rates of density and energy: use hybrid or "
+                 "hybrid/overlay");
+    if (force->pair_match("^hvi/sph$", 0, 1) != force->pair_match("^hvi/sph$", 0, 2))
+      error->all(FLERR, "More than one pair style hvi/sph");
+  }
+  if (set.variable && !integrator)
+    error->all(FLERR, "Pair style hvi/sph h variable needs fix hvi/sph, which keeps h");
+  if (!integrator && modify->get_fix_by_style("^sph").empty() &&
+      modify->get_fix_by_style("meso").empty() && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair style hvi/sph: no fix integrates density and energy and estimates "
+                   "velocities, as fix hvi/sph does");
+  if (strength && (set.riemann || set.laws.symmetric))
+    error->all(FLERR,
+               "Pair style hvi/sph: fix hvi/johnson-cook works with form sum and dissipation "
+               "monaghan");
+  if (set.laws.art_eps > 0.0 && !strength)
+    error->all(FLERR,
+               "Pair style hvi/sph artstress needs fix hvi/johnson-cook, which keeps the stress");
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::check_materials() const
+{
+  const bool hybrid = utils::strmatch(force->pair_style, "^hybrid");
+  for (int i = 1; i <= atom->ntypes; i++) {
+    if (!is_ours[i]) {
+      if (hybrid) continue;
+      error->all(FLERR, "Pair style hvi/sph: type {} has no material", i);
+    }
+    const HVI::Materials::Entry &entry = store->materials.entry(i);
+    const std::string eos = entry.material->eos->name();
+    if (set.laws.stock && eos != "tait" && eos != "idealgas")
+      error->all(FLERR, "Pair style hvi/sph stock yes knows eos tait and idealgas only, not {}",
+                 eos);
+    if (strength || entry.liquid || comm->me != 0) continue;
+    for (const HVI::Section &section : entry.material->sections)
+      if (section.kind == "strength" && section.law != "none") {
+        error->warning(FLERR,
+                       "Pair style hvi/sph: type {} is a liquid: material {} has strength, but "
+                       "there is no fix hvi/johnson-cook (pair_coeff ... strength none if that is "
+                       "meant)",
+                       i, entry.material->name);
+        break;
+      }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::check_mirror() const
+{
+  for (int k = 0; k < 3; k++) {
+    if (!set.mirror.has(k)) continue;
+    if (k >= domain->dimension)
+      error->all(FLERR, "Pair style hvi/sph: mirror {} in a two-dimensional box", "xyz"[k]);
+    if (domain->periodicity[k])
+      error->all(FLERR, "Pair style hvi/sph: mirror {} needs a box that is not periodic along {}",
+                 "xyz"[k], "xyz"[k]);
+  }
+  if (!set.mirror.planes) return;
+  if (domain->triclinic)
+    error->all(FLERR, "Pair style hvi/sph: mirror needs a box that is not triclinic");
+  if (set.riemann)
+    error->all(FLERR, "Pair style hvi/sph: mirror does not work with dissipation riemann");
+  if (!integrator)
+    error->all(FLERR,
+               "Pair style hvi/sph: mirror needs fix hvi/sph, which keeps particles on "
+               "their side");
+}
+
+/* ----------------------------------------------------------------------
+   at the start of a run no particle may be beyond a plane, or on it
+------------------------------------------------------------------------- */
+
+void PairHVISPH::check_sides() const
+{
+  if (!set.mirror.planes) return;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_ours[atom->type[i]]) continue;
+    for (int k = 0; k < 3; k++)
+      if (set.mirror.has(k) && !(set.mirror.depth(k, atom->x[i]) > 1.0e-12 * set.h[atom->type[i]]))
+        error->one(FLERR,
+                   "Pair style hvi/sph: particle {} at {} = {} is on the mirror plane {} or beyond "
+                   "it (mirror {} {} {} wants all {} it); a lattice is best half a spacing away",
+                   atom->tag[i], "xyz"[k], atom -> x[i][k], set.mirror.at[k], "xyz"[k],
+                   set.mirror.at[k], set.mirror.side[k] > 0 ? "lo" : "hi",
+                   set.mirror.side[k] > 0 ? "above" : "below");
+  }
+}
+
+/* ----------------------------------------------------------------------
+   in which directions the particles extend: dim of them.  A row of particles must not see
+   its own images across it.
+------------------------------------------------------------------------- */
+
+void PairHVISPH::check_extent()
+{
+  const int dim = set.laws.dim;
+  bool *const along = store->fields.along;
+  for (int k = 0; k < 3; k++) along[k] = k < domain->dimension;
+  if (dim == domain->dimension) return;
+
+  double here[6], extreme[6];    // largest coordinates, and largest of those turned around
+  for (double &value : here) value = -BIG;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3 && is_ours[atom->type[i]]; k++) {
+      here[k] = MAX(here[k], atom->x[i][k]);
+      here[3 + k] = MAX(here[3 + k], -atom->x[i][k]);
+    }
+  MPI_Allreduce(here, extreme, 6, MPI_DOUBLE, MPI_MAX, world);
+
+  int extended = 0;
+  double cutmax = 0.0;
+  for (int i = 1; i <= atom->ntypes; i++)
+    if (is_ours[i]) cutmax = MAX(cutmax, sqrt(cutsq[i][i]));
+  for (int k = 0; k < domain->dimension; k++) {
+    along[k] = extreme[k] + extreme[3 + k] > 1.0e-9 * cutmax;
+    if (along[k])
+      extended++;
+    else if (domain->periodicity[k] && domain->prd[k] < cutmax)
+      error->all(FLERR,
+                 "Pair hvi/sph dim {}: the box is only {} long along {}, particles would interact "
+                 "with their images beyond the reach of {}",
+                 dim, domain->prd[k], "xyz"[k], cutmax);
+  }
+  if (extended > dim)
+    error->all(FLERR, "Pair hvi/sph dim {}: particles extend along {} directions", dim, extended);
+  for (int k = 0; k < domain->dimension && extended < dim; k++)
+    if (!along[k]) {
+      along[k] = true;
+      extended++;
+    }
+}
