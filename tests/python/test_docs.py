@@ -76,3 +76,6 @@ def test_version_is_the_same_everywhere(root):
     version = re.search(r'HVI_VERSION\[\] = "([^"]+)"', (root / "src" / "USER-HVI" / "hvi_version.h").read_text()).group(1)
     assert f"\nversion: {version}\n" in (root / "CITATION.cff").read_text()
     assert f"## [{version}]" in (root / "CHANGELOG.md").read_text()
+    assert f"(version {version})" in (root / "README.md").read_text()
+    written = [(p.name, v) for p in root.glob("examples/*/in.*") for v in re.findall(r"^package_version: (\S+?)\"*(?: |$)", p.read_text(), re.M)]
+    assert len(written) >= 5 and {v for _, v in written} == {version}, written
