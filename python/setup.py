@@ -6,5 +6,10 @@ import re
 
 from setuptools import setup
 
-HEADER = pathlib.Path(__file__).resolve().parents[1] / "src" / "USER-HVI" / "hvi_version.h"
-setup(version=re.search(r'HVI_VERSION\[\] = "([^"]+)"', HEADER.read_text()).group(1))
+HERE = pathlib.Path(__file__).resolve().parent
+SOURCES = (  # of the version: an unpacked source distribution has it in its metadata, and no header
+    (HERE / "PKG-INFO", r"(?m)^Version: (\S+)$"),
+    (HERE.parent / "src" / "USER-HVI" / "hvi_version.h", r'HVI_VERSION\[\] = "([^"]+)"'),
+)
+file, pattern = next((s for s in SOURCES if s[0].exists()), SOURCES[-1])
+setup(version=re.search(pattern, file.read_text()).group(1))

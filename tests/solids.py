@@ -146,17 +146,23 @@ if __name__ == "__main__":
     a.add_argument("--lmp", default=HERE.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
     a.add_argument("--out", default="verify-solids", type=pathlib.Path)
     a.add_argument("--only", default="", help="a part of the names: verney, taylor, ring_pair")
+    a.add_argument("--spacing", type=float, help="only this one, in cm (Taylor's cylinder: m)")
+    a.add_argument("--words", help="of the pair style, in place of those of the long form, like 'viscosity 0.1 0.5'")
+    a.add_argument("--kernel", help="not with Taylor's cylinder")
+    a.add_argument("--h", type=float, help="in spacings")
     args = a.parse_args()
     args.out = args.out.resolve()
     args.out.mkdir(parents=True, exist_ok=True)
     lmp = runner(args.lmp, args.out)
+    more = {k: v for k, v in (("kernel", args.kernel), ("h", args.h)) if v is not None}
     report = "# Solids\n"
     for title, scene, cases in LONG:
         if args.only not in scene.__name__:
             continue
         rows = []
-        for dx, words in cases:
-            rows.append(scene(lmp, args.out, dx, words=words))
+        cases = [c for c in cases if args.spacing in (None, c[0])] or [(args.spacing, cases[0][1])]
+        for dx, words in [(dx, args.words) for dx in dict(cases)] if args.words else cases:
+            rows.append(scene(lmp, args.out, dx, words=words, **more))
             print(scene.__name__, {k: float(f"{v:.4g}") if isinstance(v, float) else v for k, v in rows[-1].items()}, flush=True)
         report += f"\n{title}\n\n{table(rows)}\n"
         (args.out / "solids.md").write_text(report)

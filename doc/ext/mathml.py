@@ -1,5 +1,6 @@
 """Formulas as MathML, which browsers draw by themselves: no script, no font, no remote host."""
 
+from accents import index_beside
 from docutils import nodes
 from docutils.utils.math import latex2mathml
 from sphinx.util import logging
@@ -12,9 +13,10 @@ def convert(node, block):
     tex = node.astext()
     try:
         try:
-            return latex2mathml.tex2mathml(tex, as_block=block)  # docutils 0.20 and later
+            mathml = latex2mathml.tex2mathml(tex, as_block=block)  # docutils 0.20 and later
         except TypeError:
-            return latex2mathml.tex2mathml(tex, inline=not block)
+            mathml = latex2mathml.tex2mathml(tex, inline=not block)
+        return index_beside(mathml)
     except (SyntaxError, ValueError) as problem:  # MathError of later docutils is a ValueError
         logger.warning("formula %r: %s", tex, problem, location=node)
         return ""

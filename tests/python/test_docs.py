@@ -29,6 +29,24 @@ def test_plain_ascii(root, markdown):
         assert p.read_bytes().isascii(), p
 
 
+def test_index_of_a_letter_with_an_accent_is_beside_it(root):
+    """in MathML as Docutils writes it; limits of sums stay where they are"""
+    sys.path.insert(0, str(root / "doc" / "ext"))
+    from accents import index_beside
+
+    def formula(text):
+        return f'<math xmlns="http://www.w3.org/1998/Math/MathML">{text}</math>'
+
+    dot = '<mo stretchy="false">\u02d9</mo>'
+    energy = f"<munderover><mi>e</mi><mi>i</mi>{dot}</munderover>"
+    want = f"<msub><mover><mi>e</mi>{dot}</mover><mi>i</mi></msub>"
+    assert index_beside(formula(f"<mi>m</mi>{energy}<mo>&lt;</mo>")) == formula(f"<mi>m</mi>{want}<mo>&lt;</mo>")
+    assert index_beside(formula(f"<mfrac>{energy}<mrow>{energy}{energy}</mrow></mfrac>")) == formula(f"<mfrac>{want}<mrow>{want}{want}</mrow></mfrac>")
+    sums = "<munderover><mo>\u2211</mo><mi>j</mi><mi>N</mi></munderover>"
+    assert index_beside(formula(sums)) == formula(sums)
+    assert index_beside(formula("<mi>ln</mi><mo>&ApplyFunction;</mo>")) == formula("<mi>ln</mi><mo>\u2061</mo>")
+
+
 def inputs(path, start, end):
     """texts between two marks, taken back to the margin"""
     found = re.findall(start + r"(.*?)" + end, path.read_text(), re.S)
@@ -58,3 +76,6 @@ def test_version_is_the_same_everywhere(root):
     version = re.search(r'HVI_VERSION\[\] = "([^"]+)"', (root / "src" / "USER-HVI" / "hvi_version.h").read_text()).group(1)
     assert f"\nversion: {version}\n" in (root / "CITATION.cff").read_text()
     assert f"## [{version}]" in (root / "CHANGELOG.md").read_text()
+    assert f"(version {version})" in (root / "README.md").read_text()
+    written = [(p.name, v) for p in root.glob("examples/*/in.*") for v in re.findall(r"^package_version: (\S+?)\"*(?: |$)", p.read_text(), re.M)]
+    assert len(written) >= 5 and {v for _, v in written} == {version}, written

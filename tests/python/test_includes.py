@@ -1,0 +1,99 @@
+"""No circle of includes among the units of src/USER-HVI, so that each can be understood, and used, with only what is below it.
+
+A unit is a header with its .cpp files: those whose name is that of the header or begins with it and an underscore (the longest such
+header), else those that include it before any other header of the package. What a unit includes is what all its files include.
+"""
+
+import collections
+import re
+
+import pytest
+
+
+def includes(path, headers):
+    """headers of the folder that a file includes, without .h, in their order"""
+    names = re.findall(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)\.h"', path.read_text(), re.M)
+    return [n for n in names if n in headers]
+
+
+def unit(path, headers):
+    name = path.stem
+    own = [h for h in headers if (name + "_").startswith(h + "_")]
+    if own:
+        return max(own, key=len)
+    return next(iter(includes(path, headers)), name)
+
+
+def graph(folder):
+    """{unit: {unit it includes: the files that do}}"""
+    headers = {p.stem for p in folder.glob("*.h")}
+    edges = collections.defaultdict(lambda: collections.defaultdict(list))
+    for path in sorted([*folder.glob("*.h"), *folder.glob("*.cpp")]):
+        here = unit(path, headers)
+        for there in includes(path, headers):
+            if there != here:
+                edges[here][there].append(path.name)
+    return {a: dict(b) for a, b in edges.items()}
+
+
+def circle(edges):
+    """a shortest circle [a, b, ..., a] in {node: its next ones}, None if there is none"""
+    best = None
+    for start in sorted(edges):
+        before, queue = {start: None}, collections.deque([start])
+        while queue:
+            here = queue.popleft()
+            if start in edges.get(here, ()):
+                way = [start]
+                while here is not None:
+                    way.append(here)
+                    here = before[here]
+                if best is None or len(way) < len(best):
+                    best = way[::-1]
+                break
+            for there in sorted(edges.get(here, ())):
+                if there not in before:
+                    before[there] = here
+                    queue.append(there)
+    return best
+
+
+def circles(edges):
+    """circles one after the other, each without the last step of those before, until none is left"""
+    edges = {a: set(b) for a, b in edges.items()}
+    found = []
+    while way := circle(edges):
+        found.append(way)
+        edges[way[-2]].remove(way[-1])
+    return found
+
+
+def story(way, edges):
+    steps = [f"{a} includes {b} in {', '.join(dict.fromkeys(edges[a][b]))}" for a, b in zip(way, way[1:])]
+    return " -> ".join(way) + "\n    " + "\n    ".join(steps)
+
+
+def test_no_circle_of_includes(root):
+    edges = graph(root / "src" / "USER-HVI")
+    assert len(edges) > 10
+    found = circles(edges)
+    assert not found, f"{len(found)} circles of includes:\n" + "\n".join(story(way, edges) for way in found)
+
+
+@pytest.mark.parametrize("files, want", [
+    ({"a.h": "b", "b.h": "c", "c.h": "", "a.cpp": "a c", "c.cpp": "c"}, []),  # a diamond is no circle
+    ({"a.h": "", "a.cpp": "a b", "b.h": "", "b.cpp": "b a"}, ["a b a"]),  # in the .cpp files only
+    ({"a.h": "", "a_more.cpp": "b a", "b.h": "a"}, ["a b a"]),  # of a further file, in whatever order it includes
+    ({"a.h": "", "a_b.h": "a", "a_b_more.cpp": "a a_b"}, []),  # which belongs to the longest name
+    ({"a.h": "", "x.cpp": "a b", "b.h": "a"}, ["a b a"]),  # of a file of another name: it is that of its first header
+    ({"a.h": "b", "b.h": "c", "c.h": "a", "d.h": "a"}, ["a b c a"]),
+    ({"a.h": "b", "b.h": "a", "c.h": "d", "d.h": "c", "a.cpp": "a c"}, ["a b a", "c d c"]),
+    ({"a.h": "a", "b.h": "missing"}, []),
+])
+def test_circles_are_found(tmp_path, files, want):
+    for name, text in files.items():
+        (tmp_path / name).write_text('#include "pair.h"\n#include <vector>\n' + "".join(f'#include "{n}.h"\n' for n in text.split()))
+    edges = graph(tmp_path)
+    assert [" ".join(way) for way in circles(edges)] == want
+    for way in circles(edges):
+        assert all(step in story(way, edges) for step in way)
