@@ -391,6 +391,11 @@ void BondHVISpring::write_data(FILE *fp)
 
 double BondHVISpring::single(int type, double rsq, int /*i*/, int /*j*/, double &fforce)
 {
+  return bond_energy(type, rsq, fforce);
+}
+
+double BondHVISpring::bond_energy(int type, double rsq, double &fforce) const
+{
   fforce = 0.0;
   if (type <= 0) return 0.0;
 

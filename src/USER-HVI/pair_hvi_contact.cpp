@@ -416,6 +416,11 @@ void PairHVIContact::write_data_all(FILE *fp)
 double PairHVIContact::single(int /*i*/, int /*j*/, int itype, int jtype, double rsq,
                               double /*factor_coul*/, double /*factor_lj*/, double &fforce)
 {
+  return pair_energy(itype, jtype, rsq, fforce);
+}
+
+double PairHVIContact::pair_energy(int itype, int jtype, double rsq, double &fforce) const
+{
   const HVI::Contact &c = law[itype][jtype];
   if (rsq >= c.cutsq) {
     fforce = 0.0;

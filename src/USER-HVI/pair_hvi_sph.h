@@ -15,6 +15,7 @@ PairStyle(hvi/sph,PairHVISPH);
 #ifndef LMP_PAIR_HVI_SPH_H
 #define LMP_PAIR_HVI_SPH_H
 
+#include "hvi_energy_carrier.h"
 #include "hvi_material.h"
 #include "hvi_mirror.h"
 #include "hvi_sph_riemann.h"
@@ -28,7 +29,9 @@ PairStyle(hvi/sph,PairHVISPH);
 
 namespace LAMMPS_NS {
 
-class PairHVISPH : public Pair, public HVI::TimeStepSource {
+// an EnergyCarrier, for its pairs have no energy: nothing is torn when a particle leaves
+
+class PairHVISPH : public Pair, public HVI::TimeStepSource, public HVI::EnergyCarrier {
  public:
   PairHVISPH(class LAMMPS *);
   ~PairHVISPH() override;
