@@ -165,10 +165,10 @@ void BondHVISpring::break_bond(int i1, int i2, int type, int newton_bond, double
 
   // newton_bond off: a bond between ranks is broken, and half of it booked, on both
 
-  const int both = newton_bond || i2 < nlocal;
-  ledger->book_break(nerased, both ? energy : 0.5 * energy);
+  const int booked_here_alone = newton_bond || i2 < nlocal;
+  ledger->book_break(nerased, booked_here_alone ? energy : 0.5 * energy);
   ledger->book_lost_kick(i1, fx, fy, fz);
-  if (both) ledger->book_lost_kick(i2, -fx, -fy, -fz);
+  if (booked_here_alone) ledger->book_lost_kick(i2, -fx, -fy, -fz);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -211,6 +211,7 @@ void BondHVISpring::tighten(HVI::TimeStepBounds &bounds)
     spring = MIN(spring, mvv2e * m1 * m2 / ((m1 + m2) * kappa[btype]));
   }
   bounds.spring = std::sqrt(spring);
+  bounds.conserve_energy(HVI::shortest_cutoff(lmp));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -331,13 +332,13 @@ void BondHVISpring::restore_special()
 {
   if (force->special_lj[1] == 1.0 && force->special_coul[1] == 1.0) return;
 
-  bigint mine[2] = {0, 0}, all[2];
+  bigint owned[2] = {0, 0}, total[2];    // bonds, special neighbors
   for (int i = 0; i < atom->nlocal; i++) {
-    mine[0] += atom->num_bond[i];
-    mine[1] += atom->nspecial[i][0];
+    owned[0] += atom->num_bond[i];
+    owned[1] += atom->nspecial[i][0];
   }
-  MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all[0] && all[1] == 0) Special(lmp).build();
+  MPI_Allreduce(owned, total, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (total[0] && total[1] == 0) Special(lmp).build();
 }
 
 /* ----------------------------------------------------------------------
@@ -389,6 +390,11 @@ void BondHVISpring::write_data(FILE *fp)
 /* ---------------------------------------------------------------------- */
 
 double BondHVISpring::single(int type, double rsq, int /*i*/, int /*j*/, double &fforce)
+{
+  return bond_energy(type, rsq, fforce);
+}
+
+double BondHVISpring::bond_energy(int type, double rsq, double &fforce) const
 {
   fforce = 0.0;
   if (type <= 0) return 0.0;

@@ -16,12 +16,13 @@ BondStyle(hvi/spring,BondHVISpring);
 #define LMP_BOND_HVI_SPRING_H
 
 #include "bond.h"
+#include "hvi_energy_carrier.h"
 #include "hvi_spring.h"
 #include "hvi_timestep.h"
 
 namespace LAMMPS_NS {
 
-class BondHVISpring : public Bond, public HVI::TimeStepSource {
+class BondHVISpring : public Bond, public HVI::TimeStepSource, public HVI::EnergyCarrier {
  public:
   BondHVISpring(class LAMMPS *);
   ~BondHVISpring() override;
@@ -40,6 +41,7 @@ class BondHVISpring : public Bond, public HVI::TimeStepSource {
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
   void tighten(HVI::TimeStepBounds &) override;
+  double bond_energy(int, double, double &) const override;
 
  protected:
   double *kappa, *r_eq, *r_cut;

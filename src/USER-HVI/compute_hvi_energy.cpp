@@ -13,15 +13,12 @@
 #include "compute_hvi_energy.h"
 
 #include "atom.h"
-#include "bond.h"
 #include "comm.h"
 #include "error.h"
-#include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_ledger.h"
-#include "force.h"
 #include "group.h"
-#include "modify.h"
-#include "pair.h"
+#include "hvi_energy_carrier.h"
+#include "hvi_interface.h"
 #include "update.h"
 
 #include <cstring>
@@ -127,23 +124,26 @@ void ComputeHVIEnergy::compute_vector()
   const double *const mass = atom->mass;
   const int *const type = atom->type;
 
-  double mine[NVALUES] = {0.0};
+  double here[NVALUES] = {0.0};
   for (int i = 0; i < atom->nlocal; i++) {
     const double m = rmass ? rmass[i] : mass[type[i]];
-    mine[KINETIC] += m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]);
-    mine[PX] += m * v[i][0];
-    mine[PY] += m * v[i][1];
-    mine[PZ] += m * v[i][2];
-    mine[MASS] += m;
+    here[KINETIC] += m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]);
+    here[PX] += m * v[i][0];
+    here[PY] += m * v[i][1];
+    here[PZ] += m * v[i][2];
+    here[MASS] += m;
   }
-  mine[KINETIC] *= 0.5 * force->mvv2e;
+  here[KINETIC] *= 0.5 * force->mvv2e;
   if (atom->esph_flag)
-    for (int i = 0; i < atom->nlocal; i++) mine[INTERNAL] += atom->esph[i];
-  if (const auto *const solids = FixHVIJohnsonCook::find(lmp))
-    for (int i = 0; i < atom->nlocal; i++) mine[PLASTIC] += solids->plastic_work(i);
-  if (force->pair) mine[CONTACT] = force->pair->eng_vdwl + force->pair->eng_coul;
-  if (force->bond) mine[SPRING] = force->bond->energy;
-  MPI_Allreduce(mine, vector, NVALUES, MPI_DOUBLE, MPI_SUM, world);
+    for (int i = 0; i < atom->nlocal; i++) here[INTERNAL] += atom->esph[i];
+  for (const auto *const carrier : HVI::find_interface<HVI::EnergyCarrier>(lmp))
+    for (int i = 0; i < atom->nlocal; i++) {
+      here[INTERNAL] += carrier->internal_energy(i);
+      here[PLASTIC] += carrier->plastic_work(i);
+    }
+  if (force->pair) here[CONTACT] = force->pair->eng_vdwl + force->pair->eng_coul;
+  if (force->bond) here[SPRING] = force->bond->energy;
+  MPI_Allreduce(here, vector, NVALUES, MPI_DOUBLE, MPI_SUM, world);
 
   double booked[FixHVILedger::NENTRY];
   ledger->totals(booked);

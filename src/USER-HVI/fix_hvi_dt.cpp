@@ -12,16 +12,11 @@
 
 #include "fix_hvi_dt.h"
 
-#include "atom.h"
-#include "bond_hvi_spring.h"
 #include "comm.h"
 #include "error.h"
-#include "force.h"
-#include "modify.h"
+#include "hvi_interface.h"
 #include "neighbor.h"
 #include "output.h"
-#include "pair_hvi_contact.h"
-#include "pair_hvi_sph.h"
 #include "update.h"
 
 #include <cmath>
@@ -30,30 +25,13 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-static constexpr double BIG = 1.0e100;
-
-// The step may shrink at once but grows by no more than this in one step: velocity Verlet keeps
-// energy only while its step changes slowly.  Where a whole plate is struck at once and rebounds,
-// 0.2 % in place of 0.05 % costs 40 times the drift (examples/dem-scaling, 6 layers at 2 km/s).
-
-static constexpr double GROWTH = 1.0005;
-
-// SPH dissipates where it shocks, and its sound speeds are smooth: there it may grow faster
-
-static constexpr double GROWTH_SPH = 1.01;
-
-// no two particles come closer by more than this part of a contact distance in one step, so
-// that a pair is seen on its approach before it is deep in contact
-
-static constexpr double TRAVEL = 0.1;
-
 enum { MAXIMUM, CONTACT, SPRING, APPROACH, GROWING, SIGNAL, NLIMITER };
 
 /* ---------------------------------------------------------------------- */
 
 FixHVIDt::FixHVIDt(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtmin(0.0), dtmax(BIG), every(10), limiter(MAXIMUM), elastic(0),
-    restored(0), chosen(0), laststep(0), reach(0.0)
+    Fix(lmp, narg, arg), dtmin(0.0), dtmax(HVI::NO_BOUND), every(10), limiter(MAXIMUM), restored(0),
+    chosen(0), laststep(0)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix hvi/dt", error);
 
@@ -64,7 +42,6 @@ FixHVIDt::FixHVIDt(LAMMPS *lmp, int narg, char **arg) :
   extscalar = extvector = 0;
   dynamic_group_allow = 1;
   restart_global = 1;
-  comm_forward = 3;
   nevery = 1;
 
   factor = utils::numeric(FLERR, arg[3], false, lmp);
@@ -109,31 +86,9 @@ void FixHVIDt::init()
   if (modify->get_fix_by_style("^hvi/dt$").size() > 1)
     error->all(FLERR, "More than one fix hvi/dt");
 
-  sources.clear();
-  // hybrid may hold several
-
-  const bool hybrid = utils::strmatch(force->pair_style, "^hybrid");
-  for (int nsub = hybrid ? 1 : 0; Pair *pair = force->pair_match("hvi/contact", 1, nsub); nsub++) {
-    sources.push_back(dynamic_cast<HVI::TimeStepSource *>(pair));
-    if (!hybrid) break;
-  }
-  auto *spring = dynamic_cast<HVI::TimeStepSource *>(force->bond_match("hvi/spring"));
-  if (spring) sources.push_back(spring);
-  elastic = !sources.empty();
-  if (auto *sph = dynamic_cast<PairHVISPH *>(force->pair_match("^hvi/sph$", 0)))
-    sources.push_back(sph);
+  sources = HVI::find_interface<HVI::TimeStepSource>(lmp);
   if (sources.empty())
-    error->all(
-        FLERR,
-        "Fix hvi/dt needs pair style hvi/contact, bond style hvi/spring or pair style hvi/sph");
-
-  // shortest distance over which pairs act
-
-  reach = BIG;
-  if (force->pair)
-    for (int i = 1; i <= atom->ntypes; i++)
-      for (int j = i; j <= atom->ntypes; j++)
-        if (force->pair->cutsq[i][j] > 0.0) reach = MIN(reach, std::sqrt(force->pair->cutsq[i][j]));
+    error->all(FLERR, "Fix hvi/dt needs a pair style, bond style or fix that limits the time step");
 }
 
 /* ----------------------------------------------------------------------
@@ -149,7 +104,7 @@ void FixHVIDt::setup(int /*vflag*/)
   if (restored)
     restored = 0;
   else
-    apply(choose(chosen ? grown() : BIG));
+    apply(choose(chosen));
   chosen = 1;
 }
 
@@ -160,54 +115,23 @@ void FixHVIDt::end_of_step()
   // a pair that is new in the list has not been looked at yet
 
   if (update->ntimestep % every && neighbor->lastcall != update->ntimestep) return;
-  apply(choose(grown()));
+  apply(choose(1));
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   going on: the step may shrink at once, but grow only so much since it was
+   chosen last
+------------------------------------------------------------------------- */
 
-double FixHVIDt::grown() const
+double FixHVIDt::choose(int going_on)
 {
-  return std::pow(elastic ? GROWTH : GROWTH_SPH, update->ntimestep - laststep) * update->dt;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double FixHVIDt::choose(double limit)
-{
+  const HVI::StableSteps stable = HVI::stable_steps(lmp, sources, factor);
+  const double grown = going_on ? std::pow(stable.growth, update->ntimestep - laststep) * update->dt
+                                : HVI::NO_BOUND;
   laststep = update->ntimestep;
-  comm->forward_comm(this);
 
-  HVI::TimeStepBounds bounds = {BIG, BIG, BIG, BIG};
-  for (auto &source : sources) source->tighten(bounds);
-
-  // the same, with the extremes of velocity: min v and min -v in each direction
-
-  double mine[10] = {bounds.contact, bounds.spring, bounds.approach, BIG, BIG, BIG, BIG, BIG, BIG,
-                     bounds.signal};
-  double sum = 0.0;
-  for (int i = 0; i < atom->nlocal; i++)
-    for (int k = 0; k < 3; k++) {
-      const double v = atom->v[i][k];
-      mine[3 + k] = MIN(mine[3 + k], v);
-      mine[6 + k] = MIN(mine[6 + k], -v);
-      sum += v;
-    }
-
-  // MPI_MIN may drop a NaN, so carry it as the smallest number of all
-
-  double all[10];
-  for (int k = 0; k < 10; k++)
-    if (std::isnan(mine[k]) || !std::isfinite(sum)) mine[k] = -1.0;
-  MPI_Allreduce(mine, all, 10, MPI_DOUBLE, MPI_MIN, world);
-
-  double spread = 0.0, travel = BIG;
-  if (atom->natoms > 0)
-    for (int k = 3; k < 6; k++) spread += (all[k] + all[k + 3]) * (all[k] + all[k + 3]);
-  if (elastic && spread > 0.0) travel = TRAVEL * reach / std::sqrt(spread);
-
-  const double bound[NLIMITER] = {dtmax,           factor * all[0],
-                                  factor * all[1], MIN(factor * all[2], travel),
-                                  limit,           factor * all[9]};
+  const double bound[NLIMITER] = {dtmax,           stable.contact, stable.spring,
+                                  stable.approach, grown,          stable.signal};
   limiter = MAXIMUM;
   for (int n = 0; n < NLIMITER; n++)
     if (bound[n] < bound[limiter]) limiter = n;
@@ -221,7 +145,7 @@ double FixHVIDt::choose(double limit)
   if (dt < dtmin)
     error->all(FLERR, "Time step {} of fix hvi/dt fell below min {} at step {}", dt, dtmin,
                update->ntimestep);
-  if (dt >= factor * BIG)
+  if (dt >= factor * HVI::NO_BOUND)
     error->all(FLERR, "Fix hvi/dt finds nothing that limits the time step: give it a max");
   return dt;
 }
@@ -256,34 +180,6 @@ double FixHVIDt::compute_vector(int n)
   if (n == 0) return update->dt;
   if (n == 1) return update->atime + (update->ntimestep - update->atimestep) * update->dt;
   return limiter;
-}
-
-/* ----------------------------------------------------------------------
-   velocities of ghost particles, needed on the steps that choose dt only
-------------------------------------------------------------------------- */
-
-int FixHVIDt::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
-{
-  int m = 0;
-  for (int i = 0; i < n; i++) {
-    const double *const v = atom->v[list[i]];
-    buf[m++] = v[0];
-    buf[m++] = v[1];
-    buf[m++] = v[2];
-  }
-  return m;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixHVIDt::unpack_forward_comm(int n, int first, double *buf)
-{
-  int m = 0;
-  for (int i = first; i < first + n; i++) {
-    atom->v[i][0] = buf[m++];
-    atom->v[i][1] = buf[m++];
-    atom->v[i][2] = buf[m++];
-  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -31,8 +31,6 @@ class FixHVIDt : public Fix {
   void end_of_step() override;
   double compute_scalar() override;
   double compute_vector(int) override;
-  int pack_forward_comm(int, int *, double *, int, int *) override;
-  void unpack_forward_comm(int, int, double *) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
 
@@ -40,14 +38,11 @@ class FixHVIDt : public Fix {
   double factor, dtmin, dtmax;
   int every;
   int limiter;
-  int elastic;             // pairs or bonds with a stiffness
   int restored, chosen;    // dt is from a restart file, from an earlier run
   bigint laststep;         // that chose dt
-  double reach;            // shortest cutoff of the pair style
   std::vector<HVI::TimeStepSource *> sources;
 
-  double grown() const;
-  double choose(double);
+  double choose(int);
   void apply(double);
 };
 

@@ -17,6 +17,7 @@ FixStyle(hvi/johnson-cook,FixHVIJohnsonCook);
 
 #include "fix.h"
 #include "hvi_data_rows.h"
+#include "hvi_energy_carrier.h"
 #include "hvi_spall.h"
 #include "hvi_sph.h"
 #include "hvi_strength.h"
@@ -27,7 +28,7 @@ FixStyle(hvi/johnson-cook,FixHVIJohnsonCook);
 
 namespace LAMMPS_NS {
 
-class FixHVIJohnsonCook : public Fix {
+class FixHVIJohnsonCook : public Fix, public HVI::EnergyCarrier {
  public:
   // of a solid particle
 
@@ -95,7 +96,7 @@ class FixHVIJohnsonCook : public Fix {
   }
   const Solid &state(int i) const { return solid[i]; }
   double temperature(int) const;
-  double plastic_work(int) const;    // energy, from the start on
+  double plastic_work(int) const override;    // energy, from the start on
   bool failed(int i) const { return solid[i].damage >= 1.0 || solid[i].spalled != 0.0; }
 
  private:

@@ -49,9 +49,9 @@ FixHVILedger *FixHVILedger::instance(LAMMPS *lmp)
 /* ---------------------------------------------------------------------- */
 
 FixHVILedger::FixHVILedger(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), entry(), start_set(0), start(), breaking(0), nerased(0), dt_step(0.0),
-    nmax(0), lost(nullptr), clampbit(0), finternal(nullptr), xold(nullptr), dx(nullptr),
-    clamp_state()
+    Fix(lmp, narg, arg), entry(), start_set(0), start(), breaking(0), warned(0), nerased(0),
+    dt_step(0.0), nmax(0), lost(nullptr), clampbit(0), finternal(nullptr), xold(nullptr),
+    dx(nullptr), clamp_state()
 {
   if (strcmp(id, LEDGER_ID) != 0)
     error->all(FLERR, "Fix hvi/ledger is made by the styles that need it: use compute hvi/energy");
@@ -179,11 +179,12 @@ void FixHVILedger::add_lost(int i, const double *f)
 void FixHVILedger::book_forces()
 {
   if (breaking) {
-    bigint mine = nerased, all;
-    MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    const bigint nerased_here = nerased;
+    bigint nerased_all;
+    MPI_Allreduce(&nerased_here, &nerased_all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
     nerased = 0;
-    if (all) {
-      count_erased(all);
+    if (nerased_all) {
+      count_erased(nerased_all);
       grow_lost();
       if (force->newton_bond) comm->reverse_comm(this);
     }
@@ -350,6 +351,15 @@ void FixHVILedger::let_go(double dt)
 
   if (comm->me == 0 && output->thermo->lostflag == Thermo::WARN)
     error->warning(FLERR, "{} particles left the box at step {}", nleft, update->ntimestep);
+
+  if (!left.unknown.empty() && !warned) {
+    warned = 1;
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "Energy of style {} between particles that leave and their neighbors is not "
+                     "booked: it depends on more than types and distances",
+                     utils::join_words(left.unknown, ", "));
+  }
 }
 
 /* ---------------------------------------------------------------------- */

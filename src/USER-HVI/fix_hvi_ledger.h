@@ -97,6 +97,7 @@ class FixHVILedger : public Fix {
   double start[NSTART];
 
   int breaking;
+  int warned;        // of energy that is not booked
   int nerased;       // bond records erased on this rank in this step
   double dt_step;    // length of the step in progress, 0 in setup
   int nmax;

@@ -17,13 +17,14 @@ FixStyle(hvi/sph,FixHVISPH);
 
 #include "fix.h"
 #include "hvi_data_rows.h"
+#include "hvi_energy_carrier.h"
 
 #include <cstdint>
 #include <string>
 
 namespace LAMMPS_NS {
 
-class FixHVISPH : public Fix {
+class FixHVISPH : public Fix, public HVI::EnergyCarrier {
  public:
   FixHVISPH(class LAMMPS *, int, char **);
   ~FixHVISPH() override;
@@ -62,7 +63,10 @@ class FixHVISPH : public Fix {
   double memory_usage() override;
 
   double hscale(int i) const { return extra[i].hscale; }    // owned and ghost particles
-  double energy_owed(int i) const { return extra[i].de; }
+
+  // in the middle of a step esph is ahead of the velocity
+
+  double internal_energy(int i) const override { return -extra[i].de; }
 
  private:
   // of a particle, beyond what atom_style sph keeps

@@ -14,16 +14,14 @@
 
 #include "atom.h"
 #include "atom_vec.h"
-#include "bond.h"
 #include "comm.h"
 #include "domain.h"
-#include "fix_hvi_johnson_cook.h"
-#include "fix_hvi_sph.h"
 #include "force.h"
 #include "hvi_compat.h"
-#include "modify.h"
+#include "hvi_energy_carrier.h"
+#include "hvi_interface.h"
+#include "hvi_torn.h"
 #include "neighbor.h"
-#include "pair.h"
 
 #include <cmath>
 #include <unordered_map>
@@ -63,25 +61,37 @@ bigint HVILeavers::pick()
   for (int i = 0; i < atom->nlocal; i++)
     if (beyond(i, zero)) leaving.push_back(i);
 
-  bigint mine = leaving.size(), all;
-  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all == 0) return 0;
+  const bigint nleaving = leaving.size();
+  bigint nleaving_all;
+  MPI_Allreduce(&nleaving, &nleaving_all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (nleaving_all == 0) return 0;
 
   const double reach = MAX(neighbor->cutneighmax, comm->cutghostuser);
   double depth[3] = {reach, reach, reach};
-  if (domain->triclinic) {
-    const double *const h = domain->h_inv;
-    depth[0] = reach * std::sqrt(h[0] * h[0] + h[5] * h[5] + h[4] * h[4]);
-    depth[1] = reach * std::sqrt(h[1] * h[1] + h[3] * h[3]);
-    depth[2] = reach * h[2];
-  }
+  if (domain->triclinic) fraction_of_box(reach, depth);
   size_t next = 0;
   for (int i = 0; i < atom->nlocal; i++)
     if (next < leaving.size() && leaving[next] == i)
       next++;
     else if (beyond(i, depth))
       near.push_back(i);
-  return all;
+  return nleaving_all;
+}
+
+/* ----------------------------------------------------------------------
+   the distance between planes of equal fractional coordinate is 1 over the
+   length of a row of h_inv
+------------------------------------------------------------------------- */
+
+void HVILeavers::fraction_of_box(double distance, double *fraction) const
+{
+  const double *const h = domain->h_inv;
+  if (domain->triclinic) {
+    fraction[0] = distance * std::sqrt(h[0] * h[0] + h[5] * h[5] + h[4] * h[4]);
+    fraction[1] = distance * std::sqrt(h[1] * h[1] + h[3] * h[3]);
+    fraction[2] = distance * h[2];
+  } else
+    for (int k = 0; k < 3; k++) fraction[k] = distance / domain->prd[k];
 }
 
 /* ----------------------------------------------------------------------
@@ -93,9 +103,7 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
 {
   dt = dt_in;
   Account a = {};
-  const auto fixes = modify->get_fix_by_style("^hvi/sph$");
-  const auto *const sph = fixes.empty() ? nullptr : dynamic_cast<FixHVISPH *>(fixes[0]);
-  const auto *const solids = FixHVIJohnsonCook::find(lmp);
+  const auto carriers = HVI::find_interface<HVI::EnergyCarrier>(lmp);
 
   for (const int i : leaving) {
     Leaver l;
@@ -113,8 +121,10 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
     const bool clamped = atom->mask[i] & clampbit;
     a.energy += ke;
     if (atom->esph_flag) a.energy += atom->esph[i];
-    if (sph) a.energy -= sph->energy_owed(i);    // esph is ahead of the half kicks
-    if (solids) a.plastic += solids->plastic_work(i);
+    for (const auto *carrier : carriers) {
+      a.energy += carrier->internal_energy(i);
+      a.plastic += carrier->plastic_work(i);
+    }
     if (clamped) a.clamped_energy += ke;
     for (int k = 0; k < 3; k++) {
       a.momentum[k] += m * l.v[k];
@@ -125,8 +135,10 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
   }
 
   out = gather_all(out);
-  if (force->pair && force->pair->single_enable) a.energy += tear_contacts();
-  if (force->bond && atom->molecular == Atom::MOLECULAR) a.energy += tear_bonds(a.nrecords);
+  const HVITorn laws(lmp);
+  a.unknown = laws.unknown();
+  a.energy += tear_contacts(laws);
+  if (force->bond && atom->molecular == Atom::MOLECULAR) a.energy += tear_bonds(laws, a.nrecords);
   remove();
   return a;
 }
@@ -153,19 +165,19 @@ static double distsq(Domain *domain, const double *x, const double *y)
   return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 
-double HVILeavers::contact(int type, const double *x, const double *v, const Leaver &l) const
+double HVILeavers::contact(const HVITorn &laws, int type, const double *x, const double *v,
+                           const Leaver &l) const
 {
-  const double rsq = distsq(domain, x, l.x);
-  if (rsq >= force->pair->cutsq[type][l.type]) return 0.0;
   double fforce = 0.0;
-  const double phi = force->pair->single(0, 0, type, l.type, rsq, 1.0, 1.0, fforce);
+  const double phi = laws.pair(type, l.type, distsq(domain, x, l.x), fforce);
   return torn(phi, fforce, x, v, l);
 }
 
-double HVILeavers::spring(int btype, const double *x, const double *v, const Leaver &l) const
+double HVILeavers::spring(const HVITorn &laws, int btype, const double *x, const double *v,
+                          const Leaver &l) const
 {
   double fforce = 0.0;
-  const double phi = force->bond->single(btype, distsq(domain, x, l.x), 0, 0, fforce);
+  const double phi = laws.bond(btype, distsq(domain, x, l.x), fforce);
   return torn(phi, fforce, x, v, l);
 }
 
@@ -173,15 +185,16 @@ double HVILeavers::spring(int btype, const double *x, const double *v, const Lea
    pairs of two leavers are rank 0's
 ------------------------------------------------------------------------- */
 
-double HVILeavers::tear_contacts() const
+double HVILeavers::tear_contacts(const HVITorn &laws) const
 {
   double energy = 0.0;
   for (const int i : near)
-    for (const Leaver &l : out) energy += contact(atom->type[i], atom->x[i], atom->v[i], l);
+    for (const Leaver &l : out) energy += contact(laws, atom->type[i], atom->x[i], atom->v[i], l);
 
   if (comm->me == 0)
     for (size_t n = 0; n < out.size(); n++)
-      for (size_t m = 0; m < n; m++) energy += contact(out[n].type, out[n].x, out[n].v, out[m]);
+      for (size_t m = 0; m < n; m++)
+        energy += contact(laws, out[n].type, out[n].x, out[n].v, out[m]);
   return energy;
 }
 
@@ -190,11 +203,11 @@ double HVILeavers::tear_contacts() const
    worth half.  The atom map may be gone: fix balance migrates particles first.
 ------------------------------------------------------------------------- */
 
-double HVILeavers::tear_bonds(bigint &nrecords)
+double HVILeavers::tear_bonds(const HVITorn &laws, bigint &nrecords)
 {
   const double share = force->newton_bond ? 1.0 : 0.5;
   double energy = 0.0;
-  bigint mine = 0;
+  bigint nrecords_here = 0;
 
   std::unordered_map<tagint, const Leaver *> leaver;
   for (const Leaver &l : out) leaver[l.tag] = &l;
@@ -211,11 +224,11 @@ double HVILeavers::tear_bonds(bigint &nrecords)
         continue;
       }
       const int btype = atom->bond_type[i][n];
-      if (btype > 0) energy += share * spring(btype, atom->x[i], atom->v[i], *it->second);
+      if (btype > 0) energy += share * spring(laws, btype, atom->x[i], atom->v[i], *it->second);
       const int last = --atom->num_bond[i];
       atom->bond_atom[i][n] = atom->bond_atom[i][last];
       atom->bond_type[i][n] = atom->bond_type[i][last];
-      mine++;
+      nrecords_here++;
     }
   }
 
@@ -226,19 +239,20 @@ double HVILeavers::tear_bonds(bigint &nrecords)
     for (int n = 0; n < atom->num_bond[i]; n++)
       if (atom->bond_type[i][n] > 0)
         bonds.push_back({atom->tag[i], atom->bond_atom[i][n], atom->bond_type[i][n]});
-  mine += bonds.size();
+  nrecords_here += bonds.size();
 
   for (const LeaverBond &b : gather_all(bonds)) {
     const Leaver &l = *leaver[b.tag];
     const auto other = leaver.find(b.partner);
     const auto it = stayer.find(b.partner);
     if (other != leaver.end()) {
-      if (comm->me == 0) energy += share * spring(b.type, other->second->x, other->second->v, l);
+      if (comm->me == 0)
+        energy += share * spring(laws, b.type, other->second->x, other->second->v, l);
     } else if (it != stayer.end())
-      energy += share * spring(b.type, atom->x[it->second], atom->v[it->second], l);
+      energy += share * spring(laws, b.type, atom->x[it->second], atom->v[it->second], l);
   }
 
-  MPI_Allreduce(&mine, &nrecords, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  MPI_Allreduce(&nrecords_here, &nrecords, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   return energy;
 }
 
@@ -262,9 +276,9 @@ void HVILeavers::remove()
 
 /* ---------------------------------------------------------------------- */
 
-template <typename T> std::vector<T> HVILeavers::gather_all(const std::vector<T> &mine) const
+template <typename T> std::vector<T> HVILeavers::gather_all(const std::vector<T> &here) const
 {
-  const int nbytes = mine.size() * sizeof(T);
+  const int nbytes = here.size() * sizeof(T);
   std::vector<int> count(comm->nprocs), offset(comm->nprocs);
   MPI_Allgather(&nbytes, 1, MPI_INT, count.data(), 1, MPI_INT, world);
   int sum = 0;
@@ -275,10 +289,10 @@ template <typename T> std::vector<T> HVILeavers::gather_all(const std::vector<T>
 
   // one spare element each: no buffer is ever empty
 
-  std::vector<T> send(mine), all(sum / sizeof(T) + 1);
-  send.resize(mine.size() + 1);
-  MPI_Allgatherv(send.data(), nbytes, MPI_BYTE, all.data(), count.data(), offset.data(), MPI_BYTE,
-                 world);
-  all.pop_back();
-  return all;
+  std::vector<T> send(here), received(sum / sizeof(T) + 1);
+  send.resize(here.size() + 1);
+  MPI_Allgatherv(send.data(), nbytes, MPI_BYTE, received.data(), count.data(), offset.data(),
+                 MPI_BYTE, world);
+  received.pop_back();
+  return received;
 }

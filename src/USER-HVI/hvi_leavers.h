@@ -11,6 +11,7 @@
 
 #include "pointers.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -29,6 +30,7 @@ class HVILeavers : protected Pointers {
     double plastic;                                // work, a part of the internal energy
     double clamped_energy, clamped_momentum[3];    // of leavers in the clamped groups
     bigint nrecords;                               // of bonds: one or, newton_bond off, two a bond
+    std::vector<std::string> unknown;              // styles whose energy is not in it
   };
 
   HVILeavers(class LAMMPS *lmp) : Pointers(lmp), dt(0.0) {}
@@ -53,10 +55,11 @@ class HVILeavers : protected Pointers {
   std::vector<Leaver> out;    // leavers of all ranks
 
   double torn(double, double, const double *, const double *, const Leaver &) const;
-  double contact(int, const double *, const double *, const Leaver &) const;
-  double spring(int, const double *, const double *, const Leaver &) const;
-  double tear_contacts() const;
-  double tear_bonds(bigint &);
+  double contact(const class HVITorn &, int, const double *, const double *, const Leaver &) const;
+  double spring(const class HVITorn &, int, const double *, const double *, const Leaver &) const;
+  double tear_contacts(const class HVITorn &) const;
+  double tear_bonds(const class HVITorn &, bigint &);
+  void fraction_of_box(double, double *) const;
   void remove();
   template <typename T> std::vector<T> gather_all(const std::vector<T> &) const;
 };

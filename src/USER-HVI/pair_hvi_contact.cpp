@@ -99,7 +99,7 @@ template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void PairHVIContact::eval()
   const int *const numneigh = list->numneigh;
   const int *const *const firstneigh = list->firstneigh;
 
-  const HVI::Contact same = common;
+  const HVI::Contact one_law = common;
   Touch touch[NTOUCH];
 
   for (int ii = 0; ii < inum; ii++) {
@@ -122,7 +122,7 @@ template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void PairHVIContact::eval()
         const double delz = ztmp - x[j][2];
         const double rsq = delx * delx + dely * dely + delz * delz;
         touch[ntouch] = {delx, dely, delz, rsq, j};
-        ntouch += rsq < (UNIFORM ? same.cutsq : ilaw[type[j]].cutsq);
+        ntouch += rsq < (UNIFORM ? one_law.cutsq : ilaw[type[j]].cutsq);
       }
 
       for (int n = 0; n < ntouch; n++) {
@@ -131,7 +131,7 @@ template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void PairHVIContact::eval()
           error->one(FLERR,
                      "Pair hvi/contact: particles {} and {} are at the same place at step {}",
                      atom->tag[i], atom->tag[t.j], update->ntimestep);
-        const HVI::Contact &c = UNIFORM ? same : ilaw[type[t.j]];
+        const HVI::Contact &c = UNIFORM ? one_law : ilaw[type[t.j]];
         const double fpair = c.force(t.rsq);    // Watson & Steinhauser eq 2
         fxtmp += t.delx * fpair;
         fytmp += t.dely * fpair;
@@ -227,6 +227,7 @@ void PairHVIContact::tighten(HVI::TimeStepBounds &bounds)
 
   bounds.contact = std::sqrt(contact);
   bounds.approach = std::sqrt(approach);
+  bounds.conserve_energy(HVI::shortest_cutoff(lmp));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -414,6 +415,11 @@ void PairHVIContact::write_data_all(FILE *fp)
 
 double PairHVIContact::single(int /*i*/, int /*j*/, int itype, int jtype, double rsq,
                               double /*factor_coul*/, double /*factor_lj*/, double &fforce)
+{
+  return pair_energy(itype, jtype, rsq, fforce);
+}
+
+double PairHVIContact::pair_energy(int itype, int jtype, double rsq, double &fforce) const
 {
   const HVI::Contact &c = law[itype][jtype];
   if (rsq >= c.cutsq) {

@@ -16,12 +16,13 @@ PairStyle(hvi/contact,PairHVIContact);
 #define LMP_PAIR_HVI_CONTACT_H
 
 #include "hvi_contact.h"
+#include "hvi_energy_carrier.h"
 #include "hvi_timestep.h"
 #include "pair.h"
 
 namespace LAMMPS_NS {
 
-class PairHVIContact : public Pair, public HVI::TimeStepSource {
+class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::EnergyCarrier {
  public:
   PairHVIContact(class LAMMPS *);
   ~PairHVIContact() override;
@@ -41,6 +42,8 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource {
   void born_matrix(int, int, int, int, double, double, double, double &, double &) override;
   void *extract(const char *, int &) override;
   void tighten(HVI::TimeStepBounds &) override;
+  double pair_cutsq(int itype, int jtype) const override { return law[itype][jtype].cutsq; }
+  double pair_energy(int, int, double, double &) const override;
 
  protected:
   double prefactor;

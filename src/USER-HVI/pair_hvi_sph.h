@@ -16,6 +16,7 @@ PairStyle(hvi/sph,PairHVISPH);
 #define LMP_PAIR_HVI_SPH_H
 
 #include "fix_hvi_store.h"
+#include "hvi_energy_carrier.h"
 #include "hvi_mirror.h"
 #include "hvi_sph_sweep.h"
 #include "hvi_timestep.h"
@@ -27,7 +28,12 @@ PairStyle(hvi/sph,PairHVISPH);
 
 namespace LAMMPS_NS {
 
-class PairHVISPH : public Pair, public HVI::TimeStepSource, private HVI::SphWatcher {
+// an EnergyCarrier, for its pairs have no energy: nothing is torn when a particle leaves
+
+class PairHVISPH : public Pair,
+                   public HVI::TimeStepSource,
+                   public HVI::EnergyCarrier,
+                   private HVI::SphWatcher {
  public:
   PairHVISPH(class LAMMPS *);
   ~PairHVISPH() override;

@@ -162,3 +162,52 @@ def test_units(lmp, units, kind):
     want = {CONTACT: stiffness(1e-3, eps, sigma), SPRING: kappa,
             APPROACH: stiffness(turning(0.5 * m * v**2, eps, sigma), eps, sigma)}[kind]
     assert dt / second == pytest.approx(C * np.sqrt(m / want), rel=1e-6) and why == kind
+
+
+SPH, TOUCH, TIE = "sph", "contact", "spring"
+SIGNAL = 5
+
+
+def three_pairs(sound=1.0, eps=1e-3, kappa=1e-3, more=""):
+    """two SPH particles at rest, two in contact, two bonded: each would limit the step by itself"""
+    text = "units lj\natom_style hybrid sph bond\natom_modify map array\nboundary f f f\nregion box block -9 9 -9 9 -9 9\n"
+    text += "create_box 3 box bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 4\nspecial_bonds lj/coul 1 1 1\n"
+    for kind, y, r in ((1, -6, 1.0), (2, 0, 1.0), (3, 6, 1.3)):
+        text += f"create_atoms {kind} single 0 {y} 0\ncreate_atoms {kind} single {r} {y} 0\n"
+    text += "mass * 1.0\nset group all sph/rho 1.0\npair_style hybrid hvi/sph cubic hvi/contact\n"
+    text += f"pair_coeff 1 1 hvi/sph eos tait 1.0 {sound} 7 h 1.2\npair_coeff 2* 2* hvi/contact {eps} 1.0\npair_coeff 1 2* none\n"
+    text += f"bond_style hvi/spring\nbond_coeff 1 {kappa} {R_EQ!r} 1.5\nneighbor 0.3 bin\n"
+    text += "create_bonds single/bond 1 5 6 special no\ngroup fluid type 1\nfix fluid fluid hvi/sph\n" + more
+    return text + f"fix step all hvi/dt {C} max 1e3\n" + SHOW.replace("fix nve all nve\n", "group stiff subtract all fluid\nfix stiff stiff nve\n") + "run 0\n"
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_all_sources_are_heard(lmp, nranks):
+    """pair styles under hybrid and a bond style, each the stiffest in turn"""
+    want = {SPH: 1.2 / 40.0, TOUCH: np.sqrt(0.5 / stiffness(1.0, eps=1e3)), TIE: np.sqrt(0.5 / 1e4)}
+    for name, why, how in ((SPH, SIGNAL, dict(sound=40.0)), (TOUCH, CONTACT, dict(eps=1e3)), (TIE, SPRING, dict(kappa=1e4))):
+        row = lmp(three_pairs(**how), nranks=nranks).thermo
+        assert row["Dt"][0] == pytest.approx(C * want[name], rel=1e-12) and row["f_step[3]"][0] == why, name
+
+
+def test_growth_is_that_of_the_sources(lmp):
+    """SPH alone lets the step grow by 1 %, stiff pairs by 0.05 %, also those beside SPH"""
+    growth = {}
+    alone = "group gone type 2 3\ndelete_atoms group gone bond yes\nbond_style none\npair_style hvi/sph cubic\npair_coeff * * eos tait 1.0 40.0 7 h 1.2\n"
+    for name, more, word in ((SPH, alone, ""), ("all", "", "hvi/sph ")):
+        text = three_pairs(sound=40.0, more=more) + f"pair_coeff 1 1 {word}eos tait 1.0 4.0 7 h 1.2\nrun 30\n"  # sound gets slower
+        t = lmp(text.replace(f"hvi/dt {C} max 1e3", f"hvi/dt {C} max 1e3 every 1")).thermo
+        growth[name] = t["Dt"][1:] / t["Dt"][:-1]
+        assert (t["f_step[3]"][1:] == GROWING).all()
+    assert growth[SPH] == pytest.approx(1.01, rel=1e-9) and growth["all"] == pytest.approx(1.0005, rel=1e-9)
+
+
+@pytest.mark.parametrize("stiff", [1, 2])
+def test_every_contact_of_a_hybrid(lmp, stiff):
+    """two hvi/contact under hybrid: whichever is stiffer limits"""
+    s = State([[0, 0, 0], [1.0, 0, 0], [5, 0, 0], [6.0, 0, 0]], 0.0, [], BOX, types=[1, 1, 2, 2], masses=(1.0, 1.0))
+    pair = "pair_style hybrid hvi/contact hvi/contact\npair_coeff 1 2 none\n"
+    for k in (1, 2):
+        pair += f"pair_coeff {k} {k} hvi/contact {k} {50.0 if k == stiff else 1.0} 1.0\n"
+    dt, why = first(lmp, s, pair=pair)
+    assert dt == pytest.approx(C * np.sqrt(0.5 / stiffness(1.0, eps=50.0)), rel=1e-12) and why == CONTACT

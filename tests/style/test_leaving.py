@@ -123,3 +123,86 @@ def test_pair_style_alone(lmp):
     book = books(lmp(fly(s, 1200, bond="bond_style none\n")).thermo)
     check(book, s, 1e-5)
     assert book["left_count"][-1] > 20
+
+
+PAIR_APART = [[4.9991, 0.0, 0.0], [4.9991 - 0.95, 0.0, 0.0]]
+
+
+def pair_at_the_face(pair, more="", atoms="atom_style bond", commands="", newton="on", kinds=1):
+    """a pair that flies through the face x = 5: its first particle leaves in the first steps"""
+    text = f"units lj\n{atoms}\natom_modify map array\nnewton {newton}\nprocessors * 1 1\nboundary f f f\nregion box block -5 5 -5 5 -5 5\n"
+    text += f"create_box {kinds} box\nspecial_bonds lj/coul 1 1 1\n" if "bond" not in atoms else (
+        f"create_box {kinds} box bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 4\nspecial_bonds lj/coul 1 1 1\n")
+    for x, y, z in PAIR_APART:
+        text += f"create_atoms {kinds} single {x!r} {y} {z}\n"
+    text += f"mass * 1.0\nvelocity all set 3.0 0 0\n{commands}{pair}neighbor 0.3 bin\nneigh_modify every 1 check no\n{more}fix nve all nve\n"
+    text += "compute book all hvi/energy\nthermo 5\nthermo_style custom step atoms c_book[*]\n" + LOST + "timestep 1e-5\nrun 60\n"
+    return text
+
+
+SPH_BESIDE = "pair_style hybrid hvi/sph cubic hvi/contact\npair_coeff 1 1 hvi/sph eos tait 1 10 7 h 1.2\npair_coeff 2 2 hvi/contact 1 1\npair_coeff 1 2 none\n"
+
+
+@pytest.mark.parametrize("newton", ["on", "off"])
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_contact_beside_a_style_without_single(lmp, newton, nranks):
+    """LAMMPS's hybrid has no single() then; the contact's energy leaves all the same"""
+    result = lmp(pair_at_the_face(SPH_BESIDE, atoms="atom_style hybrid sph bond", newton=newton, kinds=2), nranks=nranks)
+    book = books(result.thermo)
+    assert book["left_count"][-1] == 1
+    assert book["left"][-1] == pytest.approx(4.5 + float(contact(0.95)[0]), rel=2e-2)
+    assert np.abs(book["ratio"] - 1).max() <= 1e-8
+    assert not any("not booked" in w for w in result.warnings)
+
+
+@pytest.mark.parametrize("style", ["hybrid", "hybrid/overlay", "hybrid/scaled"])
+def test_contacts_of_a_hybrid_of_two(lmp, style):
+    """each pair of types by its own law, scaled where LAMMPS scales; none between types that do not meet"""
+    s = cube(4, 0.05, 0.3, margin=1.0, types=2, seed=3)
+    s.bonds = s.bonds[:0]
+    s.x *= 0.95
+    s.v += [5.0, 0.0, 0.0]
+    scale = ("1.0 ", "0.5 ") if "scaled" in style else ("", "")
+    pair = f"pair_style {style} {scale[0]}hvi/contact {scale[1]}hvi/contact prefactor 4\npair_coeff 1 1 hvi/contact 1 1.0 1.0\n"
+    pair += "pair_coeff 2 2 hvi/contact 2 1.0 1.0\npair_coeff 1 2 none\n"
+    result = lmp(fly(s, 1200, pair=pair, bond="bond_style none\n"))
+    book = books(result.thermo)
+    check(book, s, 1e-5)
+    assert book["left_count"][-1] > 40 and not any("not booked" in w for w in result.warnings)
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_styles_that_read_data_of_particles(lmp, nranks):
+    """whose energy types and distance do not tell: not booked, not made up, said once"""
+    pair = "pair_style lj/cut/coul/cut 2.0\npair_coeff * * 1.0 1.0\n"
+    more = "create_atoms 1 single 4.9985 3.0 0\nset group all charge 3.0\nvelocity all set 3.0 0 0\n"
+    result = lmp(pair_at_the_face(pair, atoms="atom_style charge", commands=more), nranks=nranks)
+    book = books(result.thermo)
+    assert book["left_count"][-1] == 2
+    assert book["left"][-1] == pytest.approx(2 * 4.5, rel=1e-2)  # kinetic alone; the pair has some 10 more
+    assert sum("lj/cut/coul/cut between particles that leave" in w for w in result.warnings) == 1
+
+
+def test_stock_style_that_knows_types_only(lmp):
+    """lj/cut is asked through its single()"""
+    result = lmp(pair_at_the_face("pair_style lj/cut 1.12\npair_coeff * * 1.0 1.0\npair_modify shift yes\n"))
+    book = books(result.thermo)
+    assert book["left_count"][-1] == 1 and book["left"][-1] > 4.5 + 0.5
+    assert np.abs(book["ratio"] - 1).max() <= 1e-7
+    assert not any("not booked" in w for w in result.warnings)
+
+
+@pytest.mark.parametrize("nranks", [1, 3])
+def test_triclinic_and_periodic(lmp, nranks):
+    """who tears is found across periodic faces of a tilted box"""
+    s = cube(4, 0.05, 0.3, seed=6)
+    s.bonds = s.bonds[:0]
+    s.x *= 0.95
+    s.v += [6.0, 1.0, 0.0]
+    s.box = np.array([[-3.0, 6.0], [1.0, 9.0], [1.5, 9.5]])
+    s.x[:, 1:] += (s.x[:, 1:] < s.box[1:, 0]) * 8.0
+    tilt = "change_box all triclinic xy final 2.0 yz final -1.5\n"
+    text = fly(s, 1300, boundary="f p p", bond="bond_style none\n").replace("neighbor 0.3", tilt + "neighbor 0.3")
+    book = books(lmp(text, nranks=nranks).thermo)
+    check(book, s, 1e-5)
+    assert book["left_count"][-1] > 40

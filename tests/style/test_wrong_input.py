@@ -133,7 +133,7 @@ def test_two_fixes_hvi_dt(lmp):
 def test_fix_hvi_dt_without_our_styles(lmp):
     error = attempt(lmp, "fix nve all nve\nfix step all hvi/dt 0.1\nrun 2\n", pair="pair_style lj/cut 1.0\npair_coeff * * 1 1\n",
                     bond="bond_style harmonic\nbond_coeff 1 27.0 1.12\n")
-    assert "needs pair style hvi/contact, bond style hvi/spring or pair style hvi/sph" in error
+    assert "needs a pair style, bond style or fix that limits the time step" in error
 
 
 def test_step_below_min(lmp):
