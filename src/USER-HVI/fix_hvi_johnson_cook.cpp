@@ -15,9 +15,9 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "hvi_damage.h"
+#include "hvi_laws.h"
 #include "hvi_material.h"
-#include "hvi_strength_laws.h"
+#include "hvi_vector.h"
 #include "memory.h"
 #include "modify.h"
 #include "pair_hvi_sph.h"
@@ -29,7 +29,7 @@ using namespace LAMMPS_NS;
 
 struct FixHVIJohnsonCook::Laws {
   std::unique_ptr<HVI::Strength> strength;
-  std::unique_ptr<HVI::DamageJohnsonCook> damage;
+  std::unique_ptr<HVI::Damage> damage;
   double sigma_p = 0.0;                    // limit of tension, spall
   double T0 = 0.0, cp = 0.0, chi = 1.0;    // temperature from plastic work
 };
@@ -355,9 +355,7 @@ void FixHVIJohnsonCook::first_half(double dt)
 
 void FixHVIJohnsonCook::send(int i, const Laws *law, const HVI::Deviator &S)
 {
-  double p_min = -INFINITY;
-  if (law && spall == HVI::Spall::PRESSURE) p_min = -law->sigma_p;
-  if (law && failed(i)) p_min = 0.0;
+  const double p_min = law ? HVI::least_pressure(spall, failed(i), law->sigma_p) : -HVI::NO_LIMIT;
   solid[i].sent = {S, p_min, solid[i].shear};
 }
 
