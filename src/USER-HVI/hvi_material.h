@@ -33,7 +33,7 @@ class Material {
   std::string name;                 // as the user typed it
   std::string date;                 // DATE: of the file, or empty
   std::string table, table_date;    // of the equation of state, if it is a table
-  std::unique_ptr<Eos> eos;
+  std::shared_ptr<const Eos> eos;
   std::vector<Section> sections;    // all but eos
 
   // null if the file does not describe that law
