@@ -17,9 +17,8 @@
 #include "error.h"
 #include "fix_hvi_store.h"
 #include "force.h"
-#include "hvi_damage.h"
 #include "hvi_material.h"
-#include "hvi_strength_laws.h"
+#include "hvi_vector.h"
 #include "memory.h"
 #include "modify.h"
 
@@ -28,19 +27,10 @@
 
 using namespace LAMMPS_NS;
 
-struct FixHVIJohnsonCook::Laws {
-  std::unique_ptr<HVI::Strength> strength;
-  std::unique_ptr<HVI::DamageJohnsonCook> damage;
-  double sigma_p = 0.0;                    // limit of tension, spall
-  double T0 = 0.0, cp = 0.0, chi = 1.0;    // temperature from plastic work
-};
-
 /* ---------------------------------------------------------------------- */
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), strength_name("johnson-cook"), spall(HVI::Spall::PRINCIPAL),
-    with_damage(1), thermal(1), from_work(0), weibull(0.0), weibull_seed(0), solid(nullptr),
-    store(nullptr), fresh(true),
+    Fix(lmp, narg, arg), solid(nullptr), store(nullptr), fresh(true),
     state_rows(lmp, id, "Sxx Syy Szz Sxy Sxz Syz eps damage spalled heat"),
     force_rows(lmp, std::string(id) + "_forces",
                "Sxx Syy Szz Sxy Sxz Syz p_min shear_then shear rate")
@@ -54,50 +44,51 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
       utils::missing_cmd_args(FLERR, fmt::format("fix hvi/johnson-cook {}", key), error);
     const std::string value = arg[iarg + 1];
     if (key == "strength") {
-      strength_name = value;
+      options.strength = value;
     } else if (key == "damage") {
-      with_damage = utils::logical(FLERR, value, false, lmp);
+      options.damage = utils::logical(FLERR, value, false, lmp);
     } else if (key == "thermal") {
-      thermal = utils::logical(FLERR, value, false, lmp);
+      options.thermal = utils::logical(FLERR, value, false, lmp);
     } else if (key == "temperature") {
       if (value != "energy" && value != "work")
         error->all(FLERR, "Fix hvi/johnson-cook temperature must be energy or work, not {}", value);
-      from_work = value == "work";
+      options.from_work = value == "work";
     } else if (key == "spall") {
       spall_name = value;
       if (value == "none")
-        spall = HVI::Spall::NONE;
+        options.spall = HVI::Spall::NONE;
       else if (value == "pressure")
-        spall = HVI::Spall::PRESSURE;
+        options.spall = HVI::Spall::PRESSURE;
       else if (value == "principal")
-        spall = HVI::Spall::PRINCIPAL;
+        options.spall = HVI::Spall::PRINCIPAL;
       else if (value == "zero")
-        spall = HVI::Spall::ZERO;
+        options.spall = HVI::Spall::ZERO;
       else
         error->all(FLERR,
                    "Fix hvi/johnson-cook spall must be none, pressure, principal or zero, not {}",
                    value);
     } else if (key == "weibull") {
-      weibull = utils::numeric(FLERR, value, false, lmp);
-      weibull_seed = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
-      if (!(weibull >= 0.01 && std::isfinite(weibull)))    // Gamma(1 + 1/modulus) is finite
+      options.weibull = utils::numeric(FLERR, value, false, lmp);
+      options.seed = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
+      if (!(options.weibull >= 0.01 &&
+            std::isfinite(options.weibull)))    // Gamma(1 + 1/modulus) is finite
         error->all(FLERR, "Fix hvi/johnson-cook weibull modulus must be 0.01 or more, not {}",
                    value);
-      if (weibull_seed <= 0)
+      if (options.seed <= 0)
         error->all(FLERR, "Fix hvi/johnson-cook weibull seed must be > 0, not {}", arg[iarg + 2]);
     } else
       error->all(FLERR, "Unknown fix hvi/johnson-cook keyword: {}", key);
     iarg += 1 + nvalues;
   }
-  if (weibull > 0.0 && !with_damage)
+  if (options.weibull > 0.0 && !options.damage)
     error->all(FLERR, "Fix hvi/johnson-cook weibull scatters damage: it needs damage yes");
-  if (weibull > 0.0 && !atom->tag_enable)
+  if (options.weibull > 0.0 && !atom->tag_enable)
     error->all(FLERR, "Fix hvi/johnson-cook weibull needs IDs of particles");
 
-  text = fmt::format("strength {} damage {} spall {} temperature {} thermal {}", strength_name,
-                     with_damage ? "yes" : "no", spall_name, from_work ? "work" : "energy",
-                     thermal ? "yes" : "no");
-  if (weibull > 0.0) text += fmt::format(" weibull {} {}", weibull, weibull_seed);
+  text = fmt::format("strength {} damage {} spall {} temperature {} thermal {}", options.strength,
+                     options.damage ? "yes" : "no", spall_name,
+                     options.from_work ? "work" : "energy", options.thermal ? "yes" : "no");
+  if (options.weibull > 0.0) text += fmt::format(" weibull {} {}", options.weibull, options.seed);
 
   restart_global = 1;
   restart_peratom = 1;
@@ -152,59 +143,56 @@ void FixHVIJohnsonCook::init()
   state_rows.forget();
   force_rows.forget();
 
-  laws.clear();
+  models.clear();
+  models.resize(atom->ntypes + 1);
+  warned.resize(atom->ntypes + 1, 0);
   bool found = false;
-  laws.resize(atom->ntypes + 1);
   for (int itype = 1; itype <= atom->ntypes; itype++) {
     const HVI::Material *const material = store->materials.of(itype);
-    if (!material) continue;
-    const HVI::Section *const section = material->section("strength", strength_name);
-    if (!section) continue;    // types without strength are fluids
+    if (!material || !material->section("strength", options.strength)) continue;    // fluids
     found = true;
-    auto made = std::make_unique<Laws>();
     std::string problem;
-    made->strength = HVI::make_strength(*section, problem);
-    if (!made->strength)
-      error->all(FLERR, "Fix hvi/johnson-cook: strength {} of material {} (type {}): {}",
-                 strength_name, material->name, itype, problem);
-    if (with_damage) {
-      const HVI::Section *const d = material->section("damage", "johnson-cook");
-      if (!d)
-        error->all(
-            FLERR,
-            "Fix hvi/johnson-cook: material {} (type {}) has no section damage johnson-cook; "
-            "use damage no",
-            material->name, itype);
-      made->damage = HVI::make_damage(*d, problem);
-      if (!made->damage)
-        error->all(FLERR, "Fix hvi/johnson-cook: damage of material {} (type {}): {}",
-                   material->name, itype, problem);
-    }
-    if (spall != HVI::Spall::NONE) {
-      const HVI::Section *const s = material->section("spall", "limit");
-      if (!s && comm->me == 0)
-        error->warning(FLERR,
-                       "Fix hvi/johnson-cook: material {} (type {}) has no section spall limit and "
-                       "does not spall",
-                       material->name, itype);
-      made->sigma_p = s ? s->values.at("sigma_p") : INFINITY;
-    }
-    const HVI::Eos &eos = *material->eos;
-    made->T0 = eos.temperature(eos.rho0(), 0.0);
-    const double little = 1.0e-4 * eos.c0() * eos.c0();
-    made->cp = little / (eos.temperature(eos.rho0(), little) - made->T0);
-    const HVI::Section *const heat = material->section("thermal", "work");
-    if (heat) made->chi = heat->values.at("chi");
-    if (from_work && !(made->cp > 0.0))
-      error->all(
-          FLERR,
-          "Fix hvi/johnson-cook temperature work: the equation of state of material {} (type "
-          "{}) has no heat capacity",
-          material->name, itype);
-    laws[itype] = std::move(made);
+    models[itype] = HVI::SolidModel::make(*material, options, problem);
+    if (!models[itype])
+      error->all(FLERR, "Fix hvi/johnson-cook: material {} (type {}) {}", material->name, itype,
+                 problem);
+    if (options.spall == HVI::Spall::NONE || models[itype]->spall_limited() || warned[itype])
+      continue;
+    warned[itype] = 1;
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "Fix hvi/johnson-cook: material {} (type {}) has no section spall limit and "
+                     "does not spall",
+                     material->name, itype);
   }
   if (!found)
-    error->all(FLERR, "Fix hvi/johnson-cook: no material has a section strength {}", strength_name);
+    error->all(FLERR, "Fix hvi/johnson-cook: no material has a section strength {}",
+               options.strength);
+}
+
+/* ---------------------------------------------------------------------- */
+
+const HVI::SolidModel *FixHVIJohnsonCook::of(int i) const
+{
+  return (atom->mask[i] & groupbit) ? models[atom->type[i]].get() : nullptr;
+}
+
+double FixHVIJohnsonCook::plastic_work(int i) const
+{
+  return (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * solid[i].heat;
+}
+
+// what the model of a particle needs of the last forces; before the first there are none
+
+HVI::SolidInput FixHVIJohnsonCook::input(int i, Needs needs) const
+{
+  HVI::SolidInput in = {};
+  in.rho = atom->rho[i];
+  in.e = atom->esph[i] / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
+  if (needs >= FORCES) in.p = store->fields.pressure(i);
+  if (needs >= GRADIENT) in.L = store->fields.velocity_gradient(i);
+  if (options.weibull > 0.0) in.id = atom->tag[i];
+  return in;
 }
 
 /* ----------------------------------------------------------------------
@@ -214,171 +202,59 @@ void FixHVIJohnsonCook::init()
 void FixHVIJohnsonCook::start(int i, bool anew)
 {
   fresh = true;
-  const Laws *const law = of(i);
-  Solid &s = solid[i];
-  anew = anew || s.sent.shear == UNSENT;
-  if (anew && law && s.shear == 0.0 && !failed(i))
-    s.shear = law->strength->shear_modulus(conditions(i, 0.0));    // there is no pressure yet
-  if (!anew) return;
-  s.yield = UNKNOWN;
-  send(i, law, s.S);
+  if (const HVI::SolidModel *const model = of(i))
+    model->start(solid[i], input(i, STATE), anew);
+  else if (anew || !HVI::SolidModel::started(solid[i]))
+    HVI::SolidModel::liquefy(solid[i]);
 }
 
 /* ---------------------------------------------------------------------- */
 
-const FixHVIJohnsonCook::Laws *FixHVIJohnsonCook::of(int i) const
-{
-  return (atom->mask[i] & groupbit) ? laws[atom->type[i]].get() : nullptr;
-}
-
-double FixHVIJohnsonCook::temperature(int i) const
-{
-  const int itype = atom->type[i];
-  if (from_work && laws[itype])
-    return laws[itype]->T0 + laws[itype]->chi * solid[i].heat / laws[itype]->cp;
-  const double m = atom->rmass ? atom->rmass[i] : atom->mass[itype];
-  return store->materials.of(itype)->eos->temperature(atom->rho[i], atom->esph[i] / m);
-}
-
-double FixHVIJohnsonCook::plastic_work(int i) const
-{
-  return (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * solid[i].heat;
-}
-
-double FixHVIJohnsonCook::scatter(int i) const
-{
-  return weibull > 0.0 ? HVI::weibull_factor(weibull_seed, atom->tag[i], weibull) : 1.0;
-}
-
-HVI::Conditions FixHVIJohnsonCook::conditions(int i, double p) const
-{
-  const double rho0 = store->materials.of(atom->type[i])->eos->rho0();
-  return {atom->rho[i], rho0, p, thermal ? temperature(i) : NAN};
-}
-
-/* ----------------------------------------------------------------------
-   dS/dt of the last forces' velocity gradient and stress moves S on by dt; radial return and
-   damage.  Rubble bears no shear.
-------------------------------------------------------------------------- */
-
-HVI::Deviator FixHVIJohnsonCook::rate(int i) const
-{
-  return HVI::jaumann_rate(store->fields.velocity_gradient(i), solid[i].shear, solid[i].sent.S);
-}
-
-static void add(HVI::Deviator &s, double dt, const HVI::Deviator &r)
-{
-  s.xx += dt * r.xx;
-  s.yy += dt * r.yy;
-  s.zz += dt * r.zz;
-  s.xy += dt * r.xy;
-  s.xz += dt * r.xz;
-  s.yz += dt * r.yz;
-}
-
-void FixHVIJohnsonCook::advance(int n, const int *who, const Laws &law, double dt)
-{
-  HVI::Conditions c[HVI::LANES] = {};
-  HVI::Deviator trial[HVI::LANES] = {};
-  double shear[HVI::LANES] = {}, eps[HVI::LANES] = {};
-  HVI::Plastic plastic[HVI::LANES];
-  for (int k = 0; k < n; k++) {
-    Solid &s = solid[who[k]];
-    c[k] = conditions(who[k], store->fields.pressure(who[k]));
-    shear[k] = s.shear = law.strength->shear_modulus(c[k]);
-    eps[k] = s.eps;
-    trial[k] = s.middle;
-    s.middle = rate(who[k]);
-    add(trial[k], 0.5 * dt, s.middle);
-  }
-  law.strength->radial_return(n, trial, dt, shear, eps, c, plastic);
-
-  for (int k = 0; k < n; k++) {
-    const int i = who[k];
-    Solid &s = solid[i];
-    if (std::isnan(plastic[k].d_eps))
-      error->one(FLERR, "Fix hvi/johnson-cook: stress of particle {} is not a number",
-                 atom->tag[i]);
-    s.S = plastic[k].S;
-    s.yield = plastic[k].yield;
-    s.eps += plastic[k].d_eps;
-    s.heat += plastic[k].work / c[k].rho;
-    s.rate = plastic[k].d_eps / dt;
-    if (law.damage && plastic[k].d_eps > 0.0)
-      s.damage += law.damage->increment(plastic[k].d_eps, dt, c[k].p, s.yield,
-                                        law.strength->homologous_temperature(c[k]), scatter(i));
-    if (s.damage >= 1.0) {
-      rubble(i);
-    } else if (HVI::spalls(spall, c[k].p, s.S, law.sigma_p)) {
-      s.spalled = 1.0;
-      rubble(i);
-    }
-  }
-}
-
-void FixHVIJohnsonCook::rubble(int i)
-{
-  solid[i].S = HVI::Deviator();
-  solid[i].shear = solid[i].rate = 0.0;
-}
-
-/* ----------------------------------------------------------------------
-   Half of the elastic trial stress; and S extrapolated to the end of the step for the
-   forces, back to the yield surface, without plastic strain.  The second half, with
-   the new velocity gradient, brings the radial return.
-------------------------------------------------------------------------- */
-
 void FixHVIJohnsonCook::first_half(double dt)
 {
   for (int i = 0; i < atom->nlocal; i++) {
-    const Laws *const law = of(i);
-    if (!law) continue;
-    Solid &s = solid[i];
-    HVI::Deviator ahead = s.S;
-    if (!failed(i)) {
-      const HVI::Deviator dS = fresh ? rate(i) : s.middle;
-      s.middle = s.S;
-      add(s.middle, 0.5 * dt, dS);
-      add(ahead, dt, dS);
-      const double stress = HVI::von_mises(ahead);
-      if (s.yield == UNKNOWN)
-        s.yield = s.rate > 0.0
-            ? HVI::von_mises(s.S)
-            : law->strength->yield(s.eps, 0.0, conditions(i, store->fields.pressure(i)));
-      if (stress > s.yield) ahead = HVI::scaled(ahead, s.yield / stress);
-    }
-    send(i, law, ahead);
+    const HVI::SolidModel *const model = of(i);
+    if (!model) continue;
+    if (fresh || !model->ready(solid[i]))
+      model->prepare(solid[i], input(i, fresh ? GRADIENT : FORCES), fresh);
+    model->first_half(solid[i], dt);
   }
   fresh = false;
 }
 
 /* ----------------------------------------------------------------------
-   what neighbors will know of i
+   particles of one type after another, as many at a time as vectors have lanes
 ------------------------------------------------------------------------- */
-
-void FixHVIJohnsonCook::send(int i, const Laws *law, const HVI::Deviator &S)
-{
-  double p_min = -INFINITY;
-  if (law && spall == HVI::Spall::PRESSURE) p_min = -law->sigma_p;
-  if (law && failed(i)) p_min = 0.0;
-  solid[i].sent = {S, p_min, solid[i].shear};
-}
 
 void FixHVIJohnsonCook::second_half(double dt)
 {
   int who[HVI::LANES], n = 0;
-  const Laws *now = nullptr;    // of those in who
+  const HVI::SolidModel *now = nullptr;    // of those in who
   for (int i = 0; i < atom->nlocal; i++) {
-    const Laws *const law = of(i);
-    if (!law || failed(i)) continue;
-    if (n == HVI::LANES || law != now) {
-      if (n) advance(n, who, *now, dt);
+    const HVI::SolidModel *const model = of(i);
+    if (!model || failed(i)) continue;
+    if (n == HVI::LANES || model != now) {
+      if (n) second_half(n, who, dt);
       n = 0;
-      now = law;
+      now = model;
     }
     who[n++] = i;
   }
-  if (n) advance(n, who, *now, dt);
+  if (n) second_half(n, who, dt);
+}
+
+void FixHVIJohnsonCook::second_half(int n, const int *who, double dt)
+{
+  Solid *states[HVI::LANES];
+  HVI::SolidInput in[HVI::LANES];
+  for (int k = 0; k < n; k++) {
+    states[k] = &solid[who[k]];
+    in[k] = input(who[k], GRADIENT);
+  }
+  const int wrong = of(who[0])->second_half(n, states, in, dt);
+  if (wrong >= 0)
+    error->one(FLERR, "Fix hvi/johnson-cook: stress of particle {} is not a number",
+               atom->tag[who[wrong]]);
 }
 
 /* ----------------------------------------------------------------------
@@ -387,8 +263,5 @@ void FixHVIJohnsonCook::second_half(double dt)
 
 void FixHVIJohnsonCook::reflect(int i, int op)
 {
-  const HVI::Reflection reflection(op);
-  reflection.symmetric(solid[i].S);
-  reflection.symmetric(solid[i].sent.S);
-  reflection.symmetric(solid[i].middle);
+  HVI::SolidModel::reflect(solid[i], op);
 }

@@ -18,9 +18,8 @@ FixStyle(hvi/johnson-cook,FixHVIJohnsonCook);
 #include "fix.h"
 #include "hvi_data_rows.h"
 #include "hvi_energy_carrier.h"
-#include "hvi_spall.h"
+#include "hvi_solid_model.h"
 #include "hvi_sph.h"
-#include "hvi_strength.h"
 
 #include <memory>
 #include <string>
@@ -30,23 +29,7 @@ namespace LAMMPS_NS {
 
 class FixHVIJohnsonCook : public Fix, public HVI::EnergyCarrier {
  public:
-  // of a solid particle
-
-  struct Solid {
-    HVI::Deviator S;    // deviatoric stress, of the time of v, rho, e
-    struct {
-      HVI::Deviator S;
-      double p_min, shear;
-    } sent;    // extrapolated to the full step, as in the forces; changes before them only
-    HVI::Deviator middle;    // trial stress in the middle of the step; between steps rate of S
-    double eps;              // equivalent plastic strain
-    double damage;           // failed from 1 on
-    double spalled;          // 1: spalled for good
-    double heat;             // plastic work per mass
-    double shear;            // modulus
-    double rate;             // of plastic strain
-    double yield;            // von Mises's stress on the yield surface of S
-  };
+  using Solid = HVI::SolidState;
 
   FixHVIJohnsonCook(class LAMMPS *, int, char **);
   ~FixHVIJohnsonCook() override;
@@ -84,34 +67,20 @@ class FixHVIJohnsonCook : public Fix, public HVI::EnergyCarrier {
 
   HVI::SphStress stress(int i) const
   {
-    const HVI::Deviator &S = solid[i].sent.S;
-    return {S.xx,
-            S.yy,
-            S.zz,
-            S.xy,
-            S.xz,
-            S.yz,
-            solid[i].sent.p_min,
-            solid[i].sent.shear > 0.0 ? solid[i].sent.shear : 0.0};
+    const Solid::Seen &s = solid[i].seen;
+    return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, s.p_min, s.shear > 0.0 ? s.shear : 0.0};
   }
   const Solid &state(int i) const { return solid[i]; }
-  double temperature(int) const;
   double plastic_work(int) const override;    // energy, from the start on
-  bool failed(int i) const { return solid[i].damage >= 1.0 || solid[i].spalled != 0.0; }
+  bool failed(int i) const { return solid[i].failed(); }
 
  private:
   static constexpr int NSOLID = sizeof(Solid) / sizeof(double);
-  static constexpr double UNKNOWN = -1.0;    // yield
-  static constexpr double UNSENT = -1.0;     // sent.shear, before the first forces
 
-  struct Laws;    // of a type
-  std::vector<std::unique_ptr<Laws>> laws;
-  std::string strength_name;
-  HVI::Spall spall;
-  int with_damage, thermal, from_work;
-  double weibull;    // modulus of the scatter of damage, 0: none
-  int weibull_seed;
+  HVI::SolidOptions options;
   std::string text, restored;    // settings, and those in the restart file
+  std::vector<std::unique_ptr<HVI::SolidModel>> models;    // of types; null: no solid
+  std::vector<int> warned;                                 // of types that do not spall
 
   Solid *solid;
   class FixHVIStore *store;
@@ -119,14 +88,10 @@ class FixHVIJohnsonCook : public Fix, public HVI::EnergyCarrier {
   HVIDataRows state_rows, force_rows;    // sections of data files
 
   HVIDataRows &rows(int section) { return section == 0 ? state_rows : force_rows; }
-  static Solid blank();         // of a new particle
-  const Laws *of(int) const;    // null: no solid
-  HVI::Conditions conditions(int, double) const;
-  HVI::Deviator rate(int) const;
-  void advance(int, const int *, const Laws &, double);
-  void rubble(int);
-  double scatter(int) const;
-  void send(int, const Laws *, const HVI::Deviator &);
+  const HVI::SolidModel *of(int) const;      // null: no solid
+  enum Needs { STATE, FORCES, GRADIENT };    // each with those before it
+  HVI::SolidInput input(int, Needs) const;
+  void second_half(int, const int *, double);
 };
 
 }    // namespace LAMMPS_NS

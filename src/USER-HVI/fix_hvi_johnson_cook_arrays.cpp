@@ -26,21 +26,10 @@
 
 using namespace LAMMPS_NS;
 
-FixHVIJohnsonCook::Solid FixHVIJohnsonCook::blank()
-{
-  Solid s = {};
-  s.sent.p_min = -INFINITY;
-  s.sent.shear = UNSENT;
-  s.yield = UNKNOWN;
-  return s;
-}
-
-/* ---------------------------------------------------------------------- */
-
 void FixHVIJohnsonCook::set_arrays(int i)
 {
   const bool state = state_rows.take(i), forces = force_rows.take(i);
-  if (!state && !forces) solid[i] = blank();
+  if (!state && !forces) solid[i] = HVI::SolidModel::blank();
 }
 
 void FixHVIJohnsonCook::grow_arrays(int n)
@@ -121,13 +110,13 @@ void FixHVIJohnsonCook::write_data_section_pack(int section, double **buf)
   rows(section).pack_ids(buf);
   for (int i = 0; i < atom->nlocal; i++) {
     const Solid &s = solid[i];
-    const HVI::Deviator &S = section == 0 ? s.S : s.sent.S;
+    const HVI::Deviator &S = section == 0 ? s.S : s.seen.S;
     double *to = buf[i] + 1;
     for (const double value : {S.xx, S.yy, S.zz, S.xy, S.xz, S.yz}) *to++ = value;
     if (section == 0)
       for (const double value : {s.eps, s.damage, s.spalled, s.heat}) *to++ = value;
     else
-      for (const double value : {std::max(s.sent.p_min, -DBL_MAX), s.sent.shear, s.shear, s.rate})
+      for (const double value : {std::max(s.seen.p_min, -DBL_MAX), s.seen.shear, s.shear, s.rate})
         *to++ = value;
   }
 }
@@ -147,11 +136,11 @@ void FixHVIJohnsonCook::read_data_section(char *keyword, int n, char *buf, tagin
   const bool forces =    // sections of another fix end alike
       keyword != state_rows.title() && utils::strmatch(keyword, "_forces$");
   rows(forces).read(n, buf, offset, [this, forces](int i, const double *c) {
-    if (!state_rows.has(i) && !force_rows.has(i)) solid[i] = blank();
+    if (!state_rows.has(i) && !force_rows.has(i)) solid[i] = HVI::SolidModel::blank();
     Solid &s = solid[i];
     const HVI::Deviator S = {c[0], c[1], c[2], c[3], c[4], c[5]};
     if (forces) {
-      s.sent = {S, c[6] > -DBL_MAX ? c[6] : -INFINITY, c[7]};
+      s.seen = {S, c[6] > -DBL_MAX ? c[6] : -INFINITY, c[7]};
       s.shear = c[8];
       s.rate = c[9];
     } else {

@@ -9,13 +9,60 @@
 #ifndef LMP_HVI_DAMAGE_H
 #define LMP_HVI_DAMAGE_H
 
-#include "hvi_damage_johnson_cook.h"
-#include "hvi_spall.h"
+#include "hvi_parameter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 namespace HVI {
+
+/* ----------------------------------------------------------------------
+   Damage of a solid: grows from 0 with plastic strain; at 1 it has failed.
+
+   A law is a plain struct in a header of its own, an entry in the list of hvi_laws.cpp, and has
+     name
+     params[]                     its table of parameters
+     problem(const double *)      if it has any: what is wrong with values that are right one by one
+     make(const double *)         from values in the order of params
+     increment(...)               as below
+------------------------------------------------------------------------- */
+
+class Damage {
+ public:
+  virtual ~Damage() = default;
+  virtual const char *name() const = 0;
+
+  // dD of a step dt with the plastic strain d_eps; p and von Mises's stress vm are those at its end,
+  // tstar is the law of strength's.  scatter multiplies the strain at failure.
+
+  virtual double increment(double d_eps, double dt, double p, double vm, double tstar,
+                           double scatter) const = 0;
+};
+
+template <class Law> class DamageModel final : public Damage {
+ public:
+  explicit DamageModel(const Law &law) : law(law) {}
+
+  const char *name() const override { return law.name; }
+
+  double increment(double d_eps, double dt, double p, double vm, double tstar,
+                   double scatter) const override
+  {
+    return law.increment(d_eps, dt, p, vm, tstar, scatter);
+  }
+
+ private:
+  Law law;
+};
+
+// mean stress, positive in tension, over von Mises's; held within +-10, and 0 without stress
+
+inline double triaxiality(double p, double vm)
+{
+  if (p == 0.0) return 0.0;
+  return std::max(std::min(-p / vm, 10.0), -10.0);
+}
 
 /* ----------------------------------------------------------------------
    Scatter of a threshold from particle to particle: a factor with Weibull's

@@ -9,10 +9,7 @@
 #ifndef LMP_HVI_DAMAGE_JOHNSON_COOK_H
 #define LMP_HVI_DAMAGE_JOHNSON_COOK_H
 
-#include "hvi_parameter.h"
-
-#include <algorithm>
-#include <cmath>
+#include "hvi_damage.h"
 
 namespace HVI {
 
@@ -21,18 +18,11 @@ namespace HVI {
 
      dD = d_eps/eps_f
      eps_f = [D1 + D2 exp(D3 s*)] [1 + D4 ln(epsdot/epsdot0)] [1 + D5 T*]
-     s* = mean stress/von Mises's stress = -p/sqrt(3/2 S:S), positive in tension
+     s* = triaxiality = -p/sqrt(3/2 S:S)
 
    No bracket counts as less than 0, the logarithm neither, and eps_f is not
-   below 1e-6.  s* is held within +-10, and is 0 without stress.  A particle
-   has failed when D has come to 1.
+   below 1e-6.
 ------------------------------------------------------------------------- */
-
-inline double triaxiality(double p, double vm)
-{
-  if (p == 0.0) return 0.0;
-  return std::max(std::min(-p / vm, 10.0), -10.0);
-}
 
 struct DamageJohnsonCook {
   static constexpr const char *name = "johnson-cook";
@@ -45,7 +35,6 @@ struct DamageJohnsonCook {
 
   double D1, D2, D3, D4, D5, epsdot0;
 
-  static std::string problem(const double *) { return ""; }
   static DamageJohnsonCook make(const double *v) { return {v[0], v[1], v[2], v[3], v[4], v[5]}; }
 
   // tstar from the law of strength; a rate that is not above epsdot0, or not known, does nothing
@@ -58,10 +47,7 @@ struct DamageJohnsonCook {
     return strain < FLOOR ? FLOOR : strain;
   }
 
-  // dD of a step; p and von Mises's stress vm are those at its end.  scatter multiplies eps_f.
-
-  double increment(double d_eps, double dt, double p, double vm, double tstar,
-                   double scatter = 1.0) const
+  double increment(double d_eps, double dt, double p, double vm, double tstar, double scatter) const
   {
     if (d_eps == 0.0) return 0.0;
     const double rate = dt > 0.0 ? d_eps / dt : 0.0;

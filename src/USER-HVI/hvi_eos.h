@@ -53,7 +53,6 @@ class Eos {
   virtual bool evaluate(double rho, double e, double &p, double &csq) const = 0;
 
   virtual double temperature(double rho, double e) const = 0;    // NaN without a heat capacity
-  virtual std::unique_ptr<Eos> clone() const = 0;
 };
 
 template <class Law> class EosModel final : public Eos {
@@ -78,7 +77,6 @@ template <class Law> class EosModel final : public Eos {
   }
 
   double temperature(double rho, double e) const override { return law.temperature(rho, e); }
-  std::unique_ptr<Eos> clone() const override { return std::make_unique<EosModel>(*this); }
 
  private:
   Law law;

@@ -8,7 +8,7 @@
 
 #include "hvi_material.h"
 
-#include "hvi_strength_laws.h"
+#include "hvi_laws.h"
 #include "hvi_text.h"
 
 #include <cmath>
@@ -17,76 +17,36 @@ namespace HVI {
 
 namespace {
 
-  // ---------------------------------------------------------------- laws beside the equation of state
-
-  // the tension, of pressure or of the largest principal stress, that the material bears
-
-  constexpr Parameter SPALL_LIMIT[] = {{"sigma_p", PRESSURE, POSITIVE, REQUIRED}};
-
-  // fraction of the plastic work that heats (Taylor & Quinney)
-
-  constexpr Parameter THERMAL_WORK[] = {{"chi", NUMBER, FRACTION, REQUIRED}};
-
-  struct Law {
-    const char *kind, *law;
-    int n;
-    const Parameter *params;
-  };
-
-  template <int N>
-  constexpr Law law(const char *kind, const char *name, const Parameter (&params)[N])
-  {
-    return {kind, name, N, params};
-  }
-
-  template <class L> constexpr Law law(const char *kind)
-  {
-    return law(kind, L::name, L::params);
-  }
-
-  // the only list of laws beside those of hvi_eos.cpp
-
-  constexpr Law LAWS[] = {
-      law<StrengthJohnsonCook>("strength"),   law<StrengthSteinbergGuinan>("strength"),
-      law<StrengthCowperSymonds>("strength"), law<StrengthPerfect>("strength"),
-      law<DamageJohnsonCook>("damage"),       law("spall", "limit", SPALL_LIMIT),
-      law("thermal", "work", THERMAL_WORK),
-  };
-
-  const char *KINDS[] = {"eos", "strength", "damage", "spall", "thermal"};
+  // all laws: those of hvi_eos.cpp and those of hvi_laws.cpp
 
   bool is_kind(const std::string &word)
   {
-    for (const char *kind : KINDS)
-      if (word == kind) return true;
-    return false;
+    return word == "eos" || is_kind_of_law(word);
   }
 
   std::string kinds()
   {
-    std::string names;
-    for (const char *kind : KINDS) names += (names.empty() ? "" : ", ") + std::string(kind);
-    return names;
+    return "eos, " + kinds_of_laws();
   }
 
   std::string laws_of(const std::string &kind)
   {
-    if (kind == "eos") return eos_names();
-    std::string names;
-    for (const Law &l : LAWS)
-      if (kind == l.kind) names += (names.empty() ? "" : ", ") + std::string(l.law);
-    return names;
+    return kind == "eos" ? eos_names() : law_names(kind);
   }
 
-  const Parameter *find_params(const std::string &kind, const std::string &name, int &n)
+  // false: no such law
+
+  bool find_params(const std::string &kind, const std::string &name, const Parameter *&params,
+                   int &n)
   {
-    if (kind == "eos") return eos_params(name, n);
-    for (const Law &l : LAWS)
-      if (kind == l.kind && name == l.law) {
-        n = l.n;
-        return l.params;
-      }
-    return nullptr;
+    params = nullptr;
+    n = 0;
+    if (kind == "eos") return (params = eos_params(name, n)) || name == EOS_TABLE;
+    const LawEntry *const law = find_law(kind, name);
+    if (!law) return false;
+    params = law->params;
+    n = law->nparams;
+    return true;
   }
 
   // powers of ten of the units of mass, length and time in kg, m, s
@@ -223,8 +183,7 @@ std::string parse_material(const std::string &text, const std::string &filename,
       open.kind = key;
       open.law = words[1];
       open.line = lines.line;
-      open.params = find_params(key, open.law, open.n);
-      if (!open.params && !open.table())
+      if (!find_params(key, open.law, open.params, open.n))
         return lines.here("unknown law " + open.label() + "; known are " + laws_of(key));
       if (words.size() > 2) return lines.here(open.label() + ": unexpected text " + words[2]);
       for (const Open &old : opened)
@@ -255,6 +214,7 @@ std::string parse_material(const std::string &text, const std::string &filename,
     int i = 0;
     while (i < open.n && key != open.params[i].key) i++;
     if (i == open.n) {
+      if (!open.n) return lines.here(label + "takes no keys, but got " + key);
       std::string known;
       for (int k = 0; k < open.n; k++) known += " " + std::string(open.params[k].key);
       return lines.here(label + "unknown key " + key + "; known are" + known);

@@ -10,9 +10,9 @@
 #define LMP_HVI_MATERIAL_H
 
 #include "hvi_eos.h"
+#include "hvi_section.h"
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,22 +28,15 @@ namespace HVI {
    run, the parameters of the other laws its file describes.
 ------------------------------------------------------------------------- */
 
-// a section of a file, as "strength johnson-cook": values of all keys of the law, given or preset
-
-struct Section {
-  std::string kind, law;
-  std::map<std::string, double> values;
-};
-
 class Material {
  public:
   std::string name;                 // as the user typed it
   std::string date;                 // DATE: of the file, or empty
   std::string table, table_date;    // of the equation of state, if it is a table
-  std::unique_ptr<Eos> eos;
+  std::shared_ptr<const Eos> eos;
   std::vector<Section> sections;    // all but eos
 
-  // kind is strength, damage, spall or thermal; null if the file does not describe that law
+  // null if the file does not describe that law
 
   const Section *section(const std::string &kind, const std::string &law) const;
 };

@@ -9,6 +9,7 @@
 #ifndef LMP_HVI_SPALL_H
 #define LMP_HVI_SPALL_H
 
+#include "hvi_parameter.h"
 #include "hvi_stress.h"
 
 #include <Eigen/Eigenvalues>
@@ -40,7 +41,7 @@ inline double largest_principal(const Deviator &S)
   return solver.eigenvalues()[2];
 }
 
-// Whether a particle spalls under the stress -p I + S.  That of the law is meant, before clip_stress().
+// Whether a particle spalls under the stress -p I + S.  That of the law is meant, before clip_tension().
 
 inline bool spalls(Spall model, double p, const Deviator &S, double sigma_p)
 {
@@ -52,15 +53,18 @@ inline bool spalls(Spall model, double p, const Deviator &S, double sigma_p)
   return largest_principal(S) - p > sigma_p;
 }
 
-// What p and S become.  rubble: has spalled or failed, now or before.
+// The least pressure that is borne: -infinity, -sigma_p, or 0 of rubble, which has spalled or failed,
+// now or before; and what becomes of a pressure by it.  The one law of tension.
 
-inline void clip_stress(Spall model, bool rubble, double sigma_p, double &p, Deviator &S)
+inline double least_pressure(Spall model, bool rubble, double sigma_p)
 {
-  if (rubble) {
-    S = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    if (p < 0.0) p = 0.0;
-  } else if (model == Spall::PRESSURE && p < -sigma_p)
-    p = -sigma_p;
+  if (rubble) return 0.0;
+  return model == Spall::PRESSURE ? -sigma_p : -NO_LIMIT;
+}
+
+inline double clip_tension(double p, double p_min)
+{
+  return p < p_min ? p_min : p;
 }
 
 }    // namespace HVI

@@ -33,7 +33,6 @@ struct StrengthCowperSymonds {
 
   double G, Y0, D, p;
 
-  static std::string problem(const double *) { return ""; }
   static StrengthCowperSymonds make(const double *v) { return {v[0], v[1], v[2], v[3]}; }
 
   double modulus(const Conditions &) const { return G; }

@@ -20,8 +20,7 @@ namespace HVI {
      Y = (A + B eps^n) (1 + C ln(epsdot/epsdot0)) (1 - T*^m)
      T* = (T - Tref)/(Tm - Tref) in [0, 1]
 
-   G is constant below Tm.  The factor of the rate is not below 1, unless
-   slow is set: then it goes on falling, to 0.
+   G is constant below Tm.  The factor of the rate is not below 1.
 ------------------------------------------------------------------------- */
 
 struct StrengthJohnsonCook {
@@ -35,7 +34,6 @@ struct StrengthJohnsonCook {
   };
 
   double G, A, B, n, C, m, epsdot0, Tref, Tm;
-  bool slow = false;
 
   static std::string problem(const double *v) { return v[8] > v[7] ? "" : "Tm must be above Tref"; }
 
@@ -67,8 +65,8 @@ struct StrengthJohnsonCook {
   double flow(double eps, double rate) const
   {
     const double y = A + B * std::pow(eps, n);
-    if (!(rate > epsdot0) && !(slow && rate >= 0.0)) return y;
-    return y * std::max(1.0 + (C > 0.0 ? C * std::log(rate / epsdot0) : 0.0), 0.0);
+    if (!(rate > epsdot0)) return y;
+    return y * (1.0 + (C > 0.0 ? C * std::log(rate / epsdot0) : 0.0));
   }
 
   /* ----------------------------------------------------------------------
@@ -81,7 +79,6 @@ struct StrengthJohnsonCook {
   Vec solve(const Vec &trial, const Vec &G, const Vec &factor, const Vec &eps, double dt) const
   {
     const Vec zero = {}, unknown = zero + NAN;
-    if (slow) return unknown;
     const Vec y0 = factor * (A + B * power(eps)), G3 = 3.0 * G;
     Vec end = trial > y0 ? unknown : trial;
     Vec x = (trial - y0) / G3;

@@ -11,6 +11,8 @@
 
 #include "hvi_strength.h"
 
+#include <array>
+
 namespace HVI {
 
 // perfect plasticity: G and Y constant; for exact solutions
@@ -25,7 +27,6 @@ struct StrengthPerfect {
 
   double G, Y;
 
-  static std::string problem(const double *) { return ""; }
   static StrengthPerfect make(const double *v) { return {v[0], v[1]}; }
 
   double modulus(const Conditions &) const { return G; }
@@ -34,11 +35,14 @@ struct StrengthPerfect {
   double flow(double, double) const { return Y; }
 };
 
-// no strength: a fluid
+// No strength.  In a material file: declared a liquid.
 
 struct StrengthNone {
   static constexpr const char *name = "none";
+  static constexpr std::array<Parameter, 0> params = {};
   static constexpr double Tref = 300.0;
+
+  static StrengthNone make(const double *) { return {}; }
 
   double modulus(const Conditions &) const { return 0.0; }
   double melt(const Conditions &) const { return NO_LIMIT; }

@@ -78,13 +78,6 @@ inline Deviator jaumann_rate(const VelocityGradient &L, double G, const Deviator
   return rate;
 }
 
-// rise of the temperature by plastic work per volume, of which the fraction beta heats
-
-inline double plastic_heating(double beta, double work, double rho, double cp)
-{
-  return beta * work / (rho * cp);
-}
-
 }    // namespace HVI
 
 #endif

@@ -433,13 +433,4 @@ TEST(MakeEos, WrongArguments)
   refused("mie-gruneisen", {2700, 5000, 1, 2, -1}, "cp = -1 must be >= 0");
 }
 
-TEST(MakeEos, ACloneIsTheSameLaw)
-{
-  for (const auto &law : all()) {
-    const auto copy = law->clone();
-    EXPECT_STREQ(copy->name(), law->name());
-    EXPECT_EQ(pressure(*copy, 1.3 * law->rho0(), 1e5), pressure(*law, 1.3 * law->rho0(), 1e5));
-  }
-}
-
 }    // namespace

@@ -291,18 +291,6 @@ TEST(Table, ReferenceState)
   EXPECT_NEAR(made(data)->c0(), 5240, 0.05 * 5240);    // one-sided difference over a cell
 }
 
-TEST(Table, CloneSharesTheGridAndOutlivesIt)
-{
-  const auto mie = aluminum("mie-gruneisen");
-  auto law = tabulated(*mie, values(2500, 5000, 9), values(-1e5, 1e7, 9), true);
-  const auto copy = law->clone();
-  EXPECT_EQ(copy->name(), law->name());    // the same text, not an equal one
-  const double p = at(*law, 3210, 1e6).p;
-  law.reset();
-  EXPECT_EQ(at(*copy, 3210, 1e6).p, p);
-  EXPECT_EQ(copy->name()[0], 't');
-}
-
 TEST(Table, Temperature)
 {
   TableData data = filled({1, 2, 4}, {0, 1, 3}, false, false, [](double r, double e) {

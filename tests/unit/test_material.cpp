@@ -171,7 +171,7 @@ TEST(WrongFile, Sections)
             "mie-gruneisen, polynomial, tillotson, table");
   EXPECT_EQ(problem(HEAD + EOS + "strength mts\n"),
             "x.hvi:10: unknown law strength mts; known are johnson-cook, steinberg-guinan, "
-            "cowper-symonds, perfect");
+            "cowper-symonds, perfect, none");
   EXPECT_EQ(problem(HEAD + "eos linear 3\n"), "x.hvi:3: eos linear: unexpected text 3");
   EXPECT_EQ(problem(HEAD + EOS + "eos linear\n"),
             "x.hvi:10: second section eos, the first is in line 3");
@@ -214,6 +214,18 @@ TEST(WrongFile, Values)
             "x.hvi:11: spall limit: sigma_p = -1e+09 must be > 0");
   EXPECT_EQ(problem("# UNITS: si\neos linear\nrho0 1\nK 1e308", "cgs"),
             "x.hvi:2: eos linear: K is out of range in units cgs");
+}
+
+// a law without parameters
+
+TEST(Material, StrengthNone)
+{
+  const Material m = parsed(HEAD + EOS + "strength none\nspall limit\nsigma_p 1e9\n");
+  ASSERT_TRUE(m.section("strength", "none"));
+  EXPECT_TRUE(m.section("strength", "none")->values.empty());
+  EXPECT_EQ(m.section("spall", "limit")->values.at("sigma_p"), 1e9);
+  EXPECT_EQ(problem(HEAD + EOS + "strength none\nG 1\n"),
+            "x.hvi:11: strength none: takes no keys, but got G");
 }
 
 // after an error nothing of the file is left to be used by mistake

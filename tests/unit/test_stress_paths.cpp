@@ -4,7 +4,7 @@
    integrated by a Runge-Kutta method of fourth order, and against closed forms.
 ------------------------------------------------------------------------- */
 
-#include "hvi_strength_laws.h"
+#include "hvi_laws.h"
 
 #include <Eigen/Dense>
 #include <functional>
@@ -91,7 +91,7 @@ State walk(const Strength &law, const Path &path, int n)
     S = r.S;
     eps += r.d_eps;
     work += r.work;
-    rise += plastic_heating(path.heating, r.work, 1.0, 1.0);
+    rise += path.heating * r.work;
   }
   return state(S, eps, work, rise);
 }
@@ -158,11 +158,10 @@ void expect_same(const State &a, const State &b, double tolerance)
   for (int i = 6; i < 9; i++) EXPECT_LE(std::fabs(a[i] - b[i]), tolerance * std::fabs(b[i])) << i;
 }
 
-std::unique_ptr<Strength> made(const std::string &law, const std::map<std::string, double> &values,
-                               bool slow = false)
+std::unique_ptr<Strength> made(const std::string &law, const std::map<std::string, double> &values)
 {
   std::string problem;
-  auto strength = make_strength({"strength", law, values}, problem, slow);
+  auto strength = make_strength({"strength", law, values}, problem);
   EXPECT_EQ(problem, "");
   return strength;
 }
@@ -403,35 +402,6 @@ TEST(Path, JohnsonCook)
   }
 }
 
-// slow: the same law where the rate is below epsdot0
-
-TEST(Path, JohnsonCookSlow)
-{
-  const FlowRate flow = [](double s, double, double, double, double) {
-    return 100.0 * std::exp((s / 0.3 - 1.0) / 0.2);
-  };
-  auto law = made("johnson-cook",
-                  {{"G", G},
-                   {"A", 0.3},
-                   {"B", 0.0},
-                   {"n", 1.0},
-                   {"C", 0.2},
-                   {"m", 1.0},
-                   {"epsdot0", 100.0},
-                   {"Tref", 300.0},
-                   {"Tm", 900.0}},
-                  true);
-  const Path p = path(shear(20.0), 0.01, pure_shear(0.1), 0.0);
-  expect_same(limit(*law, p, 1000),
-              exact(
-                  flow,
-                  [](double) {
-                    return G;
-                  },
-                  p, 40000),
-              1e-10);
-}
-
 TEST(Path, CowperSymondsCyclic)
 {
   const double Y0 = 0.3, D = 40.0, p = 2.0;
@@ -565,9 +535,4 @@ TEST(Path, AdiabaticShear)
   // all strain is elastic or plastic: 2 G (dgamma/2 ...) gives ds = 3 G (e - eps), e = 2/sqrt(3) 10 t
   EXPECT_NEAR(y[6], 2.0 / std::sqrt(3.0) - (s - A) / (3.0 * G), 1e-9);
   EXPECT_NEAR(order, 1.0, 0.1);
-}
-
-TEST(Path, Heating)
-{
-  EXPECT_DOUBLE_EQ(plastic_heating(0.9, 2.7e8, 2700.0, 900.0), 100.0);
 }

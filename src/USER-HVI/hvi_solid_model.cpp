@@ -1,0 +1,242 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#include "hvi_solid_model.h"
+
+#include "hvi_laws.h"
+#include "hvi_mirror.h"
+#include "hvi_vector.h"
+
+#include <cmath>
+#include <limits>
+
+namespace HVI {
+
+namespace {
+
+  constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+
+  Deviator elastic_rate(const SolidState &s, const SolidInput &in)
+  {
+    return jaumann_rate(in.L, s.shear, s.seen.S);
+  }
+
+  void add(Deviator &s, double dt, const Deviator &r)
+  {
+    s.xx += dt * r.xx;
+    s.yy += dt * r.yy;
+    s.zz += dt * r.zz;
+    s.xy += dt * r.xy;
+    s.xz += dt * r.xz;
+    s.yz += dt * r.yz;
+  }
+
+  void crush(SolidState &s)
+  {
+    s.S = Deviator();
+    s.shear = s.rate = 0.0;
+  }
+
+  // the section of damage that is asked for, or the only one
+
+  const Section *damage_section(const Material &material, const std::string &law,
+                                std::string &problem)
+  {
+    const Section *found = nullptr;
+    std::string names;
+    int n = 0;
+    for (const Section &s : material.sections) {
+      if (s.kind != "damage" || (!law.empty() && s.law != law)) continue;
+      if (!found) found = &s;
+      names += (n++ ? ", " : "") + s.law;
+    }
+    if (n == 1) return found;
+    if (n == 0)
+      problem = "has no section damage" + (law.empty() ? "" : " " + law) + "; use damage no";
+    else
+      problem = "has several sections damage (" + names + "); say which: damage LAW";
+    return nullptr;
+  }
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const SolidOptions &options,
+                                             std::string &problem)
+{
+  problem.clear();
+  std::unique_ptr<SolidModel> model(new SolidModel());
+  model->eos = material.eos;
+  model->rho0 = material.eos->rho0();
+  model->spall = options.spall;
+  model->thermal = options.thermal;
+  model->from_work = options.from_work;
+  model->weibull = options.weibull;
+  model->seed = options.seed;
+
+  const Section none = {"strength", "none", {}};
+  const Section *const strength =
+      options.strength == none.law ? &none : material.section("strength", options.strength);
+  if (!strength) {
+    problem = "has no section strength " + options.strength;
+    return nullptr;
+  }
+  model->law = make_strength(*strength, problem);
+  if (!model->law) {
+    problem = "has a wrong section strength " + options.strength + ": " + problem;
+    return nullptr;
+  }
+
+  if (options.damage) {
+    const Section *const damage = damage_section(material, options.damage_law, problem);
+    if (!damage) return nullptr;
+    model->fracture = make_damage(*damage, problem);
+    if (!model->fracture) {
+      problem = "has a wrong section damage " + damage->law + ": " + problem;
+      return nullptr;
+    }
+  }
+
+  if (options.spall != Spall::NONE) {
+    const Section *const s = material.section("spall", "limit");
+    model->sigma_p = s ? s->values.at("sigma_p") : NO_LIMIT;
+  }
+
+  const Eos &eos = *material.eos;
+  model->T0 = eos.temperature(eos.rho0(), 0.0);
+  const double little = 1.0e-4 * eos.c0() * eos.c0();
+  model->cp = little / (eos.temperature(eos.rho0(), little) - model->T0);
+  const Section *const heat = material.section("thermal", "work");
+  if (heat) model->chi = heat->values.at("chi");
+  if (options.from_work && !(model->cp > 0.0)) {
+    problem = "has an equation of state without heat capacity, which temperature work needs";
+    return nullptr;
+  }
+  return model;
+}
+
+/* ---------------------------------------------------------------------- */
+
+SolidState SolidModel::blank()
+{
+  SolidState s = {};
+  s.seen.p_min = -NO_LIMIT;
+  s.seen.shear = UNSEEN;
+  s.yield = UNKNOWN;
+  return s;
+}
+
+void SolidModel::liquefy(SolidState &s)
+{
+  s.yield = UNKNOWN;
+  s.seen = {s.S, -NO_LIMIT, s.shear};
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SolidModel::start(SolidState &s, SolidInput in, bool anew) const
+{
+  if (!anew && started(s)) return;
+  in.p = 0.0;    // there is no pressure yet
+  if (s.shear == 0.0 && !s.failed()) s.shear = law->shear_modulus(conditions(s, in));
+  s.yield = UNKNOWN;
+  show(s, s.S);
+}
+
+// begin: a run begins, so the rate of S is not that of the step before
+
+void SolidModel::prepare(SolidState &s, const SolidInput &in, bool begin) const
+{
+  if (s.failed()) return;
+  if (begin) s.carried = elastic_rate(s, in);
+  if (s.yield == UNKNOWN)
+    s.yield = s.rate > 0.0 ? von_mises(s.S) : law->yield(s.eps, 0.0, conditions(s, in));
+}
+
+void SolidModel::first_half(SolidState &s, double dt) const
+{
+  Deviator ahead = s.S;
+  if (!s.failed()) {
+    const Deviator dS = s.carried;
+    s.carried = s.S;
+    add(s.carried, 0.5 * dt, dS);
+    add(ahead, dt, dS);
+    const double stress = von_mises(ahead);
+    if (stress > s.yield) ahead = scaled(ahead, s.yield / stress);
+  }
+  show(s, ahead);
+}
+
+int SolidModel::second_half(int n, SolidState *const *state, const SolidInput *in, double dt) const
+{
+  Conditions c[LANES] = {};
+  Deviator trial[LANES] = {};
+  double shear[LANES] = {}, eps[LANES] = {};
+  Plastic plastic[LANES];
+  for (int k = 0; k < n; k++) {
+    SolidState &s = *state[k];
+    c[k] = conditions(s, in[k]);
+    shear[k] = s.shear = law->shear_modulus(c[k]);
+    eps[k] = s.eps;
+    trial[k] = s.carried;
+    s.carried = elastic_rate(s, in[k]);
+    add(trial[k], 0.5 * dt, s.carried);
+  }
+  law->radial_return(n, trial, dt, shear, eps, c, plastic);
+
+  for (int k = 0; k < n; k++) {
+    SolidState &s = *state[k];
+    if (std::isnan(plastic[k].d_eps)) return k;
+    s.S = plastic[k].S;
+    s.yield = plastic[k].yield;
+    s.eps += plastic[k].d_eps;
+    s.heat += plastic[k].work / c[k].rho;
+    s.rate = plastic[k].d_eps / dt;
+    if (fracture && plastic[k].d_eps > 0.0) {
+      const double scatter = weibull > 0.0 ? weibull_factor(seed, in[k].id, weibull) : 1.0;
+      s.damage += fracture->increment(plastic[k].d_eps, dt, c[k].p, s.yield,
+                                      law->homologous_temperature(c[k]), scatter);
+    }
+    if (s.damage >= 1.0) {
+      crush(s);
+    } else if (spalls(spall, c[k].p, s.S, sigma_p)) {
+      s.spalled = 1.0;
+      crush(s);
+    }
+  }
+  return -1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double SolidModel::temperature(const SolidState &s, const SolidInput &in) const
+{
+  return from_work ? T0 + chi * s.heat / cp : eos->temperature(in.rho, in.e);
+}
+
+Conditions SolidModel::conditions(const SolidState &s, const SolidInput &in) const
+{
+  return {in.rho, rho0, in.p, thermal ? temperature(s, in) : NOT_A_NUMBER};
+}
+
+// what others will see
+
+void SolidModel::show(SolidState &s, const Deviator &S) const
+{
+  s.seen = {S, p_min(s), s.shear};
+}
+
+void SolidModel::reflect(SolidState &s, int op)
+{
+  const Reflection reflection(op);
+  reflection.symmetric(s.S);
+  reflection.symmetric(s.seen.S);
+  reflection.symmetric(s.carried);
+}
+
+}    // namespace HVI

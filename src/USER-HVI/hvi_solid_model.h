@@ -1,0 +1,147 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_HVI_SOLID_MODEL_H
+#define LMP_HVI_SOLID_MODEL_H
+
+#include "hvi_damage.h"
+#include "hvi_material.h"
+#include "hvi_spall.h"
+#include "hvi_strength.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace HVI {
+
+/* ----------------------------------------------------------------------
+   What a solid remembers, whoever it belongs to: a particle, an element.  Doubles only.
+------------------------------------------------------------------------- */
+
+struct SolidState {
+  Deviator S;    // deviatoric stress, of the time of velocity, density and energy
+
+  // what others see, in the forces: extrapolated to the end of the step, changes before forces only
+
+  struct Seen {
+    Deviator S;
+    double p_min, shear;
+  } seen;
+
+  // what one half of a step leaves to the other: after the first half S of the middle of the step,
+  // the trial stress so far; after the second half the rate of S
+
+  Deviator carried;
+  double eps;        // equivalent plastic strain
+  double damage;     // failed from 1 on
+  double spalled;    // 1: spalled for good
+  double heat;       // plastic work per mass
+  double shear;      // modulus
+  double rate;       // of plastic strain
+  double yield;      // von Mises's stress on the yield surface of S
+
+  bool failed() const { return damage >= 1.0 || spalled != 0.0; }
+};
+
+// where it is, and what its surroundings do to it
+
+struct SolidInput {
+  double rho, e, p;    // e per mass; p of the equation of state
+  VelocityGradient L;
+  std::int64_t id;    // of the scatter of damage
+};
+
+struct SolidOptions {
+  std::string strength = "johnson-cook";    // law; none: of any material, without its section
+  bool damage = true;
+  std::string damage_law;    // empty: the one that the material has
+  Spall spall = Spall::PRINCIPAL;
+  bool thermal = true;       // strength depends on temperature
+  bool from_work = false;    // which is that of the plastic work, not of the equation of state
+  double weibull = 0.0;      // modulus of the scatter of damage, 0: none
+  int seed = 0;
+};
+
+/* ----------------------------------------------------------------------
+   Strength, damage, spall and temperature of one material over a step, in two halves:
+
+     prepare()        if a run begins or the yield surface is not known
+     first_half()     half of the elastic trial stress; seen = S extrapolated to the end of the
+                      step, back to the yield surface, without plastic strain
+     ... forces, which give the velocity gradient of the end of the step ...
+     second_half()    the other half of the trial stress, radial return, damage, spall
+
+   What has failed is rubble: it bears no shear and no tension, and keeps its state.
+------------------------------------------------------------------------- */
+
+class SolidModel {
+ public:
+  // null, and in problem what is wrong, if the material does not go with the options
+
+  static std::unique_ptr<SolidModel> make(const Material &, const SolidOptions &,
+                                          std::string &problem);
+
+  const Strength &strength() const { return *law; }
+  const Damage *damage() const { return fracture.get(); }    // null: none
+  bool spall_limited() const { return sigma_p < NO_LIMIT; }
+
+  // of something new, without stress; of something that has no model any more: a liquid
+
+  static SolidState blank();
+  static void liquefy(SolidState &);
+  static bool started(const SolidState &s) { return s.seen.shear != UNSEEN; }
+
+  // anew: changed by others since it was last integrated.  There need be no p and L yet.
+
+  void start(SolidState &, SolidInput, bool anew) const;
+
+  bool ready(const SolidState &s) const { return s.yield != UNKNOWN || s.failed(); }
+  void prepare(SolidState &, const SolidInput &, bool begin) const;
+
+  void first_half(SolidState &, double dt) const;
+
+  // of n, not more than LANES, that have not failed.  Returns the first whose stress is not a number;
+  // -1: all is well.
+
+  int second_half(int n, SolidState *const *, const SolidInput *, double dt) const;
+
+  double temperature(const SolidState &, const SolidInput &) const;    // NaN: unknown
+
+  // the least pressure borne, and what is left of p; see clip_tension()
+
+  double p_min(const SolidState &s) const { return least_pressure(spall, s.failed(), sigma_p); }
+  double pressure(const SolidState &s, double p) const { return clip_tension(p, p_min(s)); }
+
+  // in the directions of op (see hvi_mirror.h)
+
+  static void reflect(SolidState &, int op);
+
+ private:
+  static constexpr double UNKNOWN = -1.0;    // yield
+  static constexpr double UNSEEN = -1.0;     // seen.shear, before the first forces
+
+  std::unique_ptr<Strength> law;
+  std::unique_ptr<Damage> fracture;
+  std::shared_ptr<const Eos> eos;
+  double rho0;
+  Spall spall;
+  double sigma_p = 0.0;                    // limit of tension
+  double T0 = 0.0, cp = 0.0, chi = 1.0;    // temperature from plastic work
+  bool thermal, from_work;
+  double weibull;
+  int seed;
+
+  SolidModel() = default;
+  Conditions conditions(const SolidState &, const SolidInput &) const;
+  void show(SolidState &, const Deviator &) const;
+};
+
+}    // namespace HVI
+
+#endif
