@@ -177,6 +177,18 @@ const HVI::SolidModel *FixHVIJohnsonCook::of(int i) const
   return (atom->mask[i] & groupbit) ? models[atom->type[i]].get() : nullptr;
 }
 
+std::string FixHVIJohnsonCook::laws_of(int itype) const
+{
+  const HVI::SolidModel *const model = models[itype].get();
+  if (!model) return "liquid";
+  std::string words = fmt::format("strength {}", model->strength().name());
+  if (model->damage()) words += fmt::format(", damage {}", model->damage()->name());
+  static const char *const SPALLS[] = {"none", "pressure", "principal", "zero"};    // as HVI::Spall
+  if (options.spall != HVI::Spall::NONE && model->spall_limited())
+    words += fmt::format(", spall {}", SPALLS[static_cast<int>(options.spall)]);
+  return words;
+}
+
 double FixHVIJohnsonCook::plastic_work(int i) const
 {
   return (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * solid[i].heat;

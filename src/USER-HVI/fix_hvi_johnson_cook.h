@@ -73,6 +73,8 @@ class FixHVIJohnsonCook : public Fix, public HVI::EnergyCarrier {
   const Solid &state(int i) const { return solid[i]; }
   double plastic_work(int) const override;    // energy, from the start on
   bool failed(int i) const { return solid[i].failed(); }
+  int bytes_per_particle() const { return sizeof(Solid); }
+  std::string laws_of(int itype) const;    // in words
 
  private:
   static constexpr int NSOLID = sizeof(Solid) / sizeof(double);

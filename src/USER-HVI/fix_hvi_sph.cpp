@@ -20,6 +20,7 @@
 #include "fix_hvi_ledger.h"
 #include "fix_hvi_store.h"
 #include "force.h"
+#include "group.h"
 #include "memory.h"
 #include "modify.h"
 #include "update.h"
@@ -34,14 +35,22 @@ using namespace FixConst;
 
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), extra(nullptr), store(nullptr), ledger(nullptr), strength(nullptr),
-    dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0}, stepping(0), follow(0),
+    dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0}, stepping(0), follow(0), wallbit(0),
     rows(lmp, id, "going_on h_constant rho esph vx vy vz")
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
                "Fix hvi/sph needs density, energy and velocity estimates of particles: use "
                "atom_style sph");
-  if (narg != 3) error->all(FLERR, "Fix hvi/sph takes no arguments, but got {}", arg[3]);
+  for (int iarg = 3; iarg < narg; iarg += 2) {
+    if (strcmp(arg[iarg], "walls") != 0)
+      error->all(FLERR, "Unknown fix hvi/sph keyword: {}", arg[iarg]);
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hvi/sph walls", error);
+    const int jgroup = group->find(arg[iarg + 1]);
+    if (jgroup == -1)
+      error->all(FLERR, "Could not find fix hvi/sph walls group ID {}", arg[iarg + 1]);
+    wallbit |= group->bitmask[jgroup];
+  }
 
   time_integrate = 1;
   restart_global = 1;
@@ -189,6 +198,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
 
 void FixHVISPH::setup(int /*vflag*/)
 {
+  check_left_out();
   stepping = 1;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!integrates(i)) continue;
@@ -205,6 +215,28 @@ void FixHVISPH::setup(int /*vflag*/)
   }
   power = store->fields.viscous_power;
   for (int k = 0; k < 3; k++) push[k] = store->fields.plane_force[k];
+}
+
+/* ----------------------------------------------------------------------
+   Energy that flows into particles which nobody integrates is lost to the books
+------------------------------------------------------------------------- */
+
+void FixHVISPH::check_left_out() const
+{
+  int moved = groupbit | wallbit;
+  for (const Fix *const other : modify->get_fix_list())
+    if (other->time_integrate) moved |= other->groupbit;
+  bigint here = 0, everywhere;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (has_material(i) && !(atom->mask[i] & moved)) here++;
+  MPI_Allreduce(&here, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (everywhere && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Fix hvi/sph: {} particles with a material are integrated by no fix: their density "
+        "and energy stay, and what flows into them is missing in compute hvi/energy (walls "
+        "GROUP if that is meant)",
+        everywhere);
 }
 
 /* ----------------------------------------------------------------------

@@ -62,6 +62,8 @@ class FixHVISPH : public Fix, public HVI::EnergyCarrier {
   double compute_vector(int) override;
   double memory_usage() override;
 
+  bool is_new(int i) const { return extra[i].hscale == 0.0; }    // in no run before
+  int bytes_per_particle() const { return sizeof(Extra); }
   double hscale(int i) const { return extra[i].hscale; }    // owned and ghost particles
 
   // in the middle of a step esph is ahead of the velocity
@@ -87,12 +89,14 @@ class FixHVISPH : public Fix, public HVI::EnergyCarrier {
   double power;            // viscous, of the last force evaluation
   double push[3];          // of mirror planes, likewise
   int stepping;            // in a run, so that the state is the one the last step left
+  int wallbit;             // groups of particles that are meant to be integrated by nobody
   int follow;              // particles outside the group are moved by fixes that do not know vest
   std::string restored;    // settings of the pair style in the restart file
   HVIDataRows rows;        // section of data files
 
   bool integrates(int) const;
   bool has_material(int) const;
+  void check_left_out() const;
   void reflect();
   uint64_t fingerprint(int) const;
 };

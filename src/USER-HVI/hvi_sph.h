@@ -23,8 +23,7 @@ enum SphScene {
   SPH_DENSITY = 4,       // interface density dissipation
   SPH_RIEMANN = 8,       // Riemann problems instead of viscosity and that
   SPH_STRENGTH = 16,     // deviatoric stress; not with SPH_RIEMANN
-  SPH_ARTSTRESS = 32,    // artificial stress; with SPH_STRENGTH only
-  SPH_NSCENES = 56
+  SPH_ARTSTRESS = 32     // artificial stress; with SPH_STRENGTH only
 };
 
 // laws of pairs: uniform, or from tables of type pairs (row of one type) in a scene with SPH_BODIES

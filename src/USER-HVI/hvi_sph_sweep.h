@@ -76,7 +76,7 @@ class SphSweeps {
   virtual double w(double q) const = 0;    // the kernel
 };
 
-// Null: unknown kernel.  scene: bits of SphScene; those that are asked for, others may be worked out besides.
+// scene: bits of SphScene.  Null: an unknown kernel, or terms that do not go together.
 
 std::unique_ptr<SphSweeps> make_sph_sweeps(const std::string &kernel, int scene);
 

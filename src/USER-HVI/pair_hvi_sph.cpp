@@ -13,11 +13,13 @@
 #include "pair_hvi_sph.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_ledger.h"
 #include "fix_hvi_sph.h"
 #include "force.h"
+#include "hvi_sph_report.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -33,7 +35,7 @@ using namespace LAMMPS_NS;
 
 PairHVISPH::PairHVISPH(LAMMPS *lmp) :
     Pair(lmp), visc_a(nullptr), visc_b(nullptr), tension(nullptr), store(nullptr),
-    integrator(nullptr), strength(nullptr), halo()
+    integrator(nullptr), strength(nullptr), look_at_step(false), halo()
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
@@ -89,6 +91,7 @@ void PairHVISPH::compute(int eflag, int vflag)
   if (records.gradv && force->newton_pair) reverse(records.gradv);
 
   if (vflag_fdotr) virial_fdotr_compute();
+  if (look_at_step) check_step();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -227,6 +230,45 @@ void PairHVISPH::setup()
 {
   check_sides();
   check_extent();
+
+  HVISphReport report(lmp, store, is_ours);
+  report.record_bytes = store->fields.bytes_per_particle();
+  report.forward = comm_forward;
+  report.reverse = force->newton_pair ? comm_reverse : 0;
+  if (integrator) {
+    report.border = 1;
+    report.kept_bytes += integrator->bytes_per_particle();
+    report.unmoved.resize(atom->nlocal);
+    for (int i = 0; i < atom->nlocal; i++) report.unmoved[i] = integrator->is_new(i);
+  }
+  if (strength) {
+    report.kept_bytes += strength->bytes_per_particle();
+    for (int i = 1; i <= atom->ntypes; i++) report.laws[i] = strength->laws_of(i);
+  }
+  report.count({list->inum, list->ilist, list->numneigh, list->firstneigh}, force->newton_pair);
+  report.write();
+  report.warn();
+  look_at_step = true;
+}
+
+/* ----------------------------------------------------------------------
+   a fixed step that signals outrun; asked once in a run, after its first forces
+------------------------------------------------------------------------- */
+
+void PairHVISPH::check_step()
+{
+  look_at_step = false;
+  if (!modify->get_fix_by_style("^hvi/dt$").empty()) return;
+  HVI::TimeStepBounds bounds;
+  tighten(bounds);
+  double signal;
+  MPI_Allreduce(&bounds.signal, &signal, 1, MPI_DOUBLE, MPI_MIN, world);
+  if (update->dt > signal && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Pair style hvi/sph: the time step {} is above {}, in which signals cross half of "
+        "a kernel's reach: use fix hvi/dt, or a step of a third of that",
+        update->dt, signal);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -30,10 +30,11 @@ namespace LAMMPS_NS {
 
 // an EnergyCarrier, for its pairs have no energy: nothing is torn when a particle leaves
 
-class PairHVISPH : public Pair,
-                   public HVI::TimeStepSource,
-                   public HVI::EnergyCarrier,
-                   private HVI::SphWatcher {
+class PairHVISPH :
+    public Pair,
+    public HVI::TimeStepSource,
+    public HVI::EnergyCarrier,
+    private HVI::SphWatcher {
  public:
   PairHVISPH(class LAMMPS *);
   ~PairHVISPH() override;
@@ -72,6 +73,8 @@ class PairHVISPH : public Pair,
   HVI::Images images;           // of mirror planes
   HVI::SphKept kept;
 
+  bool look_at_step;    // in the first force evaluation of a run
+
   // records that are being communicated: the first numbers of each, as many as are sent
 
   struct {
@@ -91,6 +94,7 @@ class PairHVISPH : public Pair,
   void check_mirror() const;
   void check_sides() const;
   void check_extent();
+  void check_step();
 
   // of a force evaluation
 

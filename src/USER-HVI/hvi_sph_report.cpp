@@ -1,0 +1,237 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "hvi_sph_report.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_hvi_store.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+// What is warned about.  Half of a kernel's reach is 1.2 to 2 spacings as a rule; a lattice in 1, 2, 3
+// dimensions has 2, 12, 32 neighbors at the least of it.
+
+static constexpr double H_LEAST = 1.0, H_MOST = 2.5;
+static constexpr double NEIGHBORS_LEAST[4] = {0.0, 2.0, 10.0, 28.0};
+static constexpr double RATIO_OFF = 0.2;       // of density
+static constexpr double SPEED_LEAST = 10.0;    // m/s, of an impact
+static constexpr double BOX_MOST = 2000.0;     // cutoffs
+static constexpr double FILL_LEAST = 0.4;      // of a body's bounding box, if that tells its layers
+
+/* ---------------------------------------------------------------------- */
+
+HVISphReport::HVISphReport(LAMMPS *lmp, const FixHVIStore *store,
+                           const std::vector<char> &is_ours) :
+    Pointers(lmp),
+    laws(atom->ntypes + 1), record_bytes(0), kept_bytes(0), forward(0), reverse(0), border(0),
+    store(store), is_ours(is_ours), rows(atom->ntypes + 1), spread(0.0)
+{
+}
+
+/* ----------------------------------------------------------------------
+   sums and extremes of all types over all ranks
+------------------------------------------------------------------------- */
+
+void HVISphReport::count(const HVI::SphList &list, bool newton)
+{
+  static constexpr double BIG = 1.0e300;
+  const HVI::SphSettings &set = store->fields.settings;
+  const int ntypes = atom->ntypes, nlocal = atom->nlocal;
+  enum { NUMBER, MASS, DENSITY, NEIGHBORS, FAR, NSUM };
+  enum { RHO_LO, RHO_HI, X_LO, X_HI = X_LO + 3, NEXTREME = X_HI + 3 };    // all as minima
+  std::vector<double> sum(NSUM * (ntypes + 1), 0.0), least(NEXTREME * (ntypes + 1) + 6, BIG);
+  double *const speed = &least[NEXTREME * (ntypes + 1)];
+
+  for (int i = 0; i < nlocal; i++) {
+    const int itype = atom->type[i];
+    if (!is_ours[itype]) continue;
+    double *const s = &sum[NSUM * itype], *const e = &least[NEXTREME * itype];
+    const HVI::Materials::Entry &entry = store->materials.entry(itype);
+    const double rho0 = entry.material->eos->rho0();
+    const bool filled = atom->rho[i] == 0.0 && entry.volume > 0.0;    // fix hvi/sph will
+    const double rho = filled ? rho0 : atom->rho[i];
+    s[NUMBER] += 1.0;
+    s[MASS] += atom->rmass ? atom->rmass[i] : atom->mass[itype];
+    s[DENSITY] += rho;
+    if (rho0 > 0.0 && i < (int) unmoved.size() && unmoved[i] &&
+        std::fabs(rho / rho0 - 1.0) > RATIO_OFF)
+      s[FAR] += 1.0;
+    e[RHO_LO] = MIN(e[RHO_LO], rho);
+    e[RHO_HI] = MIN(e[RHO_HI], -rho);
+    for (int k = 0; k < 3; k++) {
+      e[X_LO + k] = MIN(e[X_LO + k], atom->x[i][k]);
+      e[X_HI + k] = MIN(e[X_HI + k], -atom->x[i][k]);
+      speed[k] = MIN(speed[k], atom->v[i][k]);
+      speed[3 + k] = MIN(speed[3 + k], -atom->v[i][k]);
+    }
+  }
+
+  // neighbors: of a pair of the half list both have one
+
+  const double *const *const x = atom->x;
+  for (int ii = 0; ii < list.inum; ii++) {
+    const int i = list.ilist[ii], itype = atom->type[i];
+    for (int jj = 0; jj < list.numneigh[i]; jj++) {
+      const int j = list.firstneigh[i][jj] & NEIGHMASK, jtype = atom->type[j];
+      const double reach = 0.5 * set.support * (set.h[itype] + set.h[jtype]);
+      const double d[3] = {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]};
+      if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] >= reach * reach) continue;
+      sum[NSUM * itype + NEIGHBORS] += 1.0;
+      if (newton || j < nlocal) sum[NSUM * jtype + NEIGHBORS] += 1.0;
+    }
+  }
+
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), sum.size(), MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, least.data(), least.size(), MPI_DOUBLE, MPI_MIN, world);
+
+  double square = 0.0;
+  for (int k = 0; k < 3; k++)
+    if (speed[k] < BIG) square += (speed[k] + speed[3 + k]) * (speed[k] + speed[3 + k]);
+  spread = std::sqrt(square);
+
+  const int dim = set.laws.dim;
+  for (int itype = 1; itype <= ntypes; itype++) {
+    const double *const s = &sum[NSUM * itype], *const e = &least[NEXTREME * itype];
+    if (!is_ours[itype] || s[NUMBER] == 0.0) continue;
+    Row &row = rows[itype];
+    const double n = s[NUMBER], rho0 = store->materials.of(itype)->eos->rho0();
+    const double rho = rho0 > 0.0 ? rho0 : s[DENSITY] / n;
+    row.number = n;
+    row.mass = s[MASS] / n;
+    row.spacing = std::pow(row.mass / rho, 1.0 / dim);
+    row.neighbors = s[NEIGHBORS] / n;
+    row.far = s[FAR];
+    if (rho0 > 0.0) {
+      row.ratio = s[DENSITY] / n / rho0;
+      row.least = e[RHO_LO] / rho0;
+      row.most = -e[RHO_HI] / rho0;
+    }
+
+    // The bounding box of a plate tells its layers, that of a tilted one or of a cloud does not
+
+    double volume = 1.0, thinnest = BIG;
+    for (int k = 0; k < 3; k++) {
+      if (!store->fields.along[k]) continue;
+      const double length = -e[X_HI + k] - e[X_LO + k] + row.spacing;
+      volume *= length;
+      thinnest = MIN(thinnest, length);
+    }
+    if (n * row.mass / rho > FILL_LEAST * volume)
+      row.layers = static_cast<int>(std::lround(thinnest / row.spacing));
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string HVISphReport::terms() const
+{
+  const HVI::SphSettings &set = store->fields.settings;
+  std::string text = set.riemann ? "Riemann problems" : "viscosity";
+  if (set.density) text += ", interface density dissipation";
+  if (set.variable) text += ", variable h";
+  if (!set.energy) text += ", no energy equation";
+  if (store->fields.view().stress || forward == HVI::SphStress::SENT)
+    text += fmt::format(", stress, {} velocity gradient", set.corrected ? "corrected" : "plain");
+  if (set.laws.art_eps > 0.0) text += ", artificial stress";
+  if (set.mirror.planes) text += ", mirror planes";
+  return text;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void HVISphReport::write() const
+{
+  if (comm->me != 0) return;
+  const HVI::SphSettings &set = store->fields.settings;
+  std::string text = fmt::format("Pair style hvi/sph {}\n", set.text);
+  text += fmt::format("  {:>4} {:>10} {:>11} {:>9} {:>9} {:>21} {:>6}  {}\n", "type", "particles",
+                      "spacing", "h/spacing", "neighbors", "rho/rho0 (least,most)", "layers",
+                      "material: laws");
+  for (int itype = 1; itype <= atom->ntypes; itype++) {
+    if (!is_ours[itype]) continue;
+    const Row &row = rows[itype];
+    const HVI::Material &material = *store->materials.of(itype);
+    const std::string density = row.ratio > 0.0
+        ? fmt::format("{:.4f} ({:.3f},{:.3f})", row.ratio, row.least, row.most)
+        : "-";
+    text += fmt::format("  {:>4} {:>10.0f} {:>11.5g} {:>9.4g} {:>9.4g} {:>21} {:>6}  {}: {}{}\n",
+                        itype, row.number, row.spacing,
+                        row.spacing > 0.0 ? set.h[itype] / row.spacing : 0.0, row.neighbors,
+                        density, row.layers ? std::to_string(row.layers) : "-", material.name,
+                        material.eos->name(), laws[itype].empty() ? "" : ", " + laws[itype]);
+  }
+  text += fmt::format("  terms: {}\n", terms());
+  text +=
+      fmt::format("  memory: {} bytes per owned and ghost particle, {} more per owned particle in "
+                  "fixes\n",
+                  record_bytes, kept_bytes);
+  text += fmt::format("  communication beyond atom_style sph, doubles per ghost: {} forward and {} "
+                      "reverse in each step, {} when new\n",
+                      forward, reverse, border);
+  utils::logmesg(lmp, text);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void HVISphReport::warn() const
+{
+  if (comm->me != 0) return;
+  const HVI::SphSettings &set = store->fields.settings;
+  double cutoff = 0.0;
+  for (int itype = 1; itype <= atom->ntypes; itype++) {
+    const Row &row = rows[itype];
+    if (row.number == 0.0) continue;
+    const double half_reach = 0.5 * set.support * set.h[itype] / row.spacing;
+    cutoff = MAX(cutoff, set.support * set.h[itype]);
+    if (half_reach < H_LEAST || half_reach > H_MOST)
+      error->warning(FLERR,
+                     "Pair style hvi/sph: the kernel of type {} reaches {:.3g} spacings "
+                     "(m/rho0)^(1/dim), where {:.3g} to {:.3g} are usual: check h, masses and dim",
+                     itype, 2.0 * half_reach, 2.0 * H_LEAST, 2.0 * H_MOST);
+    else if (row.neighbors < NEIGHBORS_LEAST[set.laws.dim] && row.number > 1.0)
+      error->warning(FLERR,
+                     "Pair style hvi/sph: particles of type {} have {:.3g} neighbors in the mean, "
+                     "the kernel needs {:.3g} or more: check positions, spacing and h",
+                     itype, row.neighbors, NEIGHBORS_LEAST[set.laws.dim]);
+    if (row.far > 0.0)
+      error->warning(FLERR,
+                     "Pair style hvi/sph: {:.0f} particles of type {} start with a density more "
+                     "than {:.0f} % off that of the material at rest",
+                     row.far, itype, 100.0 * RATIO_OFF);
+  }
+
+  // meters per second of a unit of speed
+
+  const std::string units = update->unit_style;
+  const double speed = units == "si" || units == "micro" ? 1.0 : (units == "cgs" ? 0.01 : 0.0);
+  if (speed > 0.0 && spread > 0.0 && spread * speed < SPEED_LEAST &&
+      !modify->get_fix_by_style("^hvi/dt$").empty())
+    error->warning(FLERR,
+                   "Pair style hvi/sph: the largest difference of velocities is {:.3g} m/s, little "
+                   "for an impact: the command velocity takes lattice units without units box",
+                   spread * speed);
+  for (int k = 0; k < domain->dimension; k++)
+    if (cutoff > 0.0 && domain->prd[k] > BOX_MOST * cutoff)
+      error->warning(FLERR,
+                     "Pair style hvi/sph: the box is {:.0f} cutoffs long along {}: the bins of the "
+                     "neighbor list will take time and memory",
+                     domain->prd[k] / cutoff, "xyz"[k]);
+}
