@@ -223,7 +223,7 @@ double ComputeHVICloud::find_quantile(double Particle::*what, double sign)
           return v < w.value;
         });
     int64_t mine = (it == ordered.begin()) ? 0 : (it - 1)->weight, all;
-    MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_SUM, world);
     return all;
   };
 

@@ -194,7 +194,7 @@ void ComputeHVIHole::find_layer()
       const double octave = OCTAVES + std::log2(std::fabs(p.s) / farthest);
       number[(int) std::clamp(octave * PER_OCTAVE, 0.0, nbins - 1.0)]++;
     }
-    MPI_Allreduce(MPI_IN_PLACE, number.data(), nbins, MPI_LMP_BIGINT, MPI_SUM, world);
+    MPI_Allreduce(MPI_IN_PLACE, number.data(), nbins, MPI_INT64_T, MPI_SUM, world);
     for (int b = 1; b < nbins; b++) number[b] += number[b - 1];
 
     auto quantile = [&](double q, int last) {
@@ -247,7 +247,7 @@ bool ComputeHVIHole::find_extent()
     number[2 * NBINS]++;
     number[2 * NBINS + 1] += std::llround(unit * p.mass);
   }
-  MPI_Allreduce(MPI_IN_PLACE, number.data(), number.size(), MPI_LMP_BIGINT, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, number.data(), number.size(), MPI_INT64_T, MPI_SUM, world);
   count = number[2 * NBINS];
   mean_mass = number[2 * NBINS + 1] / unit / count;
 
@@ -309,7 +309,7 @@ void ComputeHVIHole::make_map(double spacing)
           for (int b = 0; b < 4; b++) row[b] += (int64_t) (part * w[1][b] + 0.5);
         }
       }
-  MPI_Allreduce(MPI_IN_PLACE, mass.data(), mass.size(), MPI_LMP_BIGINT, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, mass.data(), mass.size(), MPI_INT64_T, MPI_SUM, world);
   for (size_t k = 0; k < mass.size(); k++) map.areal[k] = mass[k] / (unit * map.h * map.h);
 
   map.find_intact();
@@ -332,7 +332,7 @@ double ComputeHVIHole::find_spacing()
     mine[1] += std::llround(scale * s);
     mine[2] += std::llround(scale * s * s);
   }
-  MPI_Allreduce(mine, sum, 3, MPI_LMP_BIGINT, MPI_SUM, world);
+  MPI_Allreduce(mine, sum, 3, MPI_INT64_T, MPI_SUM, world);
   double variance = 0.0;
   if (sum[0] > 0) {
     const double mean = sum[1] / scale / sum[0];

@@ -51,7 +51,7 @@ FixHVILedger *FixHVILedger::instance(LAMMPS *lmp)
 FixHVILedger::FixHVILedger(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), entry(), start_set(0), start(), breaking(0), warned(0), nerased(0),
     dt_step(0.0), nmax(0), lost(nullptr), clampbit(0), finternal(nullptr), xold(nullptr),
-    dx(nullptr), clamp_state()
+    dx(nullptr), nclamp(0), newcomers(0), clamp_state()
 {
   if (strcmp(id, LEDGER_ID) != 0)
     error->all(FLERR, "Fix hvi/ledger is made by the styles that need it: use compute hvi/energy");
@@ -60,6 +60,7 @@ FixHVILedger::FixHVILedger(LAMMPS *lmp, int narg, char **arg) :
   comm_reverse = 3;
   nevery = 1;
   maxexchange = 3;
+  create_attribute = 1;
   atom->add_callback(Atom::GROW);
 }
 
@@ -111,6 +112,7 @@ void FixHVILedger::setup(int /*vflag*/)
   if (clampbit) {
     clamp_state = measure_clamps();
     for (int i = 0; i < atom->nlocal; i++) dx[i][0] = dx[i][1] = dx[i][2] = 0.0;
+    newcomers = 0;
   }
   book_forces();
   end_of_step();
@@ -198,6 +200,7 @@ void FixHVILedger::book_forces()
   }
 
   if (clampbit && atom->nlocal) {
+    admit_newcomers();
     memcpy(&finternal[0][0], &atom->f[0][0], 3 * sizeof(double) * atom->nlocal);
     book_clamps();
   }
@@ -220,87 +223,6 @@ void FixHVILedger::end_of_step()
     clamp_state = now;
     if (atom->nlocal) memcpy(&xold[0][0], &atom->x[0][0], 3 * sizeof(double) * atom->nlocal);
   }
-}
-
-/* ----------------------------------------------------------------------
-   What clamps do to their particles is the change of those particles' kinetic
-   energy and momentum less what pairs and bonds do to them: in a step of
-   length dt the impulse dt/2 (F_old + F_new), the work 1/2 (F_old + F_new).dx,
-   half of each booked before and after the forces change.  The displacement
-   serves whoever moves the particles, fix move as well as fix nve.
-------------------------------------------------------------------------- */
-
-void FixHVILedger::clamp(int bits)
-{
-  clampbit = bits;
-  grow_arrays(atom->nmax);
-}
-
-void FixHVILedger::post_integrate()
-{
-  if (!clampbit) return;
-
-  dt_step = update->dt;
-  for (int i = 0; i < atom->nlocal; i++)
-    for (int k = 0; k < 3; k++) dx[i][k] = atom->x[i][k] - xold[i][k];
-  book_clamps();
-}
-
-void FixHVILedger::book_clamps()
-{
-  const double kick = 0.5 * dt_step * force->ftm2v;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & clampbit) {
-      entry[CLAMP_WORK] -= 0.5 * dot(finternal[i], dx[i]);
-      for (int k = 0; k < 3; k++) entry[CLAMP_JX + k] -= kick * finternal[i][k];
-    }
-}
-
-/* ----------------------------------------------------------------------
-   the displacement of a step outlives the migration in the middle of it;
-   nothing is stored or sent without clamps
-------------------------------------------------------------------------- */
-
-void FixHVILedger::grow_arrays(int n)
-{
-  if (!clampbit) return;
-  memory->grow(finternal, n, 3, "hvi/ledger:finternal");
-  memory->grow(xold, n, 3, "hvi/ledger:xold");
-  memory->grow(dx, n, 3, "hvi/ledger:dx");
-}
-
-void FixHVILedger::copy_arrays(int i, int j, int /*delflag*/)
-{
-  if (clampbit) memcpy(dx[j], dx[i], 3 * sizeof(double));
-}
-
-int FixHVILedger::pack_exchange(int i, double *buf)
-{
-  if (!clampbit) return 0;
-  memcpy(buf, dx[i], 3 * sizeof(double));
-  return 3;
-}
-
-int FixHVILedger::unpack_exchange(int i, double *buf)
-{
-  if (!clampbit) return 0;
-  memcpy(dx[i], buf, 3 * sizeof(double));
-  return 3;
-}
-
-/* ---------------------------------------------------------------------- */
-
-FixHVILedger::ClampState FixHVILedger::measure_clamps() const
-{
-  ClampState s = {0.0, {0.0, 0.0, 0.0}};
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & clampbit) {
-      const double *const v = atom->v[i];
-      const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
-      s.energy += 0.5 * force->mvv2e * m * dot(v, v);
-      for (int k = 0; k < 3; k++) s.momentum[k] += m * v[k];
-    }
-  return s;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -335,6 +257,7 @@ void FixHVILedger::let_go(double dt)
   const bigint nleft = leavers.pick();
   if (nleft == 0) return;
 
+  if (clampbit) admit_newcomers();
   const HVILeavers::Account left = leavers.take_out(dt, clampbit);
   entry[LEFT] += left.energy;
   for (int k = 0; k < 3; k++) entry[LEFT_PX + k] += left.momentum[k];
@@ -442,5 +365,5 @@ void FixHVILedger::restart(char *buf)
 
 double FixHVILedger::memory_usage()
 {
-  return 3.0 * (nmax + (clampbit ? 3.0 * atom->nmax : 0.0)) * sizeof(double);
+  return 3.0 * (nmax + 3.0 * nclamp) * sizeof(double);
 }

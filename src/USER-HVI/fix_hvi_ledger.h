@@ -57,6 +57,7 @@ class FixHVILedger : public Fix {
   void unpack_reverse_comm(int, int *, double *) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+  void set_arrays(int) override;
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
   int pack_exchange(int, double *) override;
@@ -107,13 +108,17 @@ class FixHVILedger : public Fix {
   int clampbit;
   double **finternal;        // forces before other fixes change them
   double **xold, **dx;       // positions before the step in progress, displacement in it
+  int nclamp;                // their length
+  int newcomers;             // there may be particles that came in this step
   ClampState clamp_state;    // at the end of the last step
 
   void grow_lost();
   void add_lost(int, const double *);
   void count_erased(bigint);
   void book_forces();
+  void count_in(int, ClampState &) const;
   ClampState measure_clamps() const;
+  void admit_newcomers();
   void book_clamps();
   void let_go(double);
 };

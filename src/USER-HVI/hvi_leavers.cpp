@@ -17,6 +17,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "force.h"
+#include "hvi_cells.h"
 #include "hvi_compat.h"
 #include "hvi_energy_carrier.h"
 #include "hvi_interface.h"
@@ -182,20 +183,56 @@ double HVILeavers::spring(const HVITorn &laws, int btype, const double *x, const
 }
 
 /* ----------------------------------------------------------------------
-   pairs of two leavers are rank 0's
+   leavers sorted into cells of the longest distance at which one of them may
+   be in touch, so that the time does not grow with their number squared; the
+   order of the sum is that of all pairs.  Pairs of two leavers are rank 0's.
 ------------------------------------------------------------------------- */
 
 double HVILeavers::tear_contacts(const HVITorn &laws) const
 {
+  std::vector<bool> leaves(atom->ntypes + 1, false);
+  for (const Leaver &l : out) leaves[l.type] = true;
+  double cutsq = 0.0;
+  for (int itype = 1; itype <= atom->ntypes; itype++)
+    for (int jtype = 1; jtype <= atom->ntypes; jtype++)
+      if (leaves[jtype]) cutsq = MAX(cutsq, laws.pair_cutsq(itype, jtype));
+  if (cutsq == 0.0) return 0.0;
+
+  double width[3];
+  fraction_of_box(std::sqrt(cutsq), width);
+  const bool periodic[3] = {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0};
+  HVI::Cells cells(width, periodic);
+  double s[3];
+  for (size_t n = 0; n < out.size(); n++) {
+    fractional(out[n].x, s);
+    cells.add(n, s);
+  }
+  cells.sort();
+
   double energy = 0.0;
-  for (const int i : near)
-    for (const Leaver &l : out) energy += contact(laws, atom->type[i], atom->x[i], atom->v[i], l);
+  for (const int i : near) {
+    fractional(atom->x[i], s);
+    cells.near(s, [&](int n) {
+      energy += contact(laws, atom->type[i], atom->x[i], atom->v[i], out[n]);
+    });
+  }
 
   if (comm->me == 0)
-    for (size_t n = 0; n < out.size(); n++)
-      for (size_t m = 0; m < n; m++)
-        energy += contact(laws, out[n].type, out[n].x, out[n].v, out[m]);
+    for (int n = 0; n < (int) out.size(); n++) {
+      fractional(out[n].x, s);
+      cells.near(s, [&](int m) {
+        if (m < n) energy += contact(laws, out[n].type, out[n].x, out[n].v, out[m]);
+      });
+    }
   return energy;
+}
+
+void HVILeavers::fractional(const double *x, double *s) const
+{
+  if (domain->triclinic)
+    domain->x2lamda(const_cast<double *>(x), s);
+  else
+    for (int k = 0; k < 3; k++) s[k] = (x[k] - domain->boxlo[k]) / domain->prd[k];
 }
 
 /* ----------------------------------------------------------------------

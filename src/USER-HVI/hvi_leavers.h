@@ -59,6 +59,7 @@ class HVILeavers : protected Pointers {
   double spring(const class HVITorn &, int, const double *, const double *, const Leaver &) const;
   double tear_contacts(const class HVITorn &) const;
   double tear_bonds(const class HVITorn &, bigint &);
+  void fractional(const double *, double *) const;
   void fraction_of_box(double, double *) const;
   void remove();
   template <typename T> std::vector<T> gather_all(const std::vector<T> &) const;

@@ -105,3 +105,27 @@ def test_order_matters_and_is_checked(lmp, order, good):
     result = lmp(text + (book + fixes if good else fixes + book) + "run 1\n", expect_fail=not good)
     if not good:
         assert "must be defined before fix c (setforce)" in result.error
+
+
+@pytest.mark.parametrize("newton, nranks", [("on", 1), ("off", 1), ("on", 2)])
+def test_newcomers_bring_what_they_have(lmp, newton, nranks):
+    """a particle put among the clamped ones in touch with another: the total grows by its energy, no clamp has worked
+
+    It takes the place in memory of one that has left fast.
+    """
+    s = State([[0, 0, 0], [0, 5, 0], [7.99, 0, 0]], [[0, 0, 0], [0, 0, 0], [300.0, 0, 0]], [], [[-8.0, 8.0]] * 3)
+    dt, v, r = 1e-4, 0.5, 1.0
+    text = scene(s, "s.data", newton=newton, bond="bond_style none\n", processors="* 1 1") + "group held id 2\n" + ledger("clamps held", every=1)
+    text += f"thermo_modify lost ignore\nregion spot block {r} {r + 1e-9} 0 1e-9 0 1e-9\nfix nve all nve\ntimestep {dt}\nrun 10\n"
+    text += f"fix drop held deposit 1 1 20 4711 region spot vx {v} {v}\nfix c held addforce 0 0 0\nrun 60\n"
+    result = lmp(text, nranks=nranks)
+    book, atoms = books(result.thermo), result.thermo["Atoms"]
+    assert list(np.unique(atoms)) == [2.0, 3.0] and atoms[-1] == 3 and book["left_count"][0] == 1
+    came = np.flatnonzero(np.diff(atoms) > 0)[-1]
+    phi, push = 0.25, 6.0  # of hvi/contact at r = sigma
+    gain = np.diff(book["total"])
+    assert gain[came] == pytest.approx(0.5 * v * v + phi + 0.5 * dt * push * v, abs=1e-6)
+    assert np.abs(np.delete(gain, came)).max() < 1e-6
+    assert book["clamps"] == pytest.approx(0.0, abs=1e-6)
+    assert np.abs(book["jx"]).max() < 1e-12
+    assert book["px"][came + 1] - book["px"][0] == pytest.approx(v, abs=1e-12)

@@ -1,8 +1,10 @@
 """The ledger closes when it should, and shows what nobody booked, by the right amount."""
 
+import re
+
 import numpy as np
 import pytest
-from scenes import BOND, KAPPA, PAIR, R_CUT, R_EQ, State, books, chain, collision, cube, forces, ledger, momentum_error, scene
+from scenes import BOND, KAPPA, LEDGER, PAIR, R_CUT, R_EQ, State, books, chain, collision, cube, forces, ledger, momentum_error, scene
 
 NVE = "fix nve all nve\n"
 
@@ -92,6 +94,27 @@ def test_entries_are_what_lammps_says(lmp, units):
     assert book["mass"][0] == pytest.approx(m.sum(), rel=1e-13) == row["v_m"][0]
     assert book["px"][0] == pytest.approx(row["v_px"][0], rel=1e-10)
     assert book["total"][0] == pytest.approx(book["kinetic"][0] + book["contact"][0] + book["spring"][0], rel=1e-13)
+    assert book["ratio"][0] == 1.0 and book["mass0"][0] == book["mass"][0]
+    assert all(book[f"p0{c}"][0] == book[f"p{c}"][0] for c in "xyz")
+    nothing = "internal broken left clamps left_px left_py left_pz jx jy jz left_mass left_count bonds_broken bonds_left viscous plastic"
+    assert all(book[name][0] == 0.0 for name in nothing.split())
+
+
+def test_page_names_the_entries(root):
+    """the table of the page, row by row, has the entries that the tests know, in their order"""
+    page = (root / "doc/src/compute_hvi_energy.rst").read_text()
+    rows = re.findall(r"^(\d+)(?: - (\d+))?  +(.*?)  +(energy|none|mass\*velocity|mass)$", page, re.M)
+    names = [name for first, last, name, _ in rows for _ in range(int(first), int(last or first) + 1)]
+    units = [unit for first, last, _, unit in rows for _ in range(int(first), int(last or first) + 1)]
+    assert [int(row[0]) for row in rows][0] == 1 and len(names) == len(LEDGER) == 29
+    keys = dict(p="momentum of the particles", left_p="momentum that left", j="impulse", p0="momentum at the start", mass="mass of the particles",
+                left_mass="mass that left", left_count="number of particles that left", bonds_broken="number of bonds that broke",
+                bonds_left="number of bonds that left", mass0="mass at the start", total="total, the sum", ratio="total/initial")
+    for entry, name, unit in zip(LEDGER, names, units):
+        key = entry[:-1] if entry[-1] in "xyz" else entry
+        assert name.startswith(keys.get(key, key)), entry
+        assert unit == ("mass*velocity" if entry[-1] in "xyz" else "mass" if "mass" in entry else
+                        "none" if entry in ("ratio", "left_count", "bonds_broken", "bonds_left") else "energy"), entry
 
 
 # what somebody does between two runs -> change of the total, from the state before
