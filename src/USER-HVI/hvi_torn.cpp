@@ -67,9 +67,9 @@ void HVITorn::find_pairs()
 }
 
 /* ----------------------------------------------------------------------
-   single() of no style is told whose data it may use, so none may be there
-   that one of LAMMPS's reads: charge, dipole, radius, ... or what a pair
-   style keeps of its particles and neighbors
+   What single() reads is not to be known, so none of the data may be there
+   that those of LAMMPS's styles read: charge, dipole, radius, ..., or what a
+   pair style keeps of its particles and neighbors.
 ------------------------------------------------------------------------- */
 
 bool HVITorn::needs_types_only(Pair *pair) const
@@ -77,7 +77,7 @@ bool HVITorn::needs_types_only(Pair *pair) const
   if (!pair->single_enable || pair->manybody_flag || pair->single_extra || pair->nextra)
     return false;
   return !(atom->q_flag || atom->mu_flag || atom->radius_flag || atom->vfrac_flag ||
-           atom->edpd_flag || atom->rheo_status_flag || atom->sp_flag);
+           atom->ellipsoid_flag || atom->edpd_flag || atom->rheo_status_flag);
 }
 
 /* ---------------------------------------------------------------------- */
