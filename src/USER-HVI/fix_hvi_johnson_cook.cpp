@@ -17,23 +17,71 @@
 #include "error.h"
 #include "hvi_material.h"
 #include "hvi_vector.h"
-#include "memory.h"
 #include "modify.h"
 #include "pair_hvi_sph.h"
 
+#include <algorithm>
+#include <cfloat>
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
+
+/* ----------------------------------------------------------------------
+   Two sections of data files: the state, and the stress in the last forces with
+   what the next step needs beside it.  Data files have no infinity: it is DBL_MAX.
+------------------------------------------------------------------------- */
+
+namespace {
+using Solid = HVI::SolidState;
+enum { STATE, FORCES };
+}    // namespace
+
+constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
+    {"Sxx", STATE, offsetof(Solid, S.xx)},
+    {"Syy", STATE, offsetof(Solid, S.yy)},
+    {"Szz", STATE, offsetof(Solid, S.zz)},
+    {"Sxy", STATE, offsetof(Solid, S.xy)},
+    {"Sxz", STATE, offsetof(Solid, S.xz)},
+    {"Syz", STATE, offsetof(Solid, S.yz)},
+    {"eps", STATE, offsetof(Solid, eps)},
+    {"damage", STATE, offsetof(Solid, damage)},
+    {"spalled", STATE, offsetof(Solid, spalled)},
+    {"heat", STATE, offsetof(Solid, heat)},
+
+    {"Sxx", FORCES, offsetof(Solid, seen.S.xx)},
+    {"Syy", FORCES, offsetof(Solid, seen.S.yy)},
+    {"Szz", FORCES, offsetof(Solid, seen.S.zz)},
+    {"Sxy", FORCES, offsetof(Solid, seen.S.xy)},
+    {"Sxz", FORCES, offsetof(Solid, seen.S.xz)},
+    {"Syz", FORCES, offsetof(Solid, seen.S.yz)},
+    {"p_min", FORCES, offsetof(Solid, seen.p_min),
+     [](const FixHVIJohnsonCook &fix, int i) {
+       return std::max(fix.extra[i].seen.p_min, -DBL_MAX);
+     },
+     [](FixHVIJohnsonCook &fix, int i, double p) {
+       fix.extra[i].seen.p_min = p > -DBL_MAX ? p : -HVI::NO_LIMIT;
+     }},
+    {"shear_then", FORCES, offsetof(Solid, seen.shear)},
+    {"shear", FORCES, offsetof(Solid, shear)},
+    {"rate", FORCES, offsetof(Solid, rate)},
+
+    // made anew when a run begins
+    {nullptr, 0, offsetof(Solid, yield)},
+    {nullptr, 0, offsetof(Solid, carried.xx)},
+    {nullptr, 0, offsetof(Solid, carried.yy)},
+    {nullptr, 0, offsetof(Solid, carried.zz)},
+    {nullptr, 0, offsetof(Solid, carried.xy)},
+    {nullptr, 0, offsetof(Solid, carried.xz)},
+    {nullptr, 0, offsetof(Solid, carried.yz)},
+};
 
 /* ---------------------------------------------------------------------- */
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), solid(nullptr), pair(nullptr), fresh(true),
-    state_rows(lmp, id, "Sxx Syy Szz Sxy Sxz Syz eps damage spalled heat"),
-    force_rows(lmp, std::string(id) + "_forces",
-               "Sxx Syy Szz Sxy Sxz Syz p_min shear_then shear rate")
+    FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces"}), pair(nullptr),
+    fresh(true)
 {
+  static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
   std::string spall_name = "principal";
   int iarg = 3;
   while (iarg < narg) {
@@ -88,26 +136,7 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
                      options.damage ? "yes" : "no", spall_name,
                      options.from_work ? "work" : "energy", options.thermal ? "yes" : "no");
   if (options.weibull > 0.0) text += fmt::format(" weibull {} {}", options.weibull, options.seed);
-
-  restart_global = 1;
-  restart_peratom = 1;
-  maxexchange = NSOLID;
-  create_attribute = 1;
-  wd_section = 2;
-
-  FixHVIJohnsonCook::grow_arrays(atom->nmax);
-  for (int i = 0; i < atom->nlocal; i++) FixHVIJohnsonCook::set_arrays(i);
-  atom->add_callback(Atom::GROW);
-  atom->add_callback(Atom::RESTART);
-}
-
-/* ---------------------------------------------------------------------- */
-
-FixHVIJohnsonCook::~FixHVIJohnsonCook()
-{
-  atom->delete_callback(id, Atom::GROW);
-  atom->delete_callback(id, Atom::RESTART);
-  memory->sfree(solid);
+  begin();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -138,8 +167,7 @@ void FixHVIJohnsonCook::init()
                "Fix hvi/johnson-cook: the restart file was written with {}, this run uses {}",
                restored, text);
   restored.clear();    // later runs of this script may use another fix
-  state_rows.forget();
-  force_rows.forget();
+  forget_rows();
 
   models.clear();
   models.resize(atom->ntypes + 1);
@@ -177,7 +205,7 @@ const HVI::SolidModel *FixHVIJohnsonCook::of(int i) const
 
 double FixHVIJohnsonCook::plastic_work(int i) const
 {
-  return (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * solid[i].heat;
+  return (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * extra[i].heat;
 }
 
 // what the model of a particle needs of the last forces; before the first there are none
@@ -201,9 +229,9 @@ void FixHVIJohnsonCook::start(int i, bool anew)
 {
   fresh = true;
   if (const HVI::SolidModel *const model = of(i))
-    model->start(solid[i], input(i, STATE), anew);
-  else if (anew || !HVI::SolidModel::started(solid[i]))
-    HVI::SolidModel::liquefy(solid[i]);
+    model->start(extra[i], input(i, STATE), anew);
+  else if (anew || !HVI::SolidModel::started(extra[i]))
+    HVI::SolidModel::liquefy(extra[i]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -213,9 +241,9 @@ void FixHVIJohnsonCook::first_half(double dt)
   for (int i = 0; i < atom->nlocal; i++) {
     const HVI::SolidModel *const model = of(i);
     if (!model) continue;
-    if (fresh || !model->ready(solid[i]))
-      model->prepare(solid[i], input(i, fresh ? GRADIENT : FORCES), fresh);
-    model->first_half(solid[i], dt);
+    if (fresh || !model->ready(extra[i]))
+      model->prepare(extra[i], input(i, fresh ? GRADIENT : FORCES), fresh);
+    model->first_half(extra[i], dt);
   }
   fresh = false;
 }
@@ -246,7 +274,7 @@ void FixHVIJohnsonCook::second_half(int n, const int *who, double dt)
   Solid *states[HVI::LANES];
   HVI::SolidInput in[HVI::LANES];
   for (int k = 0; k < n; k++) {
-    states[k] = &solid[who[k]];
+    states[k] = &extra[who[k]];
     in[k] = input(who[k], GRADIENT);
   }
   const int wrong = of(who[0])->second_half(n, states, in, dt);
@@ -261,5 +289,5 @@ void FixHVIJohnsonCook::second_half(int n, const int *who, double dt)
 
 void FixHVIJohnsonCook::reflect(int i, int op)
 {
-  HVI::SolidModel::reflect(solid[i], op);
+  HVI::SolidModel::reflect(extra[i], op);
 }

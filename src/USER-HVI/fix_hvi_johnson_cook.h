@@ -15,8 +15,7 @@ FixStyle(hvi/johnson-cook,FixHVIJohnsonCook);
 #ifndef LMP_FIX_HVI_JOHNSON_COOK_H
 #define LMP_FIX_HVI_JOHNSON_COOK_H
 
-#include "fix.h"
-#include "hvi_data_rows.h"
+#include "fix_hvi_records.h"
 #include "hvi_solid_model.h"
 #include "hvi_sph.h"
 
@@ -26,32 +25,13 @@ FixStyle(hvi/johnson-cook,FixHVIJohnsonCook);
 
 namespace LAMMPS_NS {
 
-class FixHVIJohnsonCook : public Fix {
+class FixHVIJohnsonCook : public FixHVIRecords<FixHVIJohnsonCook, HVI::SolidState> {
  public:
   using Solid = HVI::SolidState;
 
   FixHVIJohnsonCook(class LAMMPS *, int, char **);
-  ~FixHVIJohnsonCook() override;
   int setmask() override;
   void init() override;
-  void set_arrays(int) override;
-  void grow_arrays(int) override;
-  void copy_arrays(int, int, int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
-  int pack_restart(int, double *) override;
-  void unpack_restart(int, int) override;
-  int maxsize_restart() override;
-  int size_restart(int) override;
-  void write_restart(FILE *) override;
-  void restart(char *) override;
-  void write_data_section_size(int, int &, int &) override;
-  void write_data_section_pack(int, double **) override;
-  void write_data_section_keyword(int, FILE *) override;
-  void write_data_section(int, FILE *, int, double **, int) override;
-  bigint read_data_skip_lines(char *) override { return -1; }    // one per particle
-  void read_data_section(char *, int, char *, tagint) override;
-  double memory_usage() override;
 
   // called by fix hvi/sph, with the time step
 
@@ -66,27 +46,25 @@ class FixHVIJohnsonCook : public Fix {
 
   HVI::SphStress stress(int i) const
   {
-    const Solid::Seen &s = solid[i].seen;
+    const Solid::Seen &s = extra[i].seen;
     return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, s.p_min, s.shear > 0.0 ? s.shear : 0.0};
   }
-  const Solid &state(int i) const { return solid[i]; }
+  const Solid &state(int i) const { return extra[i]; }
   double plastic_work(int) const;    // energy, from the start on
-  bool failed(int i) const { return solid[i].failed(); }
+  bool failed(int i) const { return extra[i].failed(); }
 
  private:
-  static constexpr int NSOLID = sizeof(Solid) / sizeof(double);
+  static const Field FIELDS[];
 
   HVI::SolidOptions options;
-  std::string text, restored;    // settings, and those in the restart file
+  std::string text;                                        // settings
   std::vector<std::unique_ptr<HVI::SolidModel>> models;    // of types; null: no solid
   std::vector<int> warned;                                 // of types that do not spall
 
-  Solid *solid;
   class PairHVISPH *pair;
-  bool fresh;                            // a run begins: rates of S are to be made
-  HVIDataRows state_rows, force_rows;    // sections of data files
+  bool fresh;    // a run begins: rates of S are to be made
 
-  HVIDataRows &rows(int section) { return section == 0 ? state_rows : force_rows; }
+  std::string settings() const override { return text; }
   const HVI::SolidModel *of(int) const;      // null: no solid
   enum Needs { STATE, FORCES, GRADIENT };    // each with those before it
   HVI::SolidInput input(int, Needs) const;

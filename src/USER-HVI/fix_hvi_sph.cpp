@@ -19,7 +19,6 @@
 #include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_ledger.h"
 #include "force.h"
-#include "memory.h"
 #include "modify.h"
 #include "pair_hvi_sph.h"
 #include "update.h"
@@ -30,13 +29,69 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
+/* ----------------------------------------------------------------------
+   Data files: what the last rates belong to, for particles that go on from it, and the constant of
+   variable h.  atom_style sph does not write vest.
+------------------------------------------------------------------------- */
+
+constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
+    {"going_on", 0, offsetof(Extra, mark),
+     [](const FixHVISPH &fix, int i) {
+       return fix.goes_on(i) ? 1.0 : 0.0;
+     },
+     [](FixHVISPH &fix, int i, double going_on) {
+       fix.extra[i].mark = going_on != 0.0 ? fix.fingerprint(i) : 0;
+     }},
+    {"h_constant", 0, offsetof(Extra, hscale)},
+    {"rho", 0, offsetof(Extra, rho),
+     [](const FixHVISPH &fix, int i) {
+       return fix.goes_on(i) ? fix.extra[i].rho : fix.atom->rho[i];
+     }},
+    {"esph", 0, offsetof(Extra, esph),
+     [](const FixHVISPH &fix, int i) {
+       return fix.goes_on(i) ? fix.extra[i].esph : fix.atom->esph[i];
+     }},
+    {"vx", 0, Field::NOWHERE,
+     [](const FixHVISPH &fix, int i) {
+       return fix.felt_velocity(i)[0];
+     },
+     [](FixHVISPH &fix, int i, double v) {
+       fix.atom->vest[i][0] = v;
+     }},
+    {"vy", 0, Field::NOWHERE,
+     [](const FixHVISPH &fix, int i) {
+       return fix.felt_velocity(i)[1];
+     },
+     [](FixHVISPH &fix, int i, double v) {
+       fix.atom->vest[i][1] = v;
+     }},
+    {"vz", 0, Field::NOWHERE,
+     [](const FixHVISPH &fix, int i) {
+       return fix.felt_velocity(i)[2];
+     },
+     [](FixHVISPH &fix, int i, double v) {
+       fix.atom->vest[i][2] = v;
+     }},
+
+    // 0 between steps
+    {nullptr, 0, offsetof(Extra, drho)},
+    {nullptr, 0, offsetof(Extra, de)},
+};
+
+// the velocity that the last rates belong to
+
+const double *FixHVISPH::felt_velocity(int i) const
+{
+  return goes_on(i) ? atom->vest[i] : atom->v[i];
+}
+
 /* ---------------------------------------------------------------------- */
 
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), extra(nullptr), pair(nullptr), ledger(nullptr), strength(nullptr),
-    dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0}, stepping(0), follow(0),
-    rows(lmp, id, "going_on h_constant rho esph vx vy vz")
+    FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {""}), pair(nullptr), ledger(nullptr),
+    strength(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0}, stepping(0), follow(0)
 {
+  static_assert(covers<Extra>(FIELDS), "a number of the record is missing, or there twice");
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
                "Fix hvi/sph needs density, energy and velocity estimates of particles: use "
@@ -44,22 +99,14 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
   if (narg != 3) error->all(FLERR, "Fix hvi/sph takes no arguments, but got {}", arg[3]);
 
   time_integrate = 1;
-  restart_global = 1;
-  restart_peratom = 1;
   comm_border = 1;
   comm_forward = 1;
-  maxexchange = NEXTRA;
-  create_attribute = 1;
-  wd_section = 1;
   vector_flag = 1;
   size_vector = atom->ntypes;
   global_freq = 1;
   extvector = 0;
 
-  FixHVISPH::grow_arrays(atom->nmax);
-  for (int i = 0; i < atom->nlocal; i++) FixHVISPH::set_arrays(i);
-  atom->add_callback(Atom::GROW);
-  atom->add_callback(Atom::RESTART);
+  begin();
   atom->add_callback(Atom::BORDER);
 }
 
@@ -67,10 +114,7 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
 
 FixHVISPH::~FixHVISPH()
 {
-  atom->delete_callback(id, Atom::GROW);
-  atom->delete_callback(id, Atom::RESTART);
   atom->delete_callback(id, Atom::BORDER);
-  memory->sfree(extra);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -103,7 +147,7 @@ void FixHVISPH::init()
                restored, pair->description());
 
   restored.clear();    // later runs of this script may change the settings
-  rows.forget();
+  forget_rows();
 
   strength = FixHVIJohnsonCook::find(lmp);
 
@@ -316,35 +360,6 @@ void FixHVISPH::post_run()
   stepping = 0;
 }
 
-/* ---------------------------------------------------------------------- */
-
-void FixHVISPH::set_arrays(int i)
-{
-  if (!rows.take(i)) extra[i] = Extra();
-}
-
-void FixHVISPH::grow_arrays(int n)
-{
-  extra = (Extra *) memory->srealloc(extra, n * sizeof(Extra), "hvi/sph:extra");
-}
-
-void FixHVISPH::copy_arrays(int i, int j, int /*delflag*/)
-{
-  extra[j] = extra[i];
-}
-
-int FixHVISPH::pack_exchange(int i, double *buf)
-{
-  memcpy(buf, &extra[i], sizeof(Extra));
-  return NEXTRA;
-}
-
-int FixHVISPH::unpack_exchange(int i, double *buf)
-{
-  memcpy(&extra[i], buf, sizeof(Extra));
-  return NEXTRA;
-}
-
 /* ----------------------------------------------------------------------
    the constant of variable h goes to new ghosts
 ------------------------------------------------------------------------- */
@@ -373,91 +388,18 @@ void FixHVISPH::unpack_forward_comm(int n, int first, double *buf)
 
 /* ---------------------------------------------------------------------- */
 
-int FixHVISPH::pack_restart(int i, double *buf)
+std::string FixHVISPH::settings() const
+{
+  return pair ? pair->description() : restored;
+}
+
+// a restart file in the middle of a run is like one at its end
+
+FixHVISPH::Extra FixHVISPH::stored(int i) const
 {
   Extra e = extra[i];
   if (stepping) e.mark = mine(i) ? fingerprint(i) : 0;
-  buf[0] = NEXTRA + 1;
-  memcpy(&buf[1], &e, sizeof(Extra));
-  return NEXTRA + 1;
-}
-
-void FixHVISPH::unpack_restart(int nlocal, int nth)
-{
-  double **stored = atom->extra;
-  int m = 0;
-  for (int i = 0; i < nth; i++) m += static_cast<int>(stored[nlocal][m]);
-  memcpy(&extra[nlocal], &stored[nlocal][m + 1], sizeof(Extra));
-}
-
-int FixHVISPH::maxsize_restart()
-{
-  return NEXTRA + 1;
-}
-
-int FixHVISPH::size_restart(int /*nlocal*/)
-{
-  return NEXTRA + 1;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixHVISPH::write_restart(FILE *fp)
-{
-  if (comm->me) return;
-  const std::string text = pair ? pair->description() : restored;
-  const int size = text.size() + 1;
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(text.c_str(), 1, size, fp);
-}
-
-void FixHVISPH::restart(char *buf)
-{
-  restored = buf;
-}
-
-/* ----------------------------------------------------------------------
-   Data files: what the last rates belong to, for particles that go on from it,
-   and the constant of variable h.  atom_style sph does not write vest.
-------------------------------------------------------------------------- */
-
-void FixHVISPH::write_data_section_size(int /*mth*/, int &nx, int &ny)
-{
-  nx = atom->nlocal;
-  ny = rows.width();
-}
-
-void FixHVISPH::write_data_section_pack(int /*mth*/, double **buf)
-{
-  rows.pack_ids(buf);
-  for (int i = 0; i < atom->nlocal; i++) {
-    const Extra &e = extra[i];
-    const bool going_on = e.mark == fingerprint(i);
-    buf[i][1] = going_on;
-    buf[i][2] = e.hscale;
-    buf[i][3] = going_on ? e.rho : atom->rho[i];
-    buf[i][4] = going_on ? e.esph : atom->esph[i];
-    for (int k = 0; k < 3; k++) buf[i][5 + k] = going_on ? atom->vest[i][k] : atom->v[i][k];
-  }
-}
-
-void FixHVISPH::write_data_section_keyword(int /*mth*/, FILE *fp)
-{
-  rows.write_keyword(fp);
-}
-
-void FixHVISPH::write_data_section(int /*mth*/, FILE *fp, int n, double **buf, int /*index*/)
-{
-  rows.write(fp, n, buf);
-}
-
-void FixHVISPH::read_data_section(char * /*keyword*/, int n, char *buf, tagint offset)
-{
-  rows.read(n, buf, offset, [this](int i, const double *c) {
-    Extra &e = extra[i];
-    e = {0.0, 0.0, c[2], c[3], c[0] != 0.0 ? fingerprint(i) : 0, c[1]};
-    for (int k = 0; k < 3; k++) atom->vest[i][k] = c[4 + k];
-  });
+  return e;
 }
 
 /* ----------------------------------------------------------------------
@@ -470,11 +412,4 @@ double FixHVISPH::compute_vector(int n)
   const auto *now = PairHVISPH::find(lmp);
   const auto *material = now && now->allocated ? now->material(n + 1) : nullptr;
   return material ? material->eos->rho0() : 0.0;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double FixHVISPH::memory_usage()
-{
-  return (double) atom->nmax * sizeof(Extra);
 }

@@ -15,15 +15,23 @@ FixStyle(hvi/sph,FixHVISPH);
 #ifndef LMP_FIX_HVI_SPH_H
 #define LMP_FIX_HVI_SPH_H
 
-#include "fix.h"
-#include "hvi_data_rows.h"
+#include "fix_hvi_records.h"
 
 #include <cstdint>
 #include <string>
 
 namespace LAMMPS_NS {
 
-class FixHVISPH : public Fix {
+// of a particle, beyond what atom_style sph keeps
+
+struct HVISPHExtra {
+  double drho, de;     // second half of the step in progress, as extrapolated
+  double rho, esph;    // values the last rates belong to
+  uint64_t mark;       // fingerprint of the state at the end of the last run
+  double hscale;       // h rho^(1/dim), 0: not known yet
+};
+
+class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra> {
  public:
   FixHVISPH(class LAMMPS *, int, char **);
   ~FixHVISPH() override;
@@ -37,59 +45,35 @@ class FixHVISPH : public Fix {
   void final_integrate() override;
   void post_run() override;
   void reset_dt() override;
-  void set_arrays(int) override;
-  void grow_arrays(int) override;
-  void copy_arrays(int, int, int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
   int pack_border(int, int *, double *) override;
   int unpack_border(int, int, double *) override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
-  int pack_restart(int, double *) override;
-  void unpack_restart(int, int) override;
-  int maxsize_restart() override;
-  int size_restart(int) override;
-  void write_restart(FILE *) override;
-  void restart(char *) override;
-  void write_data_section_size(int, int &, int &) override;
-  void write_data_section_pack(int, double **) override;
-  void write_data_section_keyword(int, FILE *) override;
-  void write_data_section(int, FILE *, int, double **, int) override;
-  bigint read_data_skip_lines(char *) override { return -1; }    // one per particle
-  void read_data_section(char *, int, char *, tagint) override;
   double compute_vector(int) override;
-  double memory_usage() override;
 
   double hscale(int i) const { return extra[i].hscale; }    // owned and ghost particles
   double energy_owed(int i) const { return extra[i].de; }
 
  private:
-  // of a particle, beyond what atom_style sph keeps
+  using Extra = HVISPHExtra;
+  static const Field FIELDS[];
 
-  struct Extra {
-    double drho, de;     // second half of the step in progress, as extrapolated
-    double rho, esph;    // values the last rates belong to
-    uint64_t mark;       // fingerprint of the state at the end of the last run
-    double hscale;       // h rho^(1/dim), 0: not known yet
-  };
-  static constexpr int NEXTRA = sizeof(Extra) / sizeof(double);
-
-  Extra *extra;
   class PairHVISPH *pair;
   class FixHVILedger *ledger;
   class FixHVIJohnsonCook *strength;    // of solids, which it integrates when asked to
   double dtv, dtf;
-  double power;            // viscous, of the last force evaluation
-  double push[3];          // of mirror planes, likewise
-  int stepping;            // in a run, so that the state is the one the last step left
-  int follow;              // particles outside the group are moved by fixes that do not know vest
-  std::string restored;    // settings of the pair style in the restart file
-  HVIDataRows rows;        // section of data files
+  double power;      // viscous, of the last force evaluation
+  double push[3];    // of mirror planes, likewise
+  int stepping;      // in a run, so that the state is the one the last step left
+  int follow;        // particles outside the group are moved by fixes that do not know vest
 
   bool mine(int) const;    // integrated here
   void reflect();
   uint64_t fingerprint(int) const;
+  const double *felt_velocity(int) const;
+  bool goes_on(int i) const { return extra[i].mark == fingerprint(i); }
+  std::string settings() const override;
+  Extra stored(int) const override;
 };
 
 }    // namespace LAMMPS_NS
