@@ -458,7 +458,7 @@ TEST(RadialReturn, JohnsonCookFindsIt)
         for (double factor : {0.0, 1e-3, 1.0}) {
           const Vec y = jc.solve(zero + trial, zero + 26e9, zero + factor, zero + eps, dt);
           const double x = std::max((trial - y[0]) / 78e9, 0.0);    // not precise for small ones
-          EXPECT_NEAR(y[0], std::min(trial, factor * jc.flow(eps + x, dt > 0.0 ? x / dt : NONE)),
+          EXPECT_NEAR(y[0], std::min(trial, factor * jc.flow(eps + x, dt > 0.0 ? x / dt : NONE, at(300.0))),
                       1e-9 * trial)
               << trial << " " << eps << " " << dt << " " << factor;
         }
@@ -526,10 +526,10 @@ TEST(RadialReturn, Effort)
       return n;
     }
     explicit Counting(const StrengthJohnsonCook &law) : StrengthJohnsonCook(law) {}
-    double flow(double eps, double rate) const
+    double flow(double eps, double rate, const Conditions &c) const
     {
       total()++;
-      return StrengthJohnsonCook::flow(eps, rate);
+      return StrengthJohnsonCook::flow(eps, rate, c);
     }
   };
   const StrengthJohnsonCook jc = StrengthJohnsonCook::make(JC_VALUES);
