@@ -171,7 +171,7 @@ TEST(WrongFile, Sections)
             "mie-gruneisen, polynomial, tillotson, table");
   EXPECT_EQ(problem(HEAD + EOS + "strength mts\n"),
             "x.hvi:10: unknown law strength mts; known are johnson-cook, steinberg-guinan, "
-            "cowper-symonds, perfect, none");
+            "cowper-symonds, zerilli-armstrong, perfect, none");
   EXPECT_EQ(problem(HEAD + "eos linear 3\n"), "x.hvi:3: eos linear: unexpected text 3");
   EXPECT_EQ(problem(HEAD + EOS + "eos linear\n"),
             "x.hvi:10: second section eos, the first is in line 3");
