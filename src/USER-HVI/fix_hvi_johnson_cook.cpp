@@ -17,6 +17,8 @@
 #include "error.h"
 #include "fix_hvi_store.h"
 #include "force.h"
+#include "group.h"
+#include "hvi_laws.h"
 #include "hvi_material.h"
 #include "hvi_vector.h"
 #include "modify.h"
@@ -80,10 +82,10 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces"}),
-    store(nullptr), fresh(true)
+    spall_name("principal"), store(nullptr), fresh(true)
 {
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
-  std::string spall_name = "principal";
+  bool damage_given = false;
   int iarg = 3;
   while (iarg < narg) {
     const std::string key = arg[iarg];
@@ -94,7 +96,16 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     if (key == "strength") {
       options.strength = value;
     } else if (key == "damage") {
-      options.damage = utils::logical(FLERR, value, false, lmp);
+      damage_given = true;
+      options.damage_law.clear();
+      if (value == "yes" || value == "no")
+        options.damage = value == "yes";
+      else if (HVI::find_law("damage", value)) {
+        options.damage = true;
+        options.damage_law = value;
+      } else
+        error->all(FLERR, "Fix hvi/johnson-cook damage must be yes, no or a law ({}), not {}",
+                   HVI::law_names("damage"), value);
     } else if (key == "thermal") {
       options.thermal = utils::logical(FLERR, value, false, lmp);
     } else if (key == "temperature") {
@@ -128,15 +139,18 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
       error->all(FLERR, "Unknown fix hvi/johnson-cook keyword: {}", key);
     iarg += 1 + nvalues;
   }
+  if (options.strength == "none") {
+    if (damage_given && options.damage)
+      error->all(FLERR,
+                 "Fix hvi/johnson-cook strength none brings no plastic strain, which damage needs: "
+                 "use damage no");
+    options.damage = false;
+  }
   if (options.weibull > 0.0 && !options.damage)
     error->all(FLERR, "Fix hvi/johnson-cook weibull scatters damage: it needs damage yes");
   if (options.weibull > 0.0 && !atom->tag_enable)
     error->all(FLERR, "Fix hvi/johnson-cook weibull needs IDs of particles");
-
-  text = fmt::format("strength {} damage {} spall {} temperature {} thermal {}", options.strength,
-                     options.damage ? "yes" : "no", spall_name,
-                     options.from_work ? "work" : "energy", options.thermal ? "yes" : "no");
-  if (options.weibull > 0.0) text += fmt::format(" weibull {} {}", options.weibull, options.seed);
+  begin();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -163,21 +177,54 @@ void FixHVIJohnsonCook::init()
   store = FixHVIStore::find(lmp);
   if (!store || !force->pair_match("^hvi/sph$", 0))
     error->all(FLERR, "Fix hvi/johnson-cook needs pair style hvi/sph");
-  if (!restored.empty() && restored != text)
+  forget_rows();
+  make_models();
+  if (!restored.empty() && restored != settings())
     error->all(FLERR,
                "Fix hvi/johnson-cook: the restart file was written with {}, this run uses {}",
-               restored, text);
+               restored, settings());
   restored.clear();    // later runs of this script may use another fix
-  forget_rows();
+}
 
+/* ----------------------------------------------------------------------
+   "damage yes" leaves the law to the files: here it has its name
+------------------------------------------------------------------------- */
+
+std::string FixHVIJohnsonCook::settings() const
+{
+  std::string damage;
+  for (const auto &model : models) {
+    if (!model || !model->damage()) continue;
+    const std::string law = model->damage()->name();
+    if (("," + damage + ",").find("," + law + ",") == std::string::npos)
+      damage += (damage.empty() ? "" : ",") + law;
+  }
+  if (damage.empty()) damage = options.damage ? "yes" : "no";
+  std::string text = fmt::format(
+      "strength {} damage {} spall {} temperature {} thermal {}", options.strength, damage,
+      spall_name, options.from_work ? "work" : "energy", options.thermal ? "yes" : "no");
+  if (options.weibull > 0.0) text += fmt::format(" weibull {} {}", options.weibull, options.seed);
+  return text;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVIJohnsonCook::make_models()
+{
   models.clear();
   models.resize(atom->ntypes + 1);
   warned.resize(atom->ntypes + 1, 0);
-  bool found = false;
+  count_particles();
+  bool anywhere = false, here = false, liquids = false;
   for (int itype = 1; itype <= atom->ntypes; itype++) {
     const HVI::Material *const material = store->materials.of(itype);
-    if (!material || !material->section("strength", options.strength)) continue;    // fluids
-    found = true;
+    if (!material || material->is_liquid()) continue;
+    if (options.strength != "none" && !material->section("strength", options.strength)) {
+      liquids = liquids || inside[itype];
+      continue;
+    }
+    anywhere = true;
+    here = here || inside[itype];
     std::string problem;
     models[itype] = HVI::SolidModel::make(*material, options, problem);
     if (!models[itype])
@@ -192,9 +239,44 @@ void FixHVIJohnsonCook::init()
                      "does not spall",
                      material->name, itype);
   }
-  if (!found)
-    error->all(FLERR, "Fix hvi/johnson-cook: no material has a section strength {}",
-               options.strength);
+  if (!anywhere || (liquids && !here))
+    error->all(FLERR,
+               "Fix hvi/johnson-cook: no material {}has a section strength {}; strength none is "
+               "for those that bear no shear",
+               anywhere ? fmt::format("of group {} ", group->names[igroup]) : "", options.strength);
+}
+
+void FixHVIJohnsonCook::count_particles()
+{
+  const int n = atom->ntypes + 1;
+  std::vector<bigint> mine(2 * n, 0), all(2 * n);
+  for (int i = 0; i < atom->nlocal; i++) mine[atom->type[i] + (atom->mask[i] & groupbit ? 0 : n)]++;
+  MPI_Allreduce(mine.data(), all.data(), 2 * n, MPI_LMP_BIGINT, MPI_SUM, world);
+  inside.assign(all.begin(), all.begin() + n);
+  outside.assign(all.begin() + n, all.end());
+}
+
+/* ----------------------------------------------------------------------
+   solids that are liquids in this run, unless they are meant to be
+------------------------------------------------------------------------- */
+
+void FixHVIJohnsonCook::setup(int /*vflag*/)
+{
+  for (int itype = 1; itype <= atom->ntypes; itype++) {
+    const HVI::Material *const material = store->materials.of(itype);
+    if (!material || material->is_liquid() || comm->me) continue;
+    if (!models[itype] && inside[itype])
+      error->warning(FLERR,
+                     "Fix hvi/johnson-cook: material {} (type {}) has no section strength {}: its "
+                     "{} particles in group {} bear no shear.  If that is meant, put strength none "
+                     "into its file",
+                     material->name, itype, options.strength, inside[itype], group->names[igroup]);
+    if (models[itype] && outside[itype] && options.strength != "none")
+      error->warning(FLERR,
+                     "Fix hvi/johnson-cook: {} particles of material {} (type {}) are not in group "
+                     "{}: they bear no shear and do not spall",
+                     outside[itype], material->name, itype, group->names[igroup]);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -210,9 +292,7 @@ std::string FixHVIJohnsonCook::laws_of(int itype) const
   if (!model) return "liquid";
   std::string words = fmt::format("strength {}", model->strength().name());
   if (model->damage()) words += fmt::format(", damage {}", model->damage()->name());
-  static const char *const SPALLS[] = {"none", "pressure", "principal", "zero"};    // as HVI::Spall
-  if (options.spall != HVI::Spall::NONE && model->spall_limited())
-    words += fmt::format(", spall {}", SPALLS[static_cast<int>(options.spall)]);
+  if (options.spall != HVI::Spall::NONE && model->spall_limited()) words += ", spall " + spall_name;
   return words;
 }
 

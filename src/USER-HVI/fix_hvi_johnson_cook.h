@@ -35,6 +35,7 @@ class FixHVIJohnsonCook :
   FixHVIJohnsonCook(class LAMMPS *, int, char **);
   int setmask() override;
   void init() override;
+  void setup(int) override;
 
   // called by fix hvi/sph, with the time step
 
@@ -61,14 +62,17 @@ class FixHVIJohnsonCook :
   static const Field FIELDS[];
 
   HVI::SolidOptions options;
-  std::string text;                                        // settings
+  std::string spall_name;
   std::vector<std::unique_ptr<HVI::SolidModel>> models;    // of types; null: no solid
+  std::vector<bigint> inside, outside;                     // of the group: particles of types
   std::vector<int> warned;                                 // of types that do not spall
 
   class FixHVIStore *store;
   bool fresh;    // a run begins: rates of S are to be made
 
-  std::string settings() const override { return text; }
+  std::string settings() const override;
+  void make_models();
+  void count_particles();
   const HVI::SolidModel *of(int) const;      // null: no solid
   enum Needs { STATE, FORCES, GRADIENT };    // each with those before it
   HVI::SolidInput input(int, Needs) const;

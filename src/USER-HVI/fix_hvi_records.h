@@ -98,6 +98,8 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
                 const std::vector<std::string> &suffixes);
   ~FixHVIRecords() override;
 
+  void begin();    // when the owner's constructor has found nothing wrong: LAMMPS gets to know it
+
   virtual std::string settings() const = 0;                  // for the restart file
   virtual Record stored(int i) const { return extra[i]; }    // in the restart file
   void forget_rows();    // of data files, once they have been read
@@ -108,6 +110,7 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
   const int nfields;
   std::vector<size_t> places;    // of the record
   std::vector<std::string> suffixes;
+  bool known = false;
   std::deque<HVIDataRows> sections;    // they cannot be copied
 
   void refuse_another() const;
@@ -140,17 +143,23 @@ FixHVIRecords<Owner, Record>::FixHVIRecords(LAMMPS *lmp, int narg, char **arg, c
   maxexchange = places.size();
   create_attribute = 1;
   wd_section = sections.size();
+}
 
+template <class Owner, class Record> void FixHVIRecords<Owner, Record>::begin()
+{
   FixHVIRecords::grow_arrays(atom->nmax);
   std::fill_n(extra, atom->nlocal, fresh);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
+  known = true;
 }
 
 template <class Owner, class Record> FixHVIRecords<Owner, Record>::~FixHVIRecords()
 {
-  atom->delete_callback(id, Atom::GROW);
-  atom->delete_callback(id, Atom::RESTART);
+  if (known) {
+    atom->delete_callback(id, Atom::GROW);
+    atom->delete_callback(id, Atom::RESTART);
+  }
   memory->sfree(extra);
 }
 

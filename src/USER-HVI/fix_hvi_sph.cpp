@@ -116,6 +116,7 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
   global_freq = 1;
   extvector = 0;
 
+  begin();
   atom->add_callback(Atom::BORDER);
 }
 

@@ -14,6 +14,7 @@
 #include "hvi_strength_model.h"
 #include "hvi_strength_perfect.h"
 #include "hvi_strength_steinberg_guinan.h"
+#include "hvi_strength_zerilli_armstrong.h"
 
 #include <iterator>
 #include <vector>
@@ -86,9 +87,10 @@ namespace {
 
   constexpr LawEntry LAWS[] = {
       strength<StrengthJohnsonCook>(),   strength<StrengthSteinbergGuinan>(),
-      strength<StrengthCowperSymonds>(), strength<StrengthPerfect>(),
-      strength<StrengthNone>(),          damage<DamageJohnsonCook>(),
-      numbers<SpallLimit>("spall"),      numbers<ThermalWork>("thermal"),
+      strength<StrengthCowperSymonds>(), strength<StrengthZerilliArmstrong>(),
+      strength<StrengthPerfect>(),       strength<StrengthNone>(),
+      damage<DamageJohnsonCook>(),       numbers<SpallLimit>("spall"),
+      numbers<ThermalWork>("thermal"),
   };
 
   // the law of a section of the given kind and the values of its parameters; null if something is wrong

@@ -190,6 +190,10 @@ std::string parse_material(const std::string &text, const std::string &filename,
         if (old.kind == key && (key == "eos" || old.law == open.law))
           return lines.here("second section " + (key == "eos" ? key : open.label()) +
                             ", the first is in line " + std::to_string(old.line));
+      for (const Open &old : opened)
+        if (key == "strength" && old.kind == key && (open.law == "none" || old.law == "none"))
+          return lines.here(open.label() + " beside " + old.label() + " in line " +
+                            std::to_string(old.line));
       open.values.resize(open.n);
       open.lines.resize(open.n);
       opened.push_back(open);

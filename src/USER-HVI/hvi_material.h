@@ -35,10 +35,15 @@ class Material {
   std::string table, table_date;    // of the equation of state, if it is a table
   std::shared_ptr<const Eos> eos;
   std::vector<Section> sections;    // all but eos
+  bool liquid = false;              // bears no shear, whatever its file says
 
   // null if the file does not describe that law
 
   const Section *section(const std::string &kind, const std::string &law) const;
+
+  // meant to be a liquid, so that nobody need be warned
+
+  bool is_liquid() const { return liquid || section("strength", "none"); }
 };
 
 // A material from the text of its file, with values converted to the units of the run.

@@ -29,7 +29,7 @@ namespace HVI {
      modulus(conditions)          G below melt
      melt(conditions)             melting temperature, infinite if there is none
      scale(conditions)            the factor of Y that is constant in a step
-     flow(eps, rate)              the rest of Y; must not fall with eps or rate.
+     flow(eps, rate, conditions)  the rest of Y; must not fall with eps or rate.
                                   A rate that is NaN: without rate terms.
      solve(trial, G, factor, eps, dt)     if it can: what solve_return() does, for LANES particles;
                                   NaN where it gives up

@@ -39,7 +39,7 @@ struct StrengthCowperSymonds {
   double melt(const Conditions &) const { return NO_LIMIT; }
   double scale(const Conditions &) const { return 1.0; }
 
-  double flow(double, double rate) const
+  double flow(double, double rate, const Conditions &) const
   {
     return rate > 0.0 ? Y0 * (1.0 + std::pow(rate / D, 1.0 / p)) : Y0;
   }

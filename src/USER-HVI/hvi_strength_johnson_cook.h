@@ -62,7 +62,7 @@ struct StrengthJohnsonCook {
     return 1.0 - (m == 1.0 ? T : std::pow(T, m));
   }
 
-  double flow(double eps, double rate) const
+  double flow(double eps, double rate, const Conditions &) const
   {
     const double y = A + B * std::pow(eps, n);
     if (!(rate > epsdot0)) return y;

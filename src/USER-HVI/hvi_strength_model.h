@@ -88,7 +88,7 @@ template <class Law> class StrengthModel final : public Strength {
 
   double yield(double eps, double rate, const Conditions &c) const override
   {
-    return scale(c) * law.flow(eps, rate);
+    return scale(c) * law.flow(eps, rate, c);
   }
 
   double homologous_temperature(const Conditions &c) const override
@@ -101,14 +101,14 @@ template <class Law> class StrengthModel final : public Strength {
                         const Conditions &c) const override
   {
     const double stress = von_mises(trial), factor = scale(c);
-    const double y0 = factor * law.flow(eps, dt > 0.0 ? 0.0 : NOT_A_NUMBER);
+    const double y0 = factor * law.flow(eps, dt > 0.0 ? 0.0 : NOT_A_NUMBER, c);
     if (stress <= y0) return {trial, 0.0, 0.0, y0};
     if (!(stress > y0 && stress < NO_LIMIT && G >= 0.0))
       return {scaled(trial, NOT_A_NUMBER), NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER};
     if (3.0 * G <= 1e-100 * stress) return {scaled(trial, y0 / stress), 0.0, 0.0, y0};
     return returned(trial, stress, G, solve_return(stress, G, y0, [&](double x) {
                       return factor *
-                          law.flow(eps + x, dt > 0.0 ? std::min(x / dt, 1e300) : NOT_A_NUMBER);
+                          law.flow(eps + x, dt > 0.0 ? std::min(x / dt, 1e300) : NOT_A_NUMBER, c);
                     }));
   }
 

@@ -32,7 +32,7 @@ struct StrengthPerfect {
   double modulus(const Conditions &) const { return G; }
   double melt(const Conditions &) const { return NO_LIMIT; }
   double scale(const Conditions &) const { return 1.0; }
-  double flow(double, double) const { return Y; }
+  double flow(double, double, const Conditions &) const { return Y; }
 };
 
 // No strength.  In a material file: declared a liquid.
@@ -47,7 +47,7 @@ struct StrengthNone {
   double modulus(const Conditions &) const { return 0.0; }
   double melt(const Conditions &) const { return NO_LIMIT; }
   double scale(const Conditions &) const { return 0.0; }
-  double flow(double, double) const { return 0.0; }
+  double flow(double, double, const Conditions &) const { return 0.0; }
 };
 
 }    // namespace HVI

@@ -73,7 +73,7 @@ struct StrengthSteinbergGuinan {
 
   double modulus(const Conditions &c) const { return G0 * scale(c); }
 
-  double flow(double eps, double) const
+  double flow(double eps, double, const Conditions &) const
   {
     return std::min(Y0 * std::pow(1.0 + beta * eps, n), Ymax);
   }

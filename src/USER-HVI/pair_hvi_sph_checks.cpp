@@ -75,7 +75,7 @@ void PairHVISPH::check_materials() const
     if (set.laws.stock && eos != "tait" && eos != "idealgas")
       error->all(FLERR, "Pair style hvi/sph stock yes knows eos tait and idealgas only, not {}",
                  eos);
-    if (strength || entry.liquid || comm->me != 0) continue;
+    if (strength || entry.material->is_liquid() || comm->me != 0) continue;
     for (const HVI::Section &section : entry.material->sections)
       if (section.kind == "strength" && section.law != "none") {
         error->warning(FLERR,

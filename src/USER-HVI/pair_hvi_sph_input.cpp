@@ -342,7 +342,6 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
     error->all(FLERR, "Pair_coeff hvi/sph h must be > 0, not {}", words[used + 1]);
   used += 2;
   double volume = 0.0;
-  bool liquid = false;
   while (used < nwords && (words[used] == "volume" || words[used] == "strength")) {
     if (words[used] == "strength") {
       if (used + 2 > nwords) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph strength", error);
@@ -351,7 +350,7 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
                    "Pair_coeff hvi/sph strength must be none, not {}: laws of strength are chosen "
                    "by fix hvi/johnson-cook",
                    words[used + 1]);
-      liquid = true;
+      made->liquid = true;
       used += 2;
       continue;
     }
@@ -376,7 +375,7 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
   int count = 0;
   for (int i = ilo; i <= ihi; i++) {
     if (i < jlo || i > jhi) continue;
-    store->materials.set(i, {made, OWNER, volume, liquid});
+    store->materials.set(i, {made, OWNER, volume});
     specs[i] = spec;
     set.h[i] = h;
     if (with_mass && volume > 0.0) atom->set_mass(FLERR, i, made->eos->rho0() * volume);

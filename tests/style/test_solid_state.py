@@ -126,7 +126,7 @@ def test_restart_with_other_settings(lmp, tmp_path, material, words, other):  # 
     lmp(start(state(), tmp_path, material, steps=3, jc=words) + "write_restart half\n")
     again = "read_restart half\n" + NEIGHBOR
     r = lmp(again + FIXES.format(other) + "run 1\n", expect_fail=True)
-    assert "Fix hvi/johnson-cook: the restart file was written with strength johnson-cook damage yes" in r.error, r.error
+    assert "Fix hvi/johnson-cook: the restart file was written with strength johnson-cook damage johnson-cook" in r.error, r.error
     assert (words or "thermal yes, this run") in r.error and other in r.error.split("this run uses")[1]
     lmp(again + FIXES.format(words) + "run 1\n")
     # once it runs, a script may change its mind

@@ -47,7 +47,9 @@ def test_what_it_needs(refused):
     refused("form sum and dissipation monaghan", words="form symmetric")
     refused("form sum and dissipation monaghan", words="dissipation riemann")
     refused("More than one fix hvi/johnson-cook", more="fix other all hvi/johnson-cook\n")
-    refused("has no section damage johnson-cook; use damage no", text=text[:text.index("damage")] + text[text.index("spall"):])
+    refused("has no section damage; use damage no", text=text[:text.index("damage")] + text[text.index("spall"):])
+    refused("has no section damage johnson-cook; use damage no", jc="all hvi/johnson-cook damage johnson-cook",
+            text=text[:text.index("damage")] + text[text.index("spall"):])
     refused("no material has a section strength", pair="pair_style hvi/sph cubic\npair_coeff * * eos tait 1.0 4.0 7 h 1.2\n")
     refused("needs fix hvi/johnson-cook", jc="all hvi/dt 0.2", more="compute s all hvi/atom damage\nrun 0\n")
 

@@ -171,7 +171,7 @@ TEST(WrongFile, Sections)
             "mie-gruneisen, polynomial, tillotson, table");
   EXPECT_EQ(problem(HEAD + EOS + "strength mts\n"),
             "x.hvi:10: unknown law strength mts; known are johnson-cook, steinberg-guinan, "
-            "cowper-symonds, perfect, none");
+            "cowper-symonds, zerilli-armstrong, perfect, none");
   EXPECT_EQ(problem(HEAD + "eos linear 3\n"), "x.hvi:3: eos linear: unexpected text 3");
   EXPECT_EQ(problem(HEAD + EOS + "eos linear\n"),
             "x.hvi:10: second section eos, the first is in line 3");
@@ -226,6 +226,13 @@ TEST(Material, StrengthNone)
   EXPECT_EQ(m.section("spall", "limit")->values.at("sigma_p"), 1e9);
   EXPECT_EQ(problem(HEAD + EOS + "strength none\nG 1\n"),
             "x.hvi:11: strength none: takes no keys, but got G");
+  EXPECT_TRUE(m.is_liquid());
+  EXPECT_FALSE(parsed(HEAD + EOS).is_liquid());
+  EXPECT_FALSE(parsed(HEAD + EOS + JC).is_liquid());
+  EXPECT_EQ(problem(HEAD + EOS + "strength none\n" + JC),
+            "x.hvi:11: strength johnson-cook beside strength none in line 10");
+  EXPECT_EQ(problem(HEAD + EOS + JC + "strength none\n"),
+            "x.hvi:19: strength none beside strength johnson-cook in line 10");
 }
 
 // after an error nothing of the file is left to be used by mistake

@@ -48,6 +48,33 @@ const Section SG = {"strength",
                      {"a", 1.5}}};
 const Section CS = {
     "strength", "cowper-symonds", {{"G", 77e9}, {"Y0", 250e6}, {"D", 40.4}, {"p", 5.0}}};
+
+// Zerilli and Armstrong (1987), OFHC copper and Armco iron; C0 with the term of the grain size
+
+const Section ZA_CU = {"strength",
+                       "zerilli-armstrong",
+                       {{"G", 47.7e9},
+                        {"C0", 65e6},
+                        {"C1", 0.0},
+                        {"C2", 890e6},
+                        {"C3", 0.0028},
+                        {"C4", 0.000115},
+                        {"C5", 0.0},
+                        {"n", 0.0},
+                        {"epsdot0", 1.0},
+                        {"Tm", 1356.0}}};
+const Section ZA_FE = {"strength",
+                       "zerilli-armstrong",
+                       {{"G", 80e9},
+                        {"C0", 65e6},
+                        {"C1", 1033e6},
+                        {"C2", 0.0},
+                        {"C3", 0.00698},
+                        {"C4", 0.000415},
+                        {"C5", 266e6},
+                        {"n", 0.289},
+                        {"epsdot0", 1.0},
+                        {"Tm", 1811.0}}};
 const Section PERFECT = {"strength", "perfect", {{"G", 28.6e9}, {"Y", 0.26e9}}};
 
 std::unique_ptr<Strength> made(const Section &section)
@@ -169,6 +196,86 @@ TEST(CowperSymonds, Values)
   EXPECT_EQ(law->homologous_temperature(at(1e5)), 0.0);
 }
 
+// fcc: 65 + 890 eps^.5 exp(-.0028 T + .000115 T ln epsdot) MPa
+
+TEST(ZerilliArmstrong, Copper)
+{
+  auto law = made(ZA_CU);
+  EXPECT_STREQ(law->name(), "zerilli-armstrong");
+  EXPECT_DOUBLE_EQ(law->yield(0.0, 1e4, at(300.0)), 65e6);
+  EXPECT_NEAR(law->yield(0.25, 1.0, at(300.0)), 257.111183e6, 10.0);    // exp(-.84) = .431710523
+  EXPECT_NEAR(law->yield(0.25, 1e4, at(300.0)), 328.968829e6, 10.0);    // .0345 ln 1e4 = .317756743
+  EXPECT_NEAR(law->yield(0.25, 1.0, at(600.0)), 147.936419e6, 10.0);    // exp(-1.68) = .186373976
+  EXPECT_DOUBLE_EQ(law->yield(0.25, 1e4, at(0.0)), 510e6);
+  EXPECT_EQ(law->shear_modulus(at(1355.0)), 47.7e9);
+  EXPECT_DOUBLE_EQ(law->homologous_temperature(at(828.0)), 0.5);
+}
+
+// bcc: 65 + 1033 exp(-.00698 T + .000415 T ln epsdot) + 266 eps^.289 MPa
+
+TEST(ZerilliArmstrong, Iron)
+{
+  auto law = made(ZA_FE);
+  EXPECT_NEAR(law->yield(0.0, 1.0, at(300.0)), 192.258757e6, 10.0);    // exp(-2.094) = 0.123193375
+  EXPECT_NEAR(law->yield(0.1, 1e3, at(300.0)), 502.473175e6, 10.0);    // .1^.289 = 0.514043652
+  EXPECT_NEAR(law->yield(0.0, 1e3, at(77.0)), 817.574345e6, 10.0);     // exponent -0.316722680
+  // cold iron is twice as strong, and hardening does not depend on temperature
+  EXPECT_DOUBLE_EQ(law->yield(0.1, 1e3, at(77.0)) - law->yield(0.0, 1e3, at(77.0)),
+                   266e6 * std::pow(0.1, 0.289));
+}
+
+TEST(ZerilliArmstrong, Guards)
+{
+  for (const Section &section : {ZA_CU, ZA_FE}) {
+    auto law = made(section);
+    const double slow = law->yield(0.3, 1.0, at(300.0)), athermal = law->yield(0.3, 1.0, at(0.0));
+    // slow motion, or none, does not take away strength; without temperature it is that of 300 K
+    for (double rate : {0.0, 1e-9, 0.999, NONE}) EXPECT_EQ(law->yield(0.3, rate, at(300.0)), slow);
+    EXPECT_EQ(law->yield(0.3, 1e5, at(NONE)), law->yield(0.3, 1e5, at(300.0)));
+    EXPECT_GT(law->yield(0.3, 1e5, at(NONE)), slow);
+    // nothing is stronger than at 0 K, however fast
+    EXPECT_LT(law->yield(0.3, 1e7, at(1000.0)), 0.99 * athermal);
+    for (double rate : {1e30, 1e300}) {
+      EXPECT_EQ(law->yield(0.3, rate, at(300.0)), athermal);
+      EXPECT_EQ(law->yield(0.3, rate, at(-5.0)), athermal);
+    }
+    // Y does not fall with strain or rate, at any temperature
+    for (double T : {0.0, 50.0, 300.0, 1000.0, 1300.0}) {
+      double before = 0.0;
+      for (double eps = 0.0; eps < 2.0; eps += 0.1) {
+        const double y = law->yield(eps, 1e4, at(T));
+        EXPECT_GE(y, before);
+        before = y;
+      }
+      before = 0.0;
+      for (double rate = 1e-3; rate < 1e15; rate *= 3.0) {
+        const double y = law->yield(0.1, rate, at(T));
+        EXPECT_GE(y, before);
+        before = y;
+      }
+    }
+    EXPECT_EQ(law->yield(0.3, 1e4, at(1811.0)), 0.0);
+    EXPECT_EQ(law->shear_modulus(at(1811.0)), 0.0);
+  }
+}
+
+// the terms that a form lacks may be left out; rates are in 1/s in all units
+
+TEST(ZerilliArmstrong, OfAFile)
+{
+  const std::string head = "# UNITS: si\neos linear\nrho0 8930\nK 1.4e11\n",
+                    text = "strength zerilli-armstrong\nG 47.7e9\nC0 65e6\nC2 890e6\nC3 .0028\n"
+                           "C4 .000115\nTm 1356\n";
+  for (const char *units : {"si", "cgs", "micro"}) {
+    Material m;
+    ASSERT_EQ(parse_material(head + text, "x", units, m), "");
+    const double pressure = convert(1.0, PRESSURE, "si", units),
+                 rate = convert(1e4, RATE, "si", units);
+    auto law = made(*m.section("strength", "zerilli-armstrong"));
+    EXPECT_NEAR(law->yield(0.25, rate, at(300.0)), 328.968829e6 * pressure, 10.0 * pressure);
+  }
+}
+
 TEST(Perfect, ValuesAndNone)
 {
   auto law = made(PERFECT);
@@ -199,6 +306,9 @@ TEST(StrengthSection, WrongValues)
   EXPECT_EQ(refused(SG, "Tm0", 300.0), "Tm0 must be above 300 K");
   EXPECT_EQ(refused(CS, "p", 0.0), "p = 0 must be > 0");
   EXPECT_EQ(refused(CS, "D", 0.0), "D = 0 must be > 0");
+  EXPECT_EQ(refused(ZA_CU, "C0", 0.0), "C0 = 0 must be > 0");
+  EXPECT_EQ(refused(ZA_CU, "C4", -1.0), "C4 = -1 must be >= 0");
+  EXPECT_EQ(refused(ZA_FE, "Tm", 300.0), "Tm must be above 300 K");
   EXPECT_EQ(refused(PERFECT, "Y", 0.0), "Y = 0 must be > 0");
   EXPECT_EQ(refused(PERFECT, "G", INFINITE), "G = inf is not a finite number");
   EXPECT_EQ(refused({"strength", "perfect", {{"G", 1.0}}}), "missing key Y");
@@ -363,9 +473,10 @@ TEST(RadialReturn, SolvesItsEquation)
     return std::uniform_real_distribution<double>(a, b)(random);
   };
   int plastic = 0;
-  const std::unique_ptr<Strength> laws[] = {made(JC), made(SG), made(CS), made(PERFECT)};
+  const std::unique_ptr<Strength> laws[] = {made(JC),    made(SG),    made(CS),
+                                            made(ZA_CU), made(ZA_FE), made(PERFECT)};
   for (int k = 0; k < 40000; k++) {
-    const Strength &law = *laws[k % 4];
+    const Strength &law = *laws[k % 6];
     const Conditions c = at(uniform(200.0, 1000.0), uniform(-1e9, 3e10), uniform(0.98, 1.2));
     const double G = law.shear_modulus(c);
     if (G == 0.0) continue;
@@ -406,7 +517,7 @@ TEST(RadialReturn, ManyAtATime)
   auto uniform = [&](double a, double b) {
     return std::uniform_real_distribution<double>(a, b)(random);
   };
-  for (const Section &section : {JC, SG, CS, PERFECT}) {
+  for (const Section &section : {JC, SG, CS, ZA_CU, ZA_FE, PERFECT}) {
     auto law = made(section);
     SCOPED_TRACE(law->name());
     for (int k = 0; k < 20000; k++) {
@@ -458,8 +569,9 @@ TEST(RadialReturn, JohnsonCookFindsIt)
         for (double factor : {0.0, 1e-3, 1.0}) {
           const Vec y = jc.solve(zero + trial, zero + 26e9, zero + factor, zero + eps, dt);
           const double x = std::max((trial - y[0]) / 78e9, 0.0);    // not precise for small ones
-          EXPECT_NEAR(y[0], std::min(trial, factor * jc.flow(eps + x, dt > 0.0 ? x / dt : NONE)),
-                      1e-9 * trial)
+          EXPECT_NEAR(
+              y[0], std::min(trial, factor * jc.flow(eps + x, dt > 0.0 ? x / dt : NONE, at(300.0))),
+              1e-9 * trial)
               << trial << " " << eps << " " << dt << " " << factor;
         }
 }
@@ -470,7 +582,7 @@ TEST(RadialReturn, HardCases)
 {
   const Deviator trial = {4e8, -2e8, -2e8, 1e9, 0.0, 0.0};
   const double s = von_mises(trial), G = 26e9;
-  for (const Section &section : {JC, SG, CS, PERFECT}) {
+  for (const Section &section : {JC, SG, CS, ZA_CU, ZA_FE, PERFECT}) {
     auto law = made(section);
     SCOPED_TRACE(law->name());
     // no time: without rate terms
@@ -505,7 +617,7 @@ TEST(RadialReturn, HardCases)
     EXPECT_TRUE(std::isnan(law->radial_return(trial, 1e-6, -1.0, 0.0, at(300.0)).d_eps));
   }
   // molten: nothing is left
-  for (const Section &section : {JC, SG}) {
+  for (const Section &section : {JC, SG, ZA_CU, ZA_FE}) {
     const Plastic r = made(section)->radial_return(trial, 1e-6, G, 0.1, at(2000.0));
     EXPECT_EQ(von_mises(r.S), 0.0);
     EXPECT_NEAR(r.d_eps, s / (3.0 * G), 1e-15);
@@ -526,10 +638,10 @@ TEST(RadialReturn, Effort)
       return n;
     }
     explicit Counting(const StrengthJohnsonCook &law) : StrengthJohnsonCook(law) {}
-    double flow(double eps, double rate) const
+    double flow(double eps, double rate, const Conditions &c) const
     {
       total()++;
-      return StrengthJohnsonCook::flow(eps, rate);
+      return StrengthJohnsonCook::flow(eps, rate, c);
     }
   };
   const StrengthJohnsonCook jc = StrengthJohnsonCook::make(JC_VALUES);

@@ -1,0 +1,130 @@
+"""Metals that would be liquids without a word, laws that the files choose, and fixes given again: what is said, and how often."""
+
+import pytest
+from sph_scenes import scene
+from test_solid_forces import MATERIAL, OUT, read, state
+
+LIQUID = "has no section strength johnson-cook: its "
+OUTSIDE = "are not in group "
+SPALL = "has no section spall limit and does not spall"
+
+
+def without(text, *kinds):
+    """the text of a material file without sections of these kinds"""
+    out, skip = [], False
+    for line in text.splitlines(True):
+        if not line.startswith((" ", "#")):
+            skip = line.split()[0] in kinds
+        if not skip:
+            out.append(line)
+    return "".join(out)
+
+
+@pytest.fixture
+def files(tmp_path):
+    text = MATERIAL.format(sigma_p=3.0)
+    for name, content in (("metal", text), ("water", without(text, "strength", "damage", "spall")), ("soft", without(text, "spall")),
+                          ("declared", without(text, "strength", "damage", "spall") + "strength none\n")):
+        (tmp_path / f"{name}.hvi").write_text(content)
+    return tmp_path
+
+
+def head(folder, one="metal", two="metal", jc="all hvi/johnson-cook", groups=""):
+    pair = f"pair_style hvi/sph cubic\npair_coeff 1 1 file {one}.hvi h 1.25\npair_coeff 2 2 file {two}.hvi h 1.25\npair_coeff 1 2 tension yes\n"
+    return scene(state(), folder / "s.data", pair) + f"{groups}fix jc {jc}\ntimestep 0.004\n"
+
+
+def said(result, words):
+    return [w for w in result.warnings if words in w]
+
+
+def test_a_material_without_the_section(lmp, files):
+    """once per type and run, with the number of particles; not where it is declared a liquid"""
+    n = (state().type == 2).sum()
+    r = lmp(head(files, two="water") + "run 1\nwrite_data d.data\nrun 1\n")
+    assert len(said(r, LIQUID)) == 2 and all(f"water.hvi (type 2) {LIQUID}{n} particles in group all" in w for w in said(r, LIQUID)), r.warnings
+    assert not said(r, OUTSIDE)
+    r = lmp(head(files, two="declared") + "run 1\n")
+    assert not r.warnings, r.warnings
+    # of another group: its own business
+    r = lmp(head(files, two="water", jc="metal hvi/johnson-cook", groups="group metal type 1\n") + "run 1\n")
+    assert not r.warnings, r.warnings
+
+
+def test_declared_liquids_are_as_others(lmp, files):
+    lmp(head(files, two="water") + "run 5\n" + OUT.format("a"))
+    lmp(head(files, two="declared") + "run 5\n" + OUT.format("b"))
+    assert (files / "a").read_bytes() == (files / "b").read_bytes()
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_particles_outside_the_group(lmp, files, nranks):
+    s = state()
+    n = ((s.type == 1) & (s.x[:, 0] >= 4.0)).sum()
+    groups = "region left block INF 4.0 INF INF INF INF units box\ngroup left region left\ngroup two type 2\ngroup solid union left two\n"
+    r = lmp(head(files, jc="solid hvi/johnson-cook", groups=groups) + "run 1\n", nranks=nranks)
+    assert n > 50 and len(said(r, OUTSIDE)) == 1
+    assert f": {n} particles of material metal.hvi (type 1) {OUTSIDE}solid" in said(r, OUTSIDE)[0], r.warnings
+    # a liquid outside is one inside
+    r = lmp(head(files, two="water", jc="one hvi/johnson-cook", groups="group one type 1\n") + "run 1\n", nranks=nranks)
+    assert not r.warnings, r.warnings
+
+
+def test_no_section_spall_once(lmp, files):
+    r = lmp(head(files, two="soft") + "run 1\nrun 1\nwrite_data d.data\nrun 1\n")
+    assert len(said(r, SPALL)) == 1 and "soft.hvi (type 2)" in said(r, SPALL)[0], r.warnings
+
+
+def test_no_material_of_the_group(lmp, files):
+    r = lmp(head(files, two="water", jc="two hvi/johnson-cook", groups="group two type 2\n") + "run 1\n", expect_fail=True)
+    assert "no material of group two has a section strength johnson-cook; strength none is for those that bear no shear" in r.error, r.error
+    r = lmp(head(files, jc="all hvi/johnson-cook strength cowper-symonds") + "run 1\n", expect_fail=True)
+    assert "no material has a section strength cowper-symonds" in r.error, r.error
+    # a group that is still empty has nothing against it
+    lmp(head(files, jc="none hvi/johnson-cook", groups="group none empty\n") + "run 1\n")
+
+
+def test_strength_none(lmp, files):
+    """no shear in any material, whatever its file says; what spalls does so by its pressure, for good"""
+    (files / "metal.hvi").write_text(MATERIAL.format(sigma_p=0.4))
+    r = lmp(head(files, jc="all hvi/johnson-cook strength none") + "run 40\n" + OUT.format("f"))
+    assert not r.warnings, r.warnings
+    f = read(files / "f")
+    assert f["vm"].max() == 0.0 and f["eps"].max() == 0.0 and f["damage"].max() == 0.0
+    assert 5 < f["spalled"].sum() < 500 and (f["p"][f["spalled"] == 1] >= 0).all()
+    r = lmp(head(files, jc="all hvi/johnson-cook strength none damage yes") + "run 1\n", expect_fail=True)
+    assert "strength none brings no plastic strain, which damage needs: use damage no" in r.error, r.error
+
+
+# ---------------------------------------------------------------------- the law of damage
+
+def test_damage_by_its_name(lmp, files):
+    """yes is the law of the file; its name says the same, in restarts too"""
+    for name, words in (("a", ""), ("b", "damage johnson-cook")):
+        lmp(head(files, jc=f"all hvi/johnson-cook {words}") + f"run 20\nwrite_restart r{name}\n" + OUT.format(name))
+    assert (files / "a").read_bytes() == (files / "b").read_bytes() and read(files / "a")["damage"].max() > 0
+    again = "read_restart ra\nneighbor 0.3 bin\nfix sph all hvi/sph\nfix jc all hvi/johnson-cook {}\ntimestep 0.004\nrun 1\n"
+    lmp(again.format("damage johnson-cook"))
+    r = lmp(again.format("damage no"), expect_fail=True)
+    assert "was written with strength johnson-cook damage johnson-cook spall principal" in r.error, r.error
+
+
+@pytest.mark.parametrize("words, message", [
+    ("damage grady", "damage must be yes, no or a law (johnson-cook), not grady"),
+    ("damage", "Illegal fix hvi/johnson-cook damage command: missing argument")])
+def test_damage_words(lmp, files, words, message):
+    r = lmp(head(files, jc=f"all hvi/johnson-cook {words}") + "run 1\n", expect_fail=True)
+    assert message in r.error, r.error
+
+
+# ---------------------------------------------------------------------- fixes given again
+
+@pytest.mark.parametrize("fix", ["sph all hvi/sph", "jc all hvi/johnson-cook spall zero"])
+def test_given_again(lmp, files, fix):
+    """it would wipe out the state of all particles: refused, unless it is taken away first"""
+    name = fix.split()[0]
+    r = lmp(head(files) + f"run 5\nfix {fix}\nrun 1\n", expect_fail=True)
+    assert f"Fix {name} {fix.split()[2]} is given again, which would wipe out" in r.error and f"unfix {name} first" in r.error, r.error
+    lmp(head(files) + f"run 5\nunfix {name}\nfix {fix}\nrun 1\n")
+    # other fixes may be
+    lmp(head(files) + "fix step all hvi/dt 0.2\nrun 5\nfix step all hvi/dt 0.1\nrun 1\n")
