@@ -21,6 +21,7 @@
 #include "fix_hvi_store.h"
 #include "force.h"
 #include "group.h"
+#include "hvi_timestep.h"
 #include "modify.h"
 #include "update.h"
 
@@ -244,6 +245,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
 void FixHVISPH::setup(int /*vflag*/)
 {
   check_left_out();
+  check_step();
   stepping = 1;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!integrates(i)) continue;
@@ -282,6 +284,19 @@ void FixHVISPH::check_left_out() const
         "and energy stay, and what flows into them is missing in compute hvi/energy (walls "
         "GROUP if that is meant)",
         everywhere);
+}
+
+// a fixed step that signals, or stiff pairs of other styles, outrun
+
+void FixHVISPH::check_step() const
+{
+  if (!modify->get_fix_by_style("^hvi/dt$").empty()) return;
+  const double stable = HVI::stable_step(lmp, 1.0);
+  if (update->dt > stable && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix hvi/sph: the time step {} is above {}, in which signals cross half of a "
+                   "kernel's reach: use fix hvi/dt, or a third of that",
+                   update->dt, stable);
 }
 
 /* ----------------------------------------------------------------------

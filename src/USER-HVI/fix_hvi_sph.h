@@ -76,6 +76,7 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   bool integrates(int) const;
   bool has_material(int) const;
   void check_left_out() const;
+  void check_step() const;
   void reflect();
   uint64_t fingerprint(int) const;
   const double *felt_velocity(int) const;

@@ -35,7 +35,7 @@ using namespace LAMMPS_NS;
 
 PairHVISPH::PairHVISPH(LAMMPS *lmp) :
     Pair(lmp), visc_a(nullptr), visc_b(nullptr), tension(nullptr), store(nullptr),
-    integrator(nullptr), strength(nullptr), look_at_step(false), halo()
+    integrator(nullptr), strength(nullptr), halo()
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
@@ -91,7 +91,6 @@ void PairHVISPH::compute(int eflag, int vflag)
   if (records.gradv && force->newton_pair) reverse(records.gradv);
 
   if (vflag_fdotr) virial_fdotr_compute();
-  if (look_at_step) check_step();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -248,27 +247,6 @@ void PairHVISPH::setup()
   report.count({list->inum, list->ilist, list->numneigh, list->firstneigh}, force->newton_pair);
   report.write();
   report.warn();
-  look_at_step = true;
-}
-
-/* ----------------------------------------------------------------------
-   a fixed step that signals outrun; asked once in a run, after its first forces
-------------------------------------------------------------------------- */
-
-void PairHVISPH::check_step()
-{
-  look_at_step = false;
-  if (!modify->get_fix_by_style("^hvi/dt$").empty()) return;
-  HVI::TimeStepBounds bounds;
-  tighten(bounds);
-  double signal;
-  MPI_Allreduce(&bounds.signal, &signal, 1, MPI_DOUBLE, MPI_MIN, world);
-  if (update->dt > signal && comm->me == 0)
-    error->warning(
-        FLERR,
-        "Pair style hvi/sph: the time step {} is above {}, in which signals cross half of "
-        "a kernel's reach: use fix hvi/dt, or a step of a third of that",
-        update->dt, signal);
 }
 
 /* ---------------------------------------------------------------------- */

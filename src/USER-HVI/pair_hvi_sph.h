@@ -73,8 +73,6 @@ class PairHVISPH :
   HVI::Images images;           // of mirror planes
   HVI::SphKept kept;
 
-  bool look_at_step;    // in the first force evaluation of a run
-
   // records that are being communicated: the first numbers of each, as many as are sent
 
   struct {
@@ -94,7 +92,6 @@ class PairHVISPH :
   void check_mirror() const;
   void check_sides() const;
   void check_extent();
-  void check_step();
 
   // of a force evaluation
 
