@@ -116,7 +116,7 @@ double ComputeHVIAtom::value_of(Value value, int i) const
   double p, csq;
   if (!material->eos->evaluate(atom->rho[i], e, p, csq)) p = csq = 0.0;
   if (value == SOUND) return std::sqrt(csq);
-  if (strength) p = std::max(p, strength->failed(i) ? 0.0 : strength->stress(i).p_min);
+  if (strength) p = strength->pressure(i, p);
   return value == PRESSURE ? p : solid_value(value, i, p);
 }
 

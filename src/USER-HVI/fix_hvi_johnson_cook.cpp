@@ -98,8 +98,10 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     } else if (key == "damage") {
       damage_given = true;
       options.damage_law.clear();
-      if (value == "yes" || value == "no")
-        options.damage = value == "yes";
+      if (value == "yes" || value == "on" || value == "true")
+        options.damage = true;
+      else if (value == "no" || value == "off" || value == "false")
+        options.damage = false;
       else if (HVI::find_law("damage", value)) {
         options.damage = true;
         options.damage_law = value;

@@ -54,6 +54,11 @@ class FixHVIJohnsonCook :
     return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, s.p_min, s.shear > 0.0 ? s.shear : 0.0};
   }
   const Solid &state(int i) const { return extra[i]; }
+  double pressure(int i, double p) const    // what is left of that of the equation of state
+  {
+    const HVI::SolidModel *const model = of(i);
+    return model ? model->pressure(extra[i], p) : p;
+  }
   double plastic_work(int) const override;    // energy, from the start on
   bool failed(int i) const { return extra[i].failed(); }
   std::string laws_of(int itype) const;    // in words

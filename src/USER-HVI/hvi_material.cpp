@@ -12,6 +12,7 @@
 #include "hvi_text.h"
 
 #include <cmath>
+#include <cstring>
 
 namespace HVI {
 
@@ -104,6 +105,34 @@ namespace {
             run_units;
     }
     return "";
+  }
+  // FNV-1a.  Checksums of the numbers of a file are added up: their order does not matter, nor do comments.
+
+  std::uint64_t checksum(const std::string &text, std::uint64_t hash = 0xcbf29ce484222325u)
+  {
+    for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001b3u;
+    return hash;
+  }
+
+  std::uint64_t checksum(const Open &open)
+  {
+    const std::uint64_t law = checksum(open.label());
+    std::uint64_t total = law;
+    for (int i = 0; i < open.n; i++) {
+      char bytes[sizeof(double)];
+      std::memcpy(bytes, &open.values[i], sizeof(double));
+      total += checksum(std::string(bytes, sizeof(double)), checksum(open.params[i].key, law));
+    }
+    return total;
+  }
+
+  std::uint64_t checksum_of_table(const std::string &text)
+  {
+    Lines lines(text, "");
+    std::uint64_t hash = checksum("table");
+    while (lines.next())
+      for (const std::string &word : lines.words) hash = checksum(word + " ", hash);
+    return hash;
   }
 }    // namespace
 
@@ -241,6 +270,7 @@ std::string parse_material(const std::string &text, const std::string &filename,
   for (Open &open : opened) {
     std::string problem = finish(open, header.units, run_units);
     if (!problem.empty()) return lines.at(open.line, open.label() + ": " + problem);
+    material.checksum += checksum(open);
     if (open.table()) {
       if (!open.file_line) return lines.at(open.line, open.label() + ": missing key file");
       std::string table;
@@ -249,6 +279,7 @@ std::string parse_material(const std::string &text, const std::string &filename,
         material.eos = parse_table(table, open.file, run_units, problem, material.table_date);
       if (!problem.empty()) return lines.at(open.file_line, open.label() + ": " + problem);
       material.table = open.file;
+      material.checksum += checksum_of_table(table);
       continue;
     }
     if (open.kind == "eos") {

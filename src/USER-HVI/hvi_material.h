@@ -12,6 +12,7 @@
 #include "hvi_eos.h"
 #include "hvi_section.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -36,6 +37,7 @@ class Material {
   std::shared_ptr<const Eos> eos;
   std::vector<Section> sections;    // all but eos
   bool liquid = false;              // bears no shear, whatever its file says
+  std::uint64_t checksum = 0;       // of all numbers of its file, and of the table; 0: no file
 
   // null if the file does not describe that law
 

@@ -11,6 +11,8 @@
 
 #include "hvi_material.h"
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,6 +31,7 @@ class Materials {
     std::shared_ptr<const Material> material;    // null: the type has none
     std::string owner;                           // the style that gave it
     double volume = 0.0;                         // of a particle at rest, 0: not given
+    bool restored = false;                       // named by a restart file, not by the input
     bool liquid = false;    // meant to have no strength, whatever its file says
   };
 
@@ -38,8 +41,15 @@ class Materials {
   void set(int itype, const Entry &);
   void forget(const std::string &owner);    // all that it gave
 
+  // what a restart file says of a type's numbers: Material::checksum, 0 if nothing
+
+  void remember(int itype, std::uint64_t checksum) { written[itype] = checksum; }
+  bool differs_from_restart(int itype) const;
+  void forget_restart() { written.clear(); }
+
  private:
   std::vector<Entry> entries;
+  std::map<int, std::uint64_t> written;    // outlives entries, which may be given again
 };
 
 }    // namespace HVI

@@ -83,7 +83,7 @@ class PairHVISPH :
   void allocate();
   void deallocate();
   void set_material(int ilo, int ihi, int jlo, int jhi, const std::vector<std::string> &,
-                    bool with_mass);
+                    bool restored);
 
   // checks: pair_hvi_sph_checks.cpp
 

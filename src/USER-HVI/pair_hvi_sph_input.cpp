@@ -244,7 +244,7 @@ void PairHVISPH::coeff(int narg, char **arg)
 
   const std::vector<std::string> words(arg + 2, arg + narg);
   if (words[0] == "file" || words[0] == "eos") {
-    set_material(ilo, ihi, jlo, jhi, words, true);
+    set_material(ilo, ihi, jlo, jhi, words, false);
     return;
   }
 
@@ -296,7 +296,7 @@ void PairHVISPH::coeff(int narg, char **arg)
 /* ---------------------------------------------------------------------- */
 
 void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
-                              const std::vector<std::string> &words, bool with_mass)
+                              const std::vector<std::string> &words, bool restored)
 {
   // after the material: h and its value; what a particle's volume is to be at rest; that it is a liquid
 
@@ -375,10 +375,10 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
   int count = 0;
   for (int i = ilo; i <= ihi; i++) {
     if (i < jlo || i > jhi) continue;
-    store->materials.set(i, {made, OWNER, volume});
+    store->materials.set(i, {made, OWNER, volume, restored});
     specs[i] = spec;
     set.h[i] = h;
-    if (with_mass && volume > 0.0) atom->set_mass(FLERR, i, made->eos->rho0() * volume);
+    if (!restored && volume > 0.0) atom->set_mass(FLERR, i, made->eos->rho0() * volume);
     count++;
   }
   if (count == 0)
@@ -416,6 +416,7 @@ void PairHVISPH::write_restart(FILE *fp)
   const int np1 = atom->ntypes + 1;
   for (int i = 1; i < np1; i++) {
     write_text(fp, specs[i]);
+    if (!specs[i].empty()) fwrite(&store->materials.of(i)->checksum, sizeof(uint64_t), 1, fp);
     fwrite(setflag[i], sizeof(int), np1, fp);
     fwrite(visc_a[i], sizeof(double), np1, fp);
     fwrite(visc_b[i], sizeof(double), np1, fp);
@@ -434,7 +435,13 @@ void PairHVISPH::read_restart(FILE *fp)
   const int np1 = atom->ntypes + 1;
   for (int i = 1; i < np1; i++) {
     const std::string spec = read_text(fp, me, world, error);
-    if (!spec.empty()) set_material(i, i, i, i, utils::split_words(spec), false);
+    if (!spec.empty()) {
+      set_material(i, i, i, i, utils::split_words(spec), true);
+      uint64_t checksum = 0;
+      if (me == 0) utils::sfread(FLERR, &checksum, sizeof(checksum), 1, fp, nullptr, error);
+      MPI_Bcast(&checksum, 1, MPI_UINT64_T, 0, world);
+      store->materials.remember(i, checksum);
+    }
     if (me == 0) {
       utils::sfread(FLERR, setflag[i], sizeof(int), np1, fp, nullptr, error);
       utils::sfread(FLERR, visc_a[i], sizeof(double), np1, fp, nullptr, error);

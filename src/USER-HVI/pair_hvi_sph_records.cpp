@@ -68,7 +68,7 @@ void PairHVISPH::gather()
     // failed particles are not pulled; signals in solids are longitudinal
 
     if (records.stress) {
-      p = MAX(p, records.stress[i].p_min);
+      p = HVI::clip_tension(p, records.stress[i].p_min);
       csq += 4.0 / 3.0 * records.stress[i].shear / rho[i];
     }
 

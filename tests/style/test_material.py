@@ -118,7 +118,7 @@ def refused(lmp, name, units="si", nranks=1, **how):
     (("UNITS: si", "UNITS: metal"), "Material file x.hvi:1: unknown UNITS: metal; known are si, cgs, micro, lj"),
     (("UNITS: si", ""), "x.hvi:2: no UNITS: in the comments before the first section"),
     (("eos gruneisen", "eos grueneisen"), "x.hvi:2: unknown law eos grueneisen; known are linear, tait"),
-    (("eos gruneisen", "strength none\neos gruneisen"), "x.hvi:2: unknown law strength none"),
+    (("eos gruneisen", "strength mts\neos gruneisen"), "x.hvi:2: unknown law strength mts"),
     (("  C 5240", "  c 5240"), "x.hvi:4: eos gruneisen: unknown key c; known are rho0 C S1 g0 a cp S2 S3 T0"),
     (("  C 5240", "  C 5240\n  C 5240"), "x.hvi:5: eos gruneisen: key C given twice, first in line 4"),
     (("  C 5240\n", ""), "x.hvi:2: eos gruneisen: missing key C"),
