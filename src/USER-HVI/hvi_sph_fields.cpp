@@ -66,6 +66,22 @@ double SphFields::bytes_per_particle() const
       (has_stress ? sizeof(SphStress) + sizeof(SphGradV) : 0) + (has_art ? sizeof(SphStress) : 0);
 }
 
+std::string SphFields::arrays() const
+{
+  std::string text;
+  const auto add = [&](const char *name, std::size_t bytes, bool there) {
+    if (there) text += (text.empty() ? "" : ", ") + std::string(name) + " " + std::to_string(bytes);
+  };
+  add("place", sizeof(SphPlace), true);
+  add("state", sizeof(SphState), true);
+  add("rates", sizeof(SphRates), true);
+  add("slopes", sizeof(SphSlopes), has_slopes);
+  add("stress", sizeof(SphStress), has_stress);
+  add("gradv", sizeof(SphGradV), has_stress);
+  add("art", sizeof(SphStress), has_art);
+  return text;
+}
+
 /* ---------------------------------------------------------------------- */
 
 double SphFields::pressure(int i) const

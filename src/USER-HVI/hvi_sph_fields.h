@@ -70,6 +70,7 @@ class SphFields {
   void choose(bool slopes, bool stress, bool art);    // which records the scene has
   void grow(int n, int spare = 0);    // to hold n of each, if they do not: contents are lost
   const SphView &view() const { return records; }
+  std::string arrays() const;    // those of this scene, with bytes per particle: for people
   double bytes_per_particle() const;
   double bytes() const { return nmax * bytes_per_particle(); }
 
