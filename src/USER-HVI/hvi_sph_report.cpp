@@ -41,8 +41,8 @@ static constexpr double FILL_LEAST = 0.4;      // of a body's bounding box, if t
 HVISphReport::HVISphReport(LAMMPS *lmp, const FixHVIStore *store,
                            const std::vector<char> &is_ours) :
     Pointers(lmp),
-    laws(atom->ntypes + 1), record_bytes(0), kept_bytes(0), forward(0), reverse(0), border(0),
-    store(store), is_ours(is_ours), rows(atom->ntypes + 1), spread(0.0)
+    laws(atom->ntypes + 1), kept_bytes(0), forward(0), reverse(0), border(0), store(store),
+    is_ours(is_ours), rows(atom->ntypes + 1), spread(0.0)
 {
 }
 
@@ -179,10 +179,10 @@ void HVISphReport::write() const
                         material.eos->name(), laws[itype].empty() ? "" : ", " + laws[itype]);
   }
   text += fmt::format("  terms: {}\n", terms());
-  text +=
-      fmt::format("  memory: {} bytes per owned and ghost particle, {} more per owned particle in "
-                  "fixes\n",
-                  record_bytes, kept_bytes);
+  text += fmt::format("  arrays, bytes: {}\n", store->fields.arrays());
+  text += fmt::format("  memory: {:.0f} bytes per owned and ghost particle, {} more per owned "
+                      "particle in fixes\n",
+                      store->fields.bytes_per_particle(), kept_bytes);
   text += fmt::format("  communication beyond atom_style sph, doubles per ghost: {} forward and {} "
                       "reverse in each step, {} when new\n",
                       forward, reverse, border);

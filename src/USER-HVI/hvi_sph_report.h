@@ -28,7 +28,7 @@ class HVISphReport : protected Pointers {
 
   std::vector<std::string> laws;    // by type, what is in force besides the equation of state
   std::vector<char> unmoved;    // by owned particle: not integrated in a run before; empty: unknown
-  int record_bytes, kept_bytes;    // a particle's share: packed records; arrays of fixes
+  int kept_bytes;               // per owned particle, in arrays of fixes
   int forward, reverse, border;    // doubles a ghost, sent and returned each step, sent when new
 
   void count(const HVI::SphList &, bool newton);

@@ -231,7 +231,6 @@ void PairHVISPH::setup()
   check_extent();
 
   HVISphReport report(lmp, store, is_ours);
-  report.record_bytes = store->fields.bytes_per_particle();
   report.forward = comm_forward;
   report.reverse = force->newton_pair ? comm_reverse : 0;
   if (integrator) {
