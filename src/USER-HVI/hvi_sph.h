@@ -41,8 +41,6 @@ struct SphLaws {
   const double *row_a, *row_b, *row_tension;    // by type of the neighbor; tension: 0 or 1
 };
 
-// neighbors of one particle within reach, as many as fit
-
 // LANES pairs, from the loop over them for the one after it, with SPH_STRENGTH only
 
 struct SphPairs {
@@ -52,6 +50,8 @@ struct SphPairs {
   Vec de_j, drho_j, qheat;
   Vec art;    // factor of the artificial stress, with SPH_ARTSTRESS only
 };
+
+// neighbors of one particle within reach, as many as fit
 
 struct alignas(64) SphNear {
   static constexpr int MAX = 128, SIZE = MAX + LANES;

@@ -45,7 +45,7 @@ struct alignas(64) SphStress {
   static constexpr int SENT = 8;
   double xx, yy, zz, xy;
   double xz, yz;
-  double p_min;    // what pressure cannot fall below: 0 in rubble
+  double p_min;    // what pressure cannot fall below: 0 in rubble, see clip_tension()
   double shear;    // modulus
 };
 

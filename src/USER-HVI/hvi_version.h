@@ -11,7 +11,7 @@
 
 namespace HVI {
 
-// the only place where the version of the package is written; CMake reads it from here
+// CMake, Sphinx and Python read the version here; a test holds README, CITATION and examples to it
 static constexpr char HVI_VERSION[] = "0.1.0";
 
 }    // namespace HVI

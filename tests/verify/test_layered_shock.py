@@ -8,7 +8,7 @@ import pytest
 import yaml
 from reference import fronts, layers, measures, sph1d
 
-P_STAR = 0.6403882  # alpha on alpha, validation.md
+P_STAR = 0.6403882  # alpha on alpha, from the jump conditions
 REAL = [case for case in layers.CASES if case != "test"]
 DISSIPATION = {"none": 0.0, "auto": sph1d.automatic}
 

@@ -18,7 +18,7 @@ def body(lo, hi, u, rho0=1.0, K=1.0, number=0):
 @pytest.mark.parametrize("other, p, dL, dR, u", [(ALPHA, 0.640388, 1.640388, 1.640388, 0.5),
                                                  (BETA, 0.599594, 1.599594, 1.299797, 0.525919)])
 def test_exact_states(other, p, dL, dR, u):
-    """the table of validation.md: alpha at speed 1 on a target at rest"""
+    """from the jump conditions: alpha at speed 1 on a target at rest"""
     star = layers.riemann(0.0, 1.0, ALPHA.K, ALPHA.c, 0.0, 0.0, other.K, other.c)
     assert star == pytest.approx((p, u), abs=6e-7)
     assert (1 + star[0] / ALPHA.K, 1 + star[0] / other.K) == pytest.approx((dL, dR), abs=6e-7)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from reference import gas, impedance
 
-PROBLEMS = {  # validation.md and Toro's book: left, right, p, u, rho on both sides of the contact
+PROBLEMS = {  # Toro's book, Sjoegreen's problem besides: left, right, p, u, rho on both sides of the contact
     "sod": ((1, 0, 1), (0.125, 0, 0.1), 0.303130, 0.927453, (0.426319, 0.265574)),
     "left blast": ((1, 0, 1000), (1, 0, 0.01), 460.894, 19.5975, (0.575062, 5.99924)),
     "right blast": ((1, 0, 0.01), (1, 0, 100), 46.0950, -6.19633, (5.99242, 0.575113)),
@@ -93,7 +93,7 @@ def test_shock_on_a_dense_gas(ratio):
 
 @pytest.mark.parametrize("dim, rho", [(1, 4), (2, 16), (3, 64)])
 def test_noh(dim, rho):
-    """validation.md: rho 4/16/64, shock at t/3; mass and energy of the gas that was within 1"""
+    """Noh's solution: rho 4/16/64, shock at t/3; mass and energy of the gas that was within 1"""
     s, t = gas.Noh(dim), 0.6
     n, edge = 400000, 1 - t
     r = (np.arange(n) + 0.5) * edge / n
@@ -107,7 +107,7 @@ def test_noh(dim, rho):
 
 @pytest.mark.parametrize("dim, energy, radius", [(1, 2, 1.491374), (2, 1, 1.153787), (3, 1, 1.151666)])
 def test_sedov(dim, energy, radius):
-    """validation.md's radii at t = 1 belong to 1, 2 and 3 dimensions in this order, the first to energy 1 on either side, 2 in all"""
+    """the radii 1.491374, 1.153787, 1.151666 at t = 1 belong to 1, 2 and 3 dimensions in this order, the first to energy 1 on either side, 2 in all"""
     s = gas.Sedov(dim, energy)
     assert s.radius(1.0) == pytest.approx(radius, abs=6e-7)
     assert dim * s.integral(s.g * s.lam**dim) == pytest.approx(1, abs=1e-6)  # all mass
@@ -159,7 +159,7 @@ def test_woodward_colella_converges_to_itself():
 
 
 FLYERS = {500: (3.777, 2829.5), 1000: (8.028, 2951.4), 2000: (17.948, 3182.3), 3000: (29.760, 3397.3), 5000: (59.061, 3785.9),
-          5941: (75.465, 3952.1), 6700: (89.917, 4079.1), 7000: (95.929, 4127.8), 10000: (165.424, 4569.7)}  # GPa, kg/m^3: validation.md
+          5941: (75.465, 3952.1), 6700: (89.917, 4079.1), 7000: (95.929, 4127.8), 10000: (165.424, 4569.7)}  # GPa, kg/m^3: P = rho0 Us u, Us = c0 + s u, u = V/2
 
 
 @pytest.mark.parametrize("speed", FLYERS)
@@ -170,7 +170,7 @@ def test_symmetric_flyers(speed):
 
 
 def test_asymmetric_flyer():
-    """validation.md; the same pressure from both Hugoniots; exchanged plates: the same pressure"""
+    """jump conditions; the same pressure from both Hugoniots; exchanged plates: the same pressure"""
     u, p = impedance.match(impedance.AL2024, impedance.COPPER, 5750.0)
     assert (u, p / 1e9) == pytest.approx((1880.7, 113.20), abs=0.05)
     assert impedance.AL2024.pressure(5750 - u) == pytest.approx(p, rel=1e-12)
