@@ -342,7 +342,9 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
     error->all(FLERR, "Pair_coeff hvi/sph h must be > 0, not {}", words[used + 1]);
   used += 2;
   double volume = 0.0;
-  while (used < nwords && (words[used] == "volume" || words[used] == "strength")) {
+  while (used < nwords &&
+         ((words[used] == "volume" && volume == 0.0) ||
+          (words[used] == "strength" && !made->liquid))) {
     if (words[used] == "strength") {
       if (used + 2 > nwords) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph strength", error);
       if (words[used + 1] != "none")
