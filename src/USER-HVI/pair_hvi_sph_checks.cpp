@@ -34,16 +34,11 @@ static constexpr double BIG = 1.0e100;
 
 void PairHVISPH::check_fixes() const
 {
-  if (utils::strmatch(force->pair_style, "^hybrid")) {
-    // it scales forces, but neither rates of density nor of energy
-    if (utils::strmatch(force->pair_style, "^hybrid/scaled"))
-      error->all(FLERR,
-                 "Pair style hvi/sph does not work under pair_style hybrid/scaled, which would "
-                 "scale its forces but not its rates of density and energy: use hybrid or "
-                 "hybrid/overlay");
-    if (force->pair_match("^hvi/sph$", 0, 1) != force->pair_match("^hvi/sph$", 0, 2))
-      error->all(FLERR, "More than one pair style hvi/sph");
-  }
+  // hybrid/scaled, which would scale forces but neither rates of density nor of energy, is refused by LAMMPS
+
+  if (utils::strmatch(force->pair_style, "^hybrid") &&
+      force->pair_match("^hvi/sph$", 0, 1) != force->pair_match("^hvi/sph$", 0, 2))
+    error->all(FLERR, "More than one pair style hvi/sph");
   if (set.variable && !integrator)
     error->all(FLERR, "Pair style hvi/sph h variable needs fix hvi/sph, which keeps h");
   if (!integrator && modify->get_fix_by_style("^sph").empty() &&
