@@ -29,7 +29,6 @@ class Materials {
     std::shared_ptr<const Material> material;    // null: the type has none
     std::string owner;                           // the style that gave it
     double volume = 0.0;                         // of a particle at rest, 0: not given
-    bool liquid = false;    // meant to have no strength, whatever its file says
   };
 
   const Material *of(int itype) const { return entry(itype).material.get(); }

@@ -229,6 +229,7 @@ void PairHVISPH::setup()
 {
   check_sides();
   check_extent();
+  warn();
 
   HVISphReport report(lmp, store, is_ours);
   report.record_bytes = store->fields.bytes_per_particle();
