@@ -111,7 +111,7 @@ def random_fluid(n, dim=3, spacing=1.0, jitter=0.25, seed=1, types=2, periodic=T
 
 
 def rates(s, eos, kernel, form="sum", visc=(1.0, 2.0), alpha=0.0, tension=True, h=None, stock=False, dim=None):
-    """force, d esph/dt, d rho/dt, viscous power, of all pairs by brute force"""
+    """force, d esph/dt, d rho/dt, viscous power (of all, and of each particle), of all pairs by brute force"""
     dim = dim or s.dim
     e = s.esph / s.m
     p, c = np.empty(len(e)), np.empty(len(e))
@@ -163,14 +163,14 @@ def rates(s, eos, kernel, form="sum", visc=(1.0, 2.0), alpha=0.0, tension=True, 
         drho_i, drho_j = drho_i + alpha_i * phi * V[j], drho_j - alpha_j * phi * V[i]
     n = len(s.x)
     f = np.zeros((n, 3))
-    de, drho = np.zeros(n), np.zeros(n)
+    de, drho, heats = np.zeros(n), np.zeros(n), np.zeros(n)
     for target, value in ((i, 1), (j, -1)):
         np.add.at(f, target, value * force)
-    for array, one, other in ((de, de_i, de_j), (drho, drho_i, drho_j)):
+    for array, one, other in ((de, de_i, de_j), (drho, drho_i, drho_j), (heats, 0.5 * q * g, 0.5 * q * g)):
         np.add.at(array, i, one)
         np.add.at(array, j, other)
     virial = np.einsum("ka,kb->ab", d, force)
-    return dict(f=f, de=de, drho=drho, heat=(q * g).sum(), virial=virial, p=p, c=c)
+    return dict(f=f, de=de, drho=drho, heat=(q * g).sum(), heats=heats, virial=virial, p=p, c=c)
 
 
 def riemann_rates(s, eos, kernel, tension=True, h=None, follows=None, A=1.2, steep=1.5):
@@ -236,7 +236,8 @@ def riemann_rates(s, eos, kernel, tension=True, h=None, follows=None, A=1.2, ste
     pair = -(star_p * (G_i + G_j))[:, None] * e
     de = star_p * (G_i * u - (G_i + G_j) * delta)
     drho = s.rho[i] / omega[i] * (dW(i) * stretch / number[i] - K * delta)
-    return dict(f=total(pair), de=total(de), drho=total(drho), heat=0.5 * (viscous * (G_i + G_j) * u).sum(),
+    heats = 0.5 * viscous * (G_i + G_j) * u
+    return dict(f=total(pair), de=total(de), drho=total(drho), heat=heats.sum(), heats=total(heats),
                 virial=0.5 * np.einsum("ka,kb->ab", d, pair), p=p, c=c)
 
 

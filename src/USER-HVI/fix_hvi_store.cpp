@@ -25,7 +25,11 @@ static constexpr char STORE_ID[] = "HVI_STORE";
 
 FixHVIStore::FixHVIStore(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
-  if (strcmp(id, STORE_ID) != 0)
+  // an empty place in the list is that of a fix which is being given again
+
+  bool wrong = strcmp(id, STORE_ID) != 0;
+  for (int k = 0; k < modify->nfix; k++) wrong = wrong || !modify->fix[k];
+  if (wrong)
     error->all(FLERR,
                "Fix hvi/store is made by pair style hvi/sph and cannot be given in an input");
 }

@@ -32,7 +32,6 @@ class Materials {
     std::string owner;                           // the style that gave it
     double volume = 0.0;                         // of a particle at rest, 0: not given
     bool restored = false;                       // named by a restart file, not by the input
-    bool liquid = false;    // meant to have no strength, whatever its file says
   };
 
   const Material *of(int itype) const { return entry(itype).material.get(); }

@@ -229,6 +229,7 @@ void PairHVISPH::setup()
 {
   check_sides();
   check_extent();
+  warn();
 
   HVISphReport report(lmp, store, is_ours);
   report.forward = comm_forward;

@@ -92,6 +92,7 @@ class PairHVISPH :
   void check_mirror() const;
   void check_sides() const;
   void check_extent();
+  void warn() const;
 
   // of a force evaluation
 

@@ -34,23 +34,13 @@ static constexpr double BIG = 1.0e100;
 
 void PairHVISPH::check_fixes() const
 {
-  if (utils::strmatch(force->pair_style, "^hybrid")) {
-    // it scales forces, but neither rates of density nor of energy
-    if (utils::strmatch(force->pair_style, "^hybrid/scaled"))
-      error->all(FLERR,
-                 "Pair style hvi/sph does not work under pair_style hybrid/scaled, which would "
-                 "scale its forces but not its rates of density and energy: use hybrid or "
-                 "hybrid/overlay");
-    if (force->pair_match("^hvi/sph$", 0, 1) != force->pair_match("^hvi/sph$", 0, 2))
-      error->all(FLERR, "More than one pair style hvi/sph");
-  }
+  // hybrid/scaled, which would scale forces but neither rates of density nor of energy, is refused by LAMMPS
+
+  if (utils::strmatch(force->pair_style, "^hybrid") &&
+      force->pair_match("^hvi/sph$", 0, 1) != force->pair_match("^hvi/sph$", 0, 2))
+    error->all(FLERR, "More than one pair style hvi/sph");
   if (set.variable && !integrator)
     error->all(FLERR, "Pair style hvi/sph h variable needs fix hvi/sph, which keeps h");
-  if (!integrator && modify->get_fix_by_style("^sph").empty() &&
-      modify->get_fix_by_style("meso").empty() && comm->me == 0)
-    error->warning(FLERR,
-                   "Pair style hvi/sph: no fix integrates density and energy and estimates "
-                   "velocities, as fix hvi/sph does");
   if (strength && (set.riemann || set.laws.symmetric))
     error->all(FLERR,
                "Pair style hvi/sph: fix hvi/johnson-cook works with form sum and dissipation "
@@ -85,14 +75,33 @@ void PairHVISPH::check_materials() const
     if (set.laws.stock && eos != "tait" && eos != "idealgas")
       error->all(FLERR, "Pair style hvi/sph stock yes knows eos tait and idealgas only, not {}",
                  eos);
-    if (strength || entry.material->is_liquid() || comm->me != 0) continue;
-    for (const HVI::Section &section : entry.material->sections)
+  }
+}
+
+/* ----------------------------------------------------------------------
+   what may be meant: said at the start of a run, not whenever LAMMPS initializes
+------------------------------------------------------------------------- */
+
+void PairHVISPH::warn() const
+{
+  if (comm->me != 0) return;
+  if (!integrator && modify->get_fix_by_style("^sph").empty() &&
+      modify->get_fix_by_style("meso").empty())
+    error->warning(FLERR,
+                   "Pair style hvi/sph: no fix integrates density and energy and estimates "
+                   "velocities, as fix hvi/sph does");
+  if (strength) return;
+  for (int i = 1; i <= atom->ntypes; i++) {
+    if (!is_ours[i]) continue;
+    const HVI::Material &material = *store->materials.of(i);
+    if (material.is_liquid()) continue;
+    for (const HVI::Section &section : material.sections)
       if (section.kind == "strength" && section.law != "none") {
         error->warning(FLERR,
                        "Pair style hvi/sph: type {} is a liquid: material {} has strength, but "
                        "there is no fix hvi/johnson-cook (pair_coeff ... strength none if that is "
                        "meant)",
-                       i, entry.material->name);
+                       i, material.name);
         break;
       }
   }

@@ -298,6 +298,8 @@ void PairHVISPH::coeff(int narg, char **arg)
 void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
                               const std::vector<std::string> &words, bool restored)
 {
+  store = FixHVIStore::instance(lmp);    // unfix may have taken the one there was
+
   // after the material: h and its value; what a particle's volume is to be at rest; that it is a liquid
 
   const std::size_t nwords = words.size();

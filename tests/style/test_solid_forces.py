@@ -4,7 +4,8 @@ import itertools
 
 import numpy as np
 import pytest
-from sph_scenes import SUPPORT, norm, random_fluid, scene, shape
+from solid_runs import material as metal
+from sph_scenes import SUPPORT, Fluid, norm, random_fluid, scene, shape
 
 # si-like numbers in lj units: rho0 1, c0 4; strength and damage so that a part yields, some fail
 MATERIAL = """# DATE: 2026-01-01 UNITS: lj CONTRIBUTOR: test CITATION: none
@@ -243,3 +244,52 @@ def test_books_close(lmp, tmp_path, material, jc, words):
     assert t["c_book[1]"][-1] < 0.9 * t["c_book[1]"][0]
     for k in (10, 11):
         assert np.abs(t[f"c_book[{k}]"] - t[f"c_book[{k}]"][0]).max() < 1e-11
+
+
+# turns of the axes: a is where the first of a scene in x, or in x and y, points to, b the second
+LINES, PLANES = [("x", "y"), ("y", "z"), ("z", "x")], [("x", "y"), ("y", "z"), ("z", "x"), ("x", "z"), ("z", "y")]
+
+
+def flat(dim, axes):
+    """a jittered row or sheet of particles in a box of three dimensions, in a linear velocity field; the field; how it is turned"""
+    rng = np.random.default_rng(71)
+    n = {1: 16, 2: 8}[dim]
+    grid = np.stack(np.meshgrid(*[np.arange(n)] * dim, indexing="ij"), -1).reshape(-1, dim) + rng.uniform(-0.15, 0.15, (n**dim, dim))
+    x = np.zeros((len(grid), 3))
+    x[:, :dim] = grid - grid.mean(0)
+    L = np.zeros((3, 3))
+    L[:dim, :dim] = np.array([[0.5, -0.7], [0.4, -0.2]])[:dim, :dim]
+    v = x @ L.T
+    turn = ["xyz".index(a) for a in axes]
+    turn.append(3 - sum(turn))
+    back = np.argsort(turn)
+    ones = np.ones(len(x))
+    return Fluid(x[:, back] + 10.0, v[:, back], ones, 0 * ones, ones.astype(int), {1: 1.0}, {1: 1.3}, np.full(3, 20.0), (False,) * 3), L, turn
+
+
+@pytest.mark.parametrize("dim, turns", [(1, LINES), (2, PLANES)])
+def test_corrected_gradient_along_any_axes(lmp, tmp_path, dim, turns):
+    """rows along x, y, z, sheets in all planes: exact in a linear field, at edges and corners too, and the same in all of them"""
+    path = metal(tmp_path / "m.hvi", "eos gruneisen rho0 1.0 C 4.0 S1 1.4 g0 2.0 a 0.5 cp 1.0 T0 300", "strength perfect G 6.0 Y 1e3")
+    pair = f"pair_style hvi/sph cubic dim {dim} gradient {{}}\npair_coeff 1 1 file {path} h 1.3\n"
+    text, dt = "", 1e-4
+    for k, axes in enumerate([*turns, turns[0]]):
+        s, L, _ = flat(dim, axes)
+        word = "corrected" if k < len(turns) else "plain"
+        text += "clear\n" + scene(s, tmp_path / f"s{k}.data", pair.format(word)) + f"fix jc all hvi/johnson-cook strength perfect damage no spall none\ntimestep {dt}\n"
+        text += "run 1\n" + OUT.format(f"a{k}") + "timestep 0.02\nrun 8\n" + OUT.format(f"b{k}")
+    lmp(text)
+    D = 0.5 * (L + L.T)
+    want = 2 * 6.0 * (D - np.trace(D) / 3 * np.eye(3)) * dt
+    plain = as_tensor(read(tmp_path / f"a{len(turns)}"))
+    assert np.abs(plain - want).max() > 0.1 * np.abs(want).max()
+    first = None
+    for k, axes in enumerate(turns):
+        turn = flat(dim, axes)[2]
+        early, late = read(tmp_path / f"a{k}"), read(tmp_path / f"b{k}")
+        S = as_tensor(early)[:, turn][:, :, turn]
+        assert np.abs(S - want).max() <= 1e-3 * np.abs(want).max(), axes
+        found = dict(early=S, late=as_tensor(late)[:, turn][:, :, turn], f=late["f"][:, turn], de=late["de"], drho=late["drho"])
+        first = first or found
+        for name in found:
+            assert np.abs(found[name] - first[name]).max() <= 1e-12 * np.abs(first[name]).max(), (axes, name)

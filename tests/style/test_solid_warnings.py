@@ -1,11 +1,14 @@
 """Metals that would be liquids without a word, laws that the files choose, and fixes given again: what is said, and how often."""
 
+import numpy as np
 import pytest
 from sph_scenes import scene
 from test_solid_forces import MATERIAL, OUT, read, state
 
 LIQUID = "has no section strength johnson-cook: its "
 OUTSIDE = "are not in group "
+NO_FIX = "has strength, but there is no fix hvi/johnson-cook"
+LEFT_OUT = "particles with a material are integrated by no fix"
 SPALL = "has no section spall limit and does not spall"
 
 
@@ -29,9 +32,9 @@ def files(tmp_path):
     return tmp_path
 
 
-def head(folder, one="metal", two="metal", jc="all hvi/johnson-cook", groups=""):
-    pair = f"pair_style hvi/sph cubic\npair_coeff 1 1 file {one}.hvi h 1.25\npair_coeff 2 2 file {two}.hvi h 1.25\npair_coeff 1 2 tension yes\n"
-    return scene(state(), folder / "s.data", pair) + f"{groups}fix jc {jc}\ntimestep 0.004\n"
+def head(folder, one="metal", two="metal", jc="all hvi/johnson-cook", groups="", words="", fix="fix sph all hvi/sph\n"):
+    pair = f"pair_style hvi/sph cubic\npair_coeff 1 1 file {one}.hvi h 1.25\npair_coeff 2 2 file {two}.hvi h 1.25 {words}\npair_coeff 1 2 tension yes\n"
+    return scene(state(), folder / "s.data", pair, fix=groups + fix) + (f"fix jc {jc}\n" if jc else "") + "timestep 0.004\n"
 
 
 def said(result, words):
@@ -68,6 +71,54 @@ def test_particles_outside_the_group(lmp, files, nranks):
     # a liquid outside is one inside
     r = lmp(head(files, two="water", jc="one hvi/johnson-cook", groups="group one type 1\n") + "run 1\n", nranks=nranks)
     assert not r.warnings, r.warnings
+
+
+def test_no_fix_of_strength(lmp, files):
+    """once per type and run, whatever else asks LAMMPS to begin; not for what is meant to be a liquid, in a file or in pair_coeff"""
+    r = lmp(head(files, jc="") + "run 1\nwrite_data d.data\nwrite_restart r\nrun 1\n")
+    for itype in (1, 2):
+        assert [f"type {itype} is a liquid: material metal.hvi {NO_FIX} (pair_coeff ... strength none" in w for w in said(r, NO_FIX)].count(True) == 2, r.warnings
+    assert len(r.warnings) == 4, r.warnings
+    for how in (dict(words="strength none"), dict(two="declared"), dict(two="water")):
+        r = lmp(head(files, jc="", **how) + "run 1\n")
+        assert len(r.warnings) == 1 and "type 1 is a liquid" in r.warnings[0], (how, r.warnings)
+    assert not lmp(head(files) + "run 1\n").warnings
+
+
+def test_strength_none_of_a_type(lmp, files):
+    """a metal by its file, a liquid by pair_coeff: as one without strength, beside solids, and after a restart; whatever the order of words"""
+    out = OUT.format
+    text = head(files, words="volume 1.0 strength none") + "run 5\nwrite_restart r\n" + out("a") + "clear\n" + head(files, words="strength none volume 1.0") + "run 5\n" + out("b")
+    r = lmp(text + "clear\n" + head(files, two="declared") + "run 5\n" + out("c"))
+    again = lmp("read_restart r\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\nfix sph all hvi/sph\nfix jc all hvi/johnson-cook\n" + out("d"))
+    assert not r.warnings and not again.warnings, (r.warnings, again.warnings)
+    a, d = read(files / "a"), read(files / "d")
+    liquid = a["type"] == 2
+    assert a["vm"][liquid].max() == 0.0 and a["vm"][~liquid].min() > 0.0
+    assert (files / "a").read_bytes() == (files / "b").read_bytes() == (files / "c").read_bytes()
+    for name in a:
+        assert np.abs(a[name] - d[name]).max() <= 1e-12 * np.abs(a[name]).max(), name
+
+
+@pytest.mark.parametrize("nranks", [1, 3])
+def test_particles_that_nobody_integrates(lmp, files, nranks):
+    """how many; not those of walls, nor those another fix moves, nor those without a material"""
+    s = state()
+    rest = s.x[:, 0] >= 4.0
+    groups = "region left block INF 4.0 INF INF INF INF units box\nregion low block INF INF INF 2.5 INF INF units box\ngroup left region left\ngroup low region low\n"
+    groups += "group rest subtract all left\n"
+    cases = [("fix sph left hvi/sph\n", rest.sum()), ("fix sph left hvi/sph walls low\n", (rest & (s.x[:, 1] > 2.5)).sum()),
+             ("fix sph left hvi/sph walls low walls rest\n", 0), ("fix sph left hvi/sph walls all\n", 0),
+             ("fix sph left hvi/sph\nfix piston rest move linear 0.1 0 0\n", 0), ("fix sph left hvi/sph\nfix nve low nve\n", (rest & (s.x[:, 1] > 2.5)).sum()),
+             ("fix sph left hvi/sph\nfix hold rest setforce 0 0 0\n", rest.sum()), ("fix sph all hvi/sph\n", 0)]
+    text = "".join("clear\n" + head(files, words="strength none", jc="left hvi/johnson-cook strength none spall none", groups=groups, fix=fix) + f"run 1\nprint 'case {k}'\n"
+                   for k, (fix, n) in enumerate(cases))
+    r = lmp(text, nranks=nranks)
+    logs = r.log.split("print 'case ")
+    assert rest.sum() > 100 and len(logs) == len(cases) + 1
+    for (fix, n), log in zip(cases, logs):
+        lines = [line for line in log.splitlines() if LEFT_OUT in line]
+        assert len(lines) == (n > 0) and all(f"Fix hvi/sph: {n} {LEFT_OUT}" in line for line in lines), (fix, lines)
 
 
 def test_no_section_spall_once(lmp, files):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from sph_scenes import Fluid, random_fluid, scene
+from sph_scenes import Fluid, random_fluid, rates, riemann_rates, scene, tait
 
 LEDGER = """compute book all hvi/energy
 compute T all pressure NULL virial
@@ -116,3 +116,25 @@ def test_bodies_do_not_weld(lmp, tmp_path):
         if name == "no":
             assert gap["no"][-1] == pytest.approx(1 + 0.04 * time[-1], rel=0.01) and time[-1] > 90
     assert gap["yes"].max() < 1.5
+
+
+@pytest.mark.parametrize("nranks", [1, 2, 3])
+def test_heat_of_particles_that_are_integrated(lmp, tmp_path, nranks):
+    """the entry viscous holds what flows into the energies of particles of fix hvi/sph, not into those that keep theirs: by hand from all pairs"""
+    s = random_fluid(7, seed=91, h=1.2)
+    some = (s.x[:, 0] < 3.1) | (s.type == 2) & (s.x[:, 1] > 4.3)
+    groups = "region one block INF 3.1 INF INF INF INF units box\nregion two block INF INF 4.3 INF INF INF units box\ngroup one region one\ngroup high region two\n"
+    groups += "group kind type 2\ngroup two intersect high kind\ngroup some union one two\nfix sph some hvi/sph\n"
+    text, want = "", []
+    eos = {1: tait(1.0, 4.0), 2: tait(1.7, 3.0)}
+    for words, solve in (("viscosity 1.5 0.5", lambda: rates(s, eos, "cubic", visc=(1.5, 0.5), tension=False)),
+                         ("dissipation riemann", lambda: riemann_rates(s, eos, "cubic", tension=False))):
+        pair = f"pair_style hvi/sph cubic {words}\npair_coeff 1 1 eos tait 1.0 4.0 7 h 1.2\npair_coeff 2 2 eos tait 1.7 3.0 7 h 1.2\n"
+        heats = solve()["heats"]
+        assert 0.2 * heats.sum() < heats[some].sum() < 0.8 * heats.sum()
+        for newton, fix in (("on", groups), ("off", groups), ("on", "fix sph all hvi/sph\n")):
+            text += "clear\n" + scene(s, tmp_path / "s.data", pair, newton=newton, fix=fix) + "compute book all hvi/energy\n"
+            text += "thermo_style custom step c_book[28]\nthermo_modify format float %.17g\ntimestep 1e-9\nrun 1\n"
+            want.append(heats[some].sum() if fix == groups else heats.sum())
+    found = [r["c_book[28]"][-1] / 1e-9 for r in lmp(text, nranks=nranks).runs]
+    assert found == pytest.approx(want, rel=1e-6)

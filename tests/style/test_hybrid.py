@@ -1,0 +1,142 @@
+"""SPH under pair_style hybrid: forces and rates are those without it, whatever is beside it, on every layout."""
+
+import itertools
+
+import numpy as np
+import pytest
+import test_mirror
+from sph_scenes import Fluid, random_fluid, scene
+from test_solid_forces import MATERIAL, OUT, PAIR, read, state
+
+STEPS = 10
+BESIDE = {"lj/cut": "lj/cut 2.5", "hvi/contact": "hvi/contact", "zero": "zero 4.5"}
+COEFF = {"lj/cut": "lj/cut 1.0 0.8", "hvi/contact": "hvi/contact 1.0 1.1"}
+RIEMANN = "pair_style hvi/sph cubic dissipation riemann h variable\npair_coeff 1 1 eos tait 1.0 4.0 7 h 1.1\npair_coeff 2 2 eos tait 1.7 3.0 7 h 1.0\n"
+RIEMANN += "pair_coeff 1 2 tension yes\n"
+FLUID_OUT = OUT.replace("eps damage spalled vm sxx syy szz sxy sxz syz", "p p p p p p p p p p")
+
+
+@pytest.fixture
+def material(tmp_path):
+    path = tmp_path / "test.hvi"
+    path.write_text(MATERIAL.format(sigma_p=3.0))
+    return path
+
+
+def parts(kind, material):
+    """a scene of SPH (two types): particles, its pair commands, its fixes, what is put out"""
+    jc = "fix jc {0} hvi/johnson-cook\n"
+    if kind == "solids":
+        s = state(seed=51)
+        s.rho *= 0.97
+        return s, PAIR.format(kernel="cubic", words="artstress 0.3 4", path=material) + "pair_coeff 1 2 tension no\n", jc, OUT
+    if kind == "riemann":
+        return random_fluid(7, seed=53, h=[1.1, 1.0], jitter=0.15), RIEMANN, "", FLUID_OUT
+    s, _ = test_mirror.part("xy")
+    words = "viscosity 1 2 mirror x 0.0 lo mirror y 0.0 lo"
+    return s, PAIR.format(kernel="cubic", words=words, path=material) + "pair_coeff 1 2 tension no\n", jc, OUT
+
+
+def others(s):
+    """particles of type 3, all over the place and in the midst of those of s, which do not feel them"""
+    t = random_fluid(4, spacing=1.1, jitter=0.1, seed=55, types=1)
+    center = s.x.mean(0)
+    x = t.x - t.x.mean(0) + center
+    return Fluid(x, t.v, np.ones(len(x)), np.zeros(len(x)), np.full(len(x), 3), {**s.mass, 3: 1.0}, s.h, s.box, s.periodic)
+
+
+def together(s, t):
+    a = [np.concatenate([getattr(s, name), getattr(t, name)]) for name in ("x", "v", "rho", "esph", "type")]
+    return Fluid(*a, t.mass, s.h, s.box, s.periodic)
+
+
+def hybrid(pair, style, beside):
+    """the same commands as sub-style of a hybrid"""
+    out = ""
+    for line in pair.splitlines():
+        words = line.split()
+        if words[0] == "pair_style":
+            other = BESIDE[beside] if beside else ""
+            first, second = (" ".join(words[1:]), other) if beside != "lj/cut" else (other, " ".join(words[1:]))
+            out += f"pair_style {style} {first} {second}\n"
+        else:
+            out += " ".join([*words[:3], "hvi/sph", *words[3:]]) + "\n"
+    if beside == "zero":
+        return out + "pair_coeff 1*2 1*2 zero\n"
+    return out + f"pair_coeff 3 3 {COEFF[beside]}\npair_coeff 1*2 3 none\n" if beside else out
+
+
+def text(s, pair, fixes, out, tmp_path, name, group="all", more="", **kw):
+    groups = "" if group == "all" else "group ours type 1 2\ngroup rest type 3\nfix nve rest nve\n"
+    fix = groups + fixes.format(group) + f"fix sph {group} hvi/sph\n"
+    return ("clear\n" + scene(s, tmp_path / f"{name}.data", pair, fix=fix, **kw) + "timestep 0.004\n" + more + f"run {STEPS}\n"
+            + out.format(tmp_path / name))
+
+
+def close(got, want, case):
+    for name in want:
+        if name == "type":
+            continue
+        scale = np.abs(want[name]).max()
+        assert np.abs(got[name] - want[name]).max() <= 1e-12 * scale, (case, name)
+
+
+# what is beside, and how: types of its own, the same types, nothing
+CASES = [("hybrid", "lj/cut"), ("hybrid", "hvi/contact"), ("hybrid/overlay", "hvi/contact"), ("hybrid/overlay", "zero"), ("hybrid", "")]
+
+
+@pytest.mark.parametrize("nranks", [1, 2, 3, 4])
+@pytest.mark.parametrize("kind", ["solids", "riemann", "mirrors"])
+def test_as_without(lmp, tmp_path, material, kind, nranks):
+    """10 steps, newton on and off: state, forces, rates and stress of SPH particles, and the forces of those beside them"""
+    s, pair, fixes, out = parts(kind, material)
+    t = others(s)
+    commands = text(s, pair, fixes, out, tmp_path, "plain")
+    t.type[:], t.mass = 1, {1: 1.0}
+    for k, (beside, coeff) in enumerate(COEFF.items()):
+        commands += "clear\n" + scene(t, tmp_path / "t.data", f"pair_style {BESIDE[beside]}\npair_coeff 1 1 {coeff.split(maxsplit=1)[1]}\n", fix="fix nve all nve\n")
+        commands += f"timestep 0.004\nrun {STEPS}\ndump d all custom 1 t{k} id fx fy fz\ndump_modify d format float %.17g sort id\nrun 0\n"
+    lmp(commands)
+    want = read(tmp_path / "plain")
+    if kind != "riemann":
+        assert (want["eps"] > 0.001).mean() > 0.2
+    alone = {beside: np.loadtxt(tmp_path / f"t{k}", skiprows=9)[:, 1:] for k, beside in enumerate(COEFF)}
+    assert all(np.abs(f).max() > 0.1 for f in alone.values())
+    t.type[:], t.mass = 3, {**s.mass, 3: 1.0}
+    cases = list(itertools.product(CASES, ("on", "off")))
+    whole, commands = together(s, t), ""
+    for k, ((style, beside), newton) in enumerate(cases):
+        own = beside in COEFF
+        commands += text(whole if own else s, hybrid(pair, style, beside), fixes, out, tmp_path, f"f{k}", "ours" if own else "all", newton=newton)
+    lmp(commands, nranks=nranks)
+    n = len(s.x)
+    for k, case in enumerate(cases):
+        got = read(tmp_path / f"f{k}")
+        close({name: a[:n] for name, a in got.items()}, want, case)
+        if case[0][1] in alone:
+            f = alone[case[0][1]]
+            assert np.abs(got["f"][n:] - f).max() <= 1e-12 * np.abs(f).max(), case
+
+
+def test_restart(lmp, tmp_path, material):
+    """a hybrid comes back from a restart file with all that SPH needs: the same bits"""
+    s, pair, fixes, out = parts("mirrors", material)
+    whole = together(s, others(s))
+    pair = hybrid(pair, "hybrid", "hvi/contact")
+    coeffs = "".join(line for line in pair.splitlines(True) if "pair_coeff" in line)
+    commands = text(whole, pair, fixes, out, tmp_path, "whole", "ours", more="restart 6 half\n", sort=False)
+    lmp(commands)
+    again = "read_restart half.6\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\nfix nve rest nve\nfix sph ours hvi/sph\n"
+    again = again.replace("neighbor", coeffs + "neighbor")  # LAMMPS keeps settings only of styles in a hybrid
+    lmp(again + fixes.format("ours") + f"timestep 0.004\nrun {STEPS - 6}\n" + out.format("part"))
+    one, two = read(tmp_path / "whole"), read(tmp_path / "part")
+    for name in one:
+        assert np.array_equal(one[name], two[name]), name
+
+
+def test_scaled_is_refused(lmp, tmp_path, material):
+    """its factors are for forces, not for the rates of density and energy: LAMMPS refuses it for atom_style sph"""
+    s, pair, fixes, out = parts("solids", material)
+    pair = hybrid(pair, "hybrid/scaled 0.5", "hvi/contact").replace(" hvi/contact\n", " 1.0 hvi/contact\n", 1)
+    r = lmp(text(together(s, others(s)), pair, fixes, out, tmp_path, "f", "ours"), expect_fail=True)
+    assert "Atom style is not compatible with pair_style hybrid/scaled" in r.error, r.error
