@@ -100,9 +100,11 @@ double ComputeHVIAtom::value_of(Value value, int i) const
   const int itype = atom->type[i];
   const HVI::Material *const material = store->materials.of(itype);
   if (!material) return 0.0;
-  if (value == LENGTH)
-    return store->fields.settings.smoothing_length(itype, atom->rho[i],
-                                                   integrator ? integrator->hscale(i) : 0.0);
+  if (value == LENGTH) {    // before the first run of a particle: that of its type
+    const HVI::SphSettings &set = store->fields.settings;
+    const bool known = integrator && !integrator->is_new(i);
+    return known ? set.smoothing_length(itype, atom->rho[i], integrator->hscale(i)) : set.h[itype];
+  }
 
   // from density and energy as they are in output: those of the forces were extrapolated
 

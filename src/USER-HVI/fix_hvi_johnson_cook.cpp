@@ -251,11 +251,11 @@ void FixHVIJohnsonCook::make_models()
 void FixHVIJohnsonCook::count_particles()
 {
   const int n = atom->ntypes + 1;
-  std::vector<bigint> mine(2 * n, 0), all(2 * n);
-  for (int i = 0; i < atom->nlocal; i++) mine[atom->type[i] + (atom->mask[i] & groupbit ? 0 : n)]++;
-  MPI_Allreduce(mine.data(), all.data(), 2 * n, MPI_LMP_BIGINT, MPI_SUM, world);
-  inside.assign(all.begin(), all.begin() + n);
-  outside.assign(all.begin() + n, all.end());
+  std::vector<bigint> here(2 * n, 0), everywhere(2 * n);
+  for (int i = 0; i < atom->nlocal; i++) here[atom->type[i] + (atom->mask[i] & groupbit ? 0 : n)]++;
+  MPI_Allreduce(here.data(), everywhere.data(), 2 * n, MPI_LMP_BIGINT, MPI_SUM, world);
+  inside.assign(everywhere.begin(), everywhere.begin() + n);
+  outside.assign(everywhere.begin() + n, everywhere.end());
 }
 
 /* ----------------------------------------------------------------------
@@ -285,7 +285,9 @@ void FixHVIJohnsonCook::setup(int /*vflag*/)
 
 const HVI::SolidModel *FixHVIJohnsonCook::of(int i) const
 {
-  return (atom->mask[i] & groupbit) ? models[atom->type[i]].get() : nullptr;
+  if (!(atom->mask[i] & groupbit) || models.empty())
+    return nullptr;    // empty: before the first run
+  return models[atom->type[i]].get();
 }
 
 std::string FixHVIJohnsonCook::laws_of(int itype) const

@@ -153,11 +153,7 @@ void FixHVISPH::init()
   if (!store || !force->pair_match("^hvi/sph$", 0))
     error->all(FLERR, "Fix hvi/sph needs pair style hvi/sph");
   const HVI::SphSettings &set = store->fields.settings;
-  if (!restored.empty() && restored != set.text)
-    error->all(FLERR,
-               "Fix hvi/sph: the restart file was written with pair_style hvi/sph {}, this run "
-               "uses {}",
-               restored, set.text);
+  check_restart();
 
   restored.clear();    // later runs of this script may change the settings
   forget_rows();
@@ -265,17 +261,20 @@ void FixHVISPH::setup(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   Energy that flows into particles which nobody integrates is lost to the books
+   Energy that flows into particles whose density and energy nobody integrates is lost to the books;
+   a piston that fix move or fix rigid moves is meant so
 ------------------------------------------------------------------------- */
 
 void FixHVISPH::check_left_out() const
 {
-  int moved = groupbit | wallbit;
+  int known = groupbit | wallbit;
   for (const Fix *const other : modify->get_fix_list())
-    if (other->time_integrate) moved |= other->groupbit;
+    if (utils::strmatch(other->style, "^sph") || utils::strmatch(other->style, "^meso") ||
+        utils::strmatch(other->style, "^move$") || utils::strmatch(other->style, "^rigid"))
+      known |= other->groupbit;
   bigint here = 0, everywhere;
   for (int i = 0; i < atom->nlocal; i++)
-    if (has_material(i) && !(atom->mask[i] & moved)) here++;
+    if (has_material(i) && !(atom->mask[i] & known)) here++;
   MPI_Allreduce(&here, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (everywhere && comm->me == 0)
     error->warning(
@@ -292,11 +291,12 @@ void FixHVISPH::check_step() const
 {
   if (!modify->get_fix_by_style("^hvi/dt$").empty()) return;
   const double stable = HVI::stable_step(lmp, 1.0);
-  if (update->dt > stable && comm->me == 0)
-    error->warning(FLERR,
-                   "Fix hvi/sph: the time step {} is above {}, in which signals cross half of a "
-                   "kernel's reach: use fix hvi/dt, or a third of that",
-                   update->dt, stable);
+  if (stable > 0.0 && update->dt > stable && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Fix hvi/sph: the time step {} is above the stable one, about {}: use fix hvi/dt, "
+        "or a third of that",
+        update->dt, stable);
 }
 
 /* ----------------------------------------------------------------------
@@ -444,9 +444,46 @@ void FixHVISPH::unpack_forward_comm(int n, int first, double *buf)
 
 /* ---------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   For the restart file: the settings of the pair style, and the checksums of the numbers of
+   materials, which a run that goes on must not change unnoticed
+------------------------------------------------------------------------- */
+
 std::string FixHVISPH::settings() const
 {
-  return store ? store->fields.settings.text : restored;
+  if (!store) return restored;
+  std::string text = store->fields.settings.text + "\n";
+  for (int itype = 1; itype <= atom->ntypes; itype++)
+    if (const HVI::Material *const material = store->materials.of(itype))
+      text += fmt::format("{}:{} ", itype, material->checksum);
+  return text;
+}
+
+void FixHVISPH::check_restart() const
+{
+  if (restored.empty()) return;
+  const std::string &now = store->fields.settings.text;
+  const size_t end = restored.find('\n');
+  if (restored.substr(0, end) != now)
+    error->all(FLERR,
+               "Fix hvi/sph: the restart file was written with pair_style hvi/sph {}, this run "
+               "uses {}",
+               restored.substr(0, end), now);
+
+  for (const std::string &word : utils::split_words(restored.substr(end + 1))) {
+    const int itype = std::stoi(word);
+    const HVI::Materials::Entry &entry = store->materials.entry(itype);
+    const std::string checksum = word.substr(word.find(':') + 1);
+    if (!entry.material || std::to_string(entry.material->checksum) == checksum) continue;
+    static constexpr char SAYS[] =
+        "Fix hvi/sph: numbers of material {} of type {} are not those the restart file was written "
+        "with{}";
+    if (entry.restored)
+      error->all(FLERR, SAYS, entry.material->name, itype,
+                 ": give pair_coeff again if the new ones are meant");
+    else if (comm->me == 0)
+      error->warning(FLERR, SAYS, entry.material->name, itype, "");
+  }
 }
 
 // a restart file in the middle of a run is like one at its end

@@ -75,6 +75,7 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
 
   bool integrates(int) const;
   bool has_material(int) const;
+  void check_restart() const;
   void check_left_out() const;
   void check_step() const;
   void reflect();

@@ -125,16 +125,18 @@ namespace {
     }
     return total;
   }
-
-  std::uint64_t checksum_of_table(const std::string &text)
-  {
-    Lines lines(text, "");
-    std::uint64_t hash = checksum("table");
-    while (lines.next())
-      for (const std::string &word : lines.words) hash = checksum(word + " ", hash);
-    return hash;
-  }
 }    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+std::uint64_t checksum_of_table(const std::string &text)
+{
+  Lines lines(text, "");
+  std::uint64_t hash = checksum("table");
+  while (lines.next())
+    for (const std::string &word : lines.words) hash = checksum(word + " ", hash);
+  return hash;
+}
 
 /* ---------------------------------------------------------------------- */
 

@@ -58,6 +58,10 @@ std::string parse_material(const std::string &text, const std::string &filename,
                            const std::string &run_units, Material &material,
                            const ReadText &read = nullptr);
 
+// of the numbers of a table
+
+std::uint64_t checksum_of_table(const std::string &text);
+
 // a tabulated equation of state and the DATE: of its file, likewise; null if something is wrong
 
 std::unique_ptr<Eos> parse_table(const std::string &text, const std::string &filename,
@@ -73,7 +77,8 @@ double convert(double x, const Dimension &dim, const std::string &from, const st
 // LAMMPS's error if anything is wrong.
 
 Material read_material_file(LAMMPS_NS::LAMMPS *lmp, const std::string &filename);
-std::unique_ptr<Eos> read_table_file(LAMMPS_NS::LAMMPS *lmp, const std::string &filename);
+std::unique_ptr<Eos> read_table_file(LAMMPS_NS::LAMMPS *lmp, const std::string &filename,
+                                     std::uint64_t &checksum);
 
 }    // namespace HVI
 

@@ -77,7 +77,8 @@ HVI::Material HVI::read_material_file(LAMMPS *lmp, const std::string &filename)
 
 /* ---------------------------------------------------------------------- */
 
-std::unique_ptr<HVI::Eos> HVI::read_table_file(LAMMPS *lmp, const std::string &filename)
+std::unique_ptr<HVI::Eos> HVI::read_table_file(LAMMPS *lmp, const std::string &filename,
+                                               std::uint64_t &checksum)
 {
   std::string text;
   std::string problem = read_text(lmp, "table", filename, text);
@@ -85,6 +86,7 @@ std::unique_ptr<HVI::Eos> HVI::read_table_file(LAMMPS *lmp, const std::string &f
   std::string date;
   auto eos = parse_table(text, filename, lmp->update->unit_style, problem, date);
   if (!eos) lmp->error->all(FLERR, "Table file {}", problem);
+  checksum = checksum_of_table(text);
   log_date(lmp, "table", filename, date);
   return eos;
 }

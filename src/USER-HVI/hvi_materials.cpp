@@ -32,11 +32,4 @@ void Materials::forget(const std::string &owner)
     if (e.owner == owner) e = Entry();
 }
 
-bool Materials::differs_from_restart(int itype) const
-{
-  const auto found = written.find(itype);
-  const Material *const material = of(itype);
-  return found != written.end() && material && found->second != material->checksum;
-}
-
 }    // namespace HVI

@@ -11,8 +11,6 @@
 
 #include "hvi_material.h"
 
-#include <cstdint>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,15 +38,8 @@ class Materials {
   void set(int itype, const Entry &);
   void forget(const std::string &owner);    // all that it gave
 
-  // what a restart file says of a type's numbers: Material::checksum, 0 if nothing
-
-  void remember(int itype, std::uint64_t checksum) { written[itype] = checksum; }
-  bool differs_from_restart(int itype) const;
-  void forget_restart() { written.clear(); }
-
  private:
   std::vector<Entry> entries;
-  std::map<int, std::uint64_t> written;    // outlives entries, which may be given again
 };
 
 }    // namespace HVI

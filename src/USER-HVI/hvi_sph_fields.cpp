@@ -34,6 +34,7 @@ double SphSettings::smoothing_length(int itype, double rho, double scale) const
 
 void SphFields::choose(bool slopes_in, bool stress_in, bool art_in)
 {
+  if (slopes_in == has_slopes && stress_in == has_stress && art_in == has_art) return;
   has_slopes = slopes_in;
   has_stress = stress_in;
   has_art = art_in;

@@ -55,7 +55,8 @@ struct SphSettings {
    gradv      owned, ghosts, images     loop; images folded, reverse communication     velocity_gradient()
 
    They hold from a force evaluation to the next exchange of particles, that is: through
-   final_integrate and end_of_step, and through the initial_integrate that follows.
+   final_integrate and end_of_step, and through the initial_integrate that follows, unless a
+   new run needs others.
    Nothing here migrates, nothing is in restart files: what must outlive a
    step is in the arrays of LAMMPS and of fixes.  What a scene has no use for is
    not allocated.

@@ -41,8 +41,8 @@ static constexpr double FILL_LEAST = 0.4;      // of a body's bounding box, if t
 HVISphReport::HVISphReport(LAMMPS *lmp, const FixHVIStore *store,
                            const std::vector<char> &is_ours) :
     Pointers(lmp),
-    laws(atom->ntypes + 1), kept_bytes(0), forward(0), reverse(0), border(0), store(store),
-    is_ours(is_ours), rows(atom->ntypes + 1), spread(0.0)
+    laws(atom->ntypes + 1), solid(false), kept_bytes(0), forward(0), reverse(0), border(0),
+    store(store), is_ours(is_ours), rows(atom->ntypes + 1), spread(0.0)
 {
 }
 
@@ -55,7 +55,7 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
   static constexpr double BIG = 1.0e300;
   const HVI::SphSettings &set = store->fields.settings;
   const int ntypes = atom->ntypes, nlocal = atom->nlocal;
-  enum { NUMBER, MASS, DENSITY, NEIGHBORS, FAR, NSUM };
+  enum { NUMBER, MASS, DENSITY, NEIGHBORS, NEW, FAR, NSUM };
   enum { RHO_LO, RHO_HI, X_LO, X_HI = X_LO + 3, NEXTREME = X_HI + 3 };    // all as minima
   std::vector<double> sum(NSUM * (ntypes + 1), 0.0), least(NEXTREME * (ntypes + 1) + 6, BIG);
   double *const speed = &least[NEXTREME * (ntypes + 1)];
@@ -71,9 +71,10 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     s[NUMBER] += 1.0;
     s[MASS] += atom->rmass ? atom->rmass[i] : atom->mass[itype];
     s[DENSITY] += rho;
-    if (rho0 > 0.0 && i < (int) unmoved.size() && unmoved[i] &&
-        std::fabs(rho / rho0 - 1.0) > RATIO_OFF)
-      s[FAR] += 1.0;
+    if (unmoved.empty() ? update->ntimestep == 0 : unmoved[i]) {
+      s[NEW] += 1.0;
+      if (rho0 > 0.0 && std::fabs(rho / rho0 - 1.0) > RATIO_OFF) s[FAR] += 1.0;
+    }
     e[RHO_LO] = MIN(e[RHO_LO], rho);
     e[RHO_HI] = MIN(e[RHO_HI], -rho);
     for (int k = 0; k < 3; k++) {
@@ -118,6 +119,7 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     row.mass = s[MASS] / n;
     row.spacing = std::pow(row.mass / rho, 1.0 / dim);
     row.neighbors = s[NEIGHBORS] / n;
+    row.fresh = s[NEW];
     row.far = s[FAR];
     if (rho0 > 0.0) {
       row.ratio = s[DENSITY] / n / rho0;
@@ -148,7 +150,7 @@ std::string HVISphReport::terms() const
   if (set.density) text += ", interface density dissipation";
   if (set.variable) text += ", variable h";
   if (!set.energy) text += ", no energy equation";
-  if (store->fields.view().stress || forward == HVI::SphStress::SENT)
+  if (solid)
     text += fmt::format(", stress, {} velocity gradient", set.corrected ? "corrected" : "plain");
   if (set.laws.art_eps > 0.0) text += ", artificial stress";
   if (set.mirror.planes) text += ", mirror planes";
@@ -206,7 +208,7 @@ void HVISphReport::warn() const
                      "Pair style hvi/sph: the kernel of type {} reaches {:.3g} spacings "
                      "(m/rho0)^(1/dim), where {:.3g} to {:.3g} are usual: check h, masses and dim",
                      itype, 2.0 * half_reach, 2.0 * H_LEAST, 2.0 * H_MOST);
-    else if (row.neighbors < NEIGHBORS_LEAST[set.laws.dim] && row.number > 1.0)
+    else if (row.neighbors < NEIGHBORS_LEAST[set.laws.dim] && row.fresh > 1.0 && !set.mirror.planes)
       error->warning(FLERR,
                      "Pair style hvi/sph: particles of type {} have {:.3g} neighbors in the mean, "
                      "the kernel needs {:.3g} or more: check positions, spacing and h",

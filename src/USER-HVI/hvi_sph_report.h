@@ -28,6 +28,7 @@ class HVISphReport : protected Pointers {
 
   std::vector<std::string> laws;    // by type, what is in force besides the equation of state
   std::vector<char> unmoved;    // by owned particle: not integrated in a run before; empty: unknown
+  bool solid;                   // there is a fix that keeps stress
   int kept_bytes;               // per owned particle, in arrays of fixes
   int forward, reverse, border;    // doubles a ghost, sent and returned each step, sent when new
 
@@ -41,6 +42,7 @@ class HVISphReport : protected Pointers {
     double spacing = 0.0;               // (m/rho0)^(1/dim), rho0 or else the mean density
     double neighbors = 0.0;             // mean, within reach
     double ratio = 0.0, least = 0.0, most = 0.0;    // of density to that at rest: mean, extremes
+    double fresh = 0.0;                             // particles in no run before
     double far = 0.0;    // particles with a ratio far from 1 at their start
     int layers = 0;      // of the thinnest direction, 0: cannot be told
   };

@@ -85,10 +85,10 @@ struct StrengthJohnsonCook {
     const double c = dt > 0.0 ? C : 0.0;
     Vec L = c > 0.0 ? log(x * (1.0 / dt / epsdot0)) : zero;
     for (int k = 0; k < 30; k++) {
-      const Vec all = eps + x, G3x = G3 * x;
-      const Vec hard = factor * B * power(all);
+      const Vec strain = eps + x, G3x = G3 * x;
+      const Vec hard = factor * B * power(strain);
       const Vec y = factor * A + hard;    // and its derivatives to ln x
-      const Vec y1 = n * hard * x / all, y2 = y1 * (eps + n * x) / all;
+      const Vec y1 = n * hard * x / strain, y2 = y1 * (eps + n * x) / strain;
       const Vec c1 = L > 0.0 ? zero + c : zero, R = 1.0 + c1 * L;
       const Vec Y = y * R, Y1 = y1 * R + y * c1, Y2 = y2 * R + 2.0 * y1 * c1;
       const Vec slope = 1.0 / (G3x + Y1);

@@ -241,6 +241,7 @@ void PairHVISPH::setup()
     for (int i = 0; i < atom->nlocal; i++) report.unmoved[i] = integrator->is_new(i);
   }
   if (strength) {
+    report.solid = true;
     report.kept_bytes += strength->bytes_per_particle();
     for (int i = 1; i <= atom->ntypes; i++) report.laws[i] = strength->laws_of(i);
   }

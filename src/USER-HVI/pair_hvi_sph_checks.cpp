@@ -61,16 +61,6 @@ void PairHVISPH::check_materials() const
       error->all(FLERR, "Pair style hvi/sph: type {} has no material", i);
     }
     const HVI::Materials::Entry &entry = store->materials.entry(i);
-    if (store->materials.differs_from_restart(i)) {
-      static constexpr char SAYS[] = "Pair style hvi/sph: numbers of material {} of type {} are "
-                                     "not those the restart file was "
-                                     "written with{}";
-      if (entry.restored)
-        error->all(FLERR, SAYS, entry.material->name, i,
-                   ": give pair_coeff again if the new ones are meant");
-      else if (comm->me == 0)
-        error->warning(FLERR, SAYS, entry.material->name, i, "");
-    }
     const std::string eos = entry.material->eos->name();
     if (set.laws.stock && eos != "tait" && eos != "idealgas")
       error->all(FLERR, "Pair style hvi/sph stock yes knows eos tait and idealgas only, not {}",
@@ -105,7 +95,6 @@ void PairHVISPH::warn() const
         break;
       }
   }
-  store->materials.forget_restart();    // said once
 }
 
 /* ---------------------------------------------------------------------- */

@@ -312,7 +312,7 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
   } else if (nwords > 1 && words[1] == HVI::EOS_TABLE) {
     if (nwords < 3) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph eos table", error);
     made->name = words[2];
-    made->eos = HVI::read_table_file(lmp, words[2]);
+    made->eos = HVI::read_table_file(lmp, words[2], made->checksum);
     used = 3;
   } else {
     if (nwords < 2) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph eos", error);

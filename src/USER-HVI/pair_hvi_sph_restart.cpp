@@ -49,7 +49,6 @@ void PairHVISPH::write_restart(FILE *fp)
   const int np1 = atom->ntypes + 1;
   for (int i = 1; i < np1; i++) {
     write_text(fp, specs[i]);
-    if (!specs[i].empty()) fwrite(&store->materials.of(i)->checksum, sizeof(uint64_t), 1, fp);
     fwrite(setflag[i], sizeof(int), np1, fp);
     fwrite(visc_a[i], sizeof(double), np1, fp);
     fwrite(visc_b[i], sizeof(double), np1, fp);
@@ -68,13 +67,7 @@ void PairHVISPH::read_restart(FILE *fp)
   const int np1 = atom->ntypes + 1;
   for (int i = 1; i < np1; i++) {
     const std::string spec = read_text(fp, me, world, error);
-    if (!spec.empty()) {
-      set_material(i, i, i, i, utils::split_words(spec), true);
-      uint64_t checksum = 0;
-      if (me == 0) utils::sfread(FLERR, &checksum, sizeof(checksum), 1, fp, nullptr, error);
-      MPI_Bcast(&checksum, 1, MPI_UINT64_T, 0, world);
-      store->materials.remember(i, checksum);
-    }
+    if (!spec.empty()) set_material(i, i, i, i, utils::split_words(spec), true);
     if (me == 0) {
       utils::sfread(FLERR, setflag[i], sizeof(int), np1, fp, nullptr, error);
       utils::sfread(FLERR, visc_a[i], sizeof(double), np1, fp, nullptr, error);
