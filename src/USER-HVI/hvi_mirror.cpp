@@ -57,6 +57,7 @@ void Images::fill(const MirrorPlanes &mirror, const SphView &records) const
       reflect.symmetric(records.stress[a]);
       records.gradv[a] = {};
     }
+    if (records.slopes) records.slopes[a] = {};
     if (records.art) {
       records.art[a] = records.art[image.owner];
       reflect.symmetric(records.art[a]);
@@ -95,6 +96,28 @@ void Images::fold(const SphView &records, bool newton)
       }
     }
     a++;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Images::fold_slopes(const SphView &records) const
+{
+  for (int k = 0; k < (int) images.size(); k++) {
+    const Image &image = images[k];
+    if (image.self) continue;
+    SphSlopes &from = records.slopes[first + k];
+    Reflection(image.op).slopes(from);
+    double *const to = &records.slopes[image.owner].xx;
+    for (int l = 0; l < SphSlopes::SENT; l++) to[l] += (&from.xx)[l];
+  }
+}
+
+void Images::fill_slopes(const SphView &records) const
+{
+  for (int k = 0; k < (int) images.size(); k++) {
+    records.slopes[first + k] = records.slopes[images[k].owner];
+    Reflection(images[k].op).slopes(records.slopes[first + k]);
   }
 }
 

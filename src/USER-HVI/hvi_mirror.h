@@ -73,6 +73,13 @@ struct Reflection {
     a.fy *= s[1];
     a.fz *= s[2];
   }
+  void slopes(SphSlopes &a) const
+  {
+    symmetric(a);
+    a.px *= s[0];
+    a.py *= s[1];
+    a.pz *= s[2];
+  }
   void gradient(SphGradV &L) const
   {
     L.xy *= s[0] * s[1];
@@ -106,6 +113,12 @@ class Images {
 
   void fill(const MirrorPlanes &, const SphView &) const;
   void fold(const SphView &, bool newton);
+
+  // in between, likewise, the sums of a first sweep: folded before they go to the owners of
+  // ghosts, filled in when those have sent them back
+
+  void fold_slopes(const SphView &) const;
+  void fill_slopes(const SphView &) const;
 
   // images that particle i may interact with: those of its neighbors, and its own.  Valid until the next call.
 

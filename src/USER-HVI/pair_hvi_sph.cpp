@@ -82,7 +82,9 @@ void PairHVISPH::compute(int eflag, int vflag)
                        evflag != 0};
   if (sweeps->has_first()) {
     sweeps->first(work);
-    if (records.slopes) finish_slopes();
+    if (mirrored) images.fold_slopes(records);
+    finish_slopes();
+    if (mirrored) images.fill_slopes(records);
   }
   sweeps->forces(work);
 

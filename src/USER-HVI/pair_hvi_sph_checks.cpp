@@ -112,8 +112,6 @@ void PairHVISPH::check_mirror() const
   if (!set.mirror.planes) return;
   if (domain->triclinic)
     error->all(FLERR, "Pair style hvi/sph: mirror needs a box that is not triclinic");
-  if (set.riemann)
-    error->all(FLERR, "Pair style hvi/sph: mirror does not work with dissipation riemann");
   if (!integrator)
     error->all(FLERR,
                "Pair style hvi/sph: mirror needs fix hvi/sph, which keeps particles on "
