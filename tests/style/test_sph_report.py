@@ -5,7 +5,8 @@ import re
 import numpy as np
 import pytest
 from sph_scenes import Fluid, random_fluid, scene
-from test_solid_forces import MATERIAL
+from test_mirror import part
+from test_solid_forces import MATERIAL, OUT, read
 
 HEADER = "type  particles     spacing h/spacing neighbors rho/rho0 (least,most) layers  material: laws"
 ROW = re.compile(r"^ +(\d+) +(\d+) +(\S+) +(\S+) +(\S+) +(-|\S+ \(\S+,\S+\)) +(\d+|-)  (\S+): (.*)$")
@@ -234,3 +235,32 @@ def test_density_of_new_particles_only(lmp, tmp_path):
     new.write(tmp_path / "more.data")
     said = [w for w in lmp(text).warnings if "start with a density" in w]
     assert len(said) == 2 and ": 216 particles of type 1" in said[0] and ": 8 particles of type 1" in said[1] and "more than 20 %" in said[0], said
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_restart_round_trip(lmp, tmp_path, nranks):
+    """planes, a type that is a liquid by pair_coeff, volumes and a mass that was changed later: the same table, the same bits as without the restart"""
+    (tmp_path / "m.hvi").write_text(MATERIAL.format(sigma_p=3.0))
+    s, _ = part("xy")
+    s.rho[:] = 0.0  # that of the material
+    pair = f"pair_style hvi/sph cubic mirror x 0.0 lo mirror y 0.0 lo\npair_coeff 1 1 file {tmp_path}/m.hvi h 1.25 volume 0.98\n"
+    pair += f"pair_coeff 2 2 file {tmp_path}/m.hvi h 1.2 strength none volume 1.03\npair_coeff 1 2 tension yes viscosity 0.7 1.1\nmass 1 1.01\n"
+    fixes = "fix sph all hvi/sph\nfix jc all hvi/johnson-cook\ntimestep 0.004\n"
+    mass = "print 'masses {} {}'\n".format(*(f"$(mass[{np.argmax(s.type == t) + 1}])" for t in (1, 2)))
+    text = scene(s, tmp_path / "s.data", pair, fix=fixes, sort=False) + "restart 20 half\nrun 39\n" + mass + OUT.format("whole")
+    one = lmp(text, nranks=nranks)
+    two = lmp("read_restart half.20\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\n" + fixes + "run 19\n" + mass + OUT.format("part"), nranks=nranks)
+    a, b = read(tmp_path / "whole"), read(tmp_path / "part")
+    liquid = a["type"] == 2
+    assert a["vm"][liquid].max() == 0.0 < a["vm"][~liquid].max()
+    for name in a:
+        assert np.array_equal(a[name], b[name]), name
+    first, later = tables(one.log)[0], tables(two.log)[0]
+    for name in ("style", "terms", "memory", "sent"):
+        assert first[name] == later[name], name
+    assert "mirror x 0 lo mirror y 0 lo" in later["style"] and later["rows"][2]["laws"] == "gruneisen, liquid"
+    for t in (1, 2):
+        assert all(first["rows"][t][name] == later["rows"][t][name] for name in ("number", "spacing", "h", "laws"))
+        assert first["rows"][t]["density"] == [1.0, 1.0, 1.0]
+    for r in (one, two):
+        assert [float(m) for m in re.search(r"^masses (\S+) (\S+)$", r.log, re.M).groups()] == [1.01, 1.03] and not r.warnings, r.warnings
