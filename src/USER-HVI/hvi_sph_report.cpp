@@ -55,7 +55,7 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
   static constexpr double BIG = 1.0e300;
   const HVI::SphSettings &set = store->fields.settings;
   const int ntypes = atom->ntypes, nlocal = atom->nlocal;
-  enum { NUMBER, MASS, DENSITY, NEIGHBORS, FAR, NSUM };
+  enum { NUMBER, MASS, DENSITY, NEIGHBORS, FAR, MOVED, NSUM };
   enum { RHO_LO, RHO_HI, X_LO, X_HI = X_LO + 3, NEXTREME = X_HI + 3 };    // all as minima
   std::vector<double> sum(NSUM * (ntypes + 1), 0.0), least(NEXTREME * (ntypes + 1) + 6, BIG);
   double *const speed = &least[NEXTREME * (ntypes + 1)];
@@ -71,6 +71,7 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     s[NUMBER] += 1.0;
     s[MASS] += atom->rmass ? atom->rmass[i] : atom->mass[itype];
     s[DENSITY] += rho;
+    if (i < (int) unmoved.size() && !unmoved[i]) s[MOVED] += 1.0;
     if (rho0 > 0.0 && i < (int) unmoved.size() && unmoved[i] &&
         std::fabs(rho / rho0 - 1.0) > RATIO_OFF)
       s[FAR] += 1.0;
@@ -121,6 +122,7 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     row.spacing = std::pow(row.mass / rho, 1.0 / dim);
     row.neighbors = s[NEIGHBORS] / n;
     row.far = s[FAR];
+    row.moved = s[MOVED];
     if (rho0 > 0.0) {
       row.ratio = s[DENSITY] / n / rho0;
       row.least = e[RHO_LO] / rho0;
@@ -208,7 +210,7 @@ void HVISphReport::warn() const
                      "Pair style hvi/sph: the kernel of type {} reaches {:.3g} spacings "
                      "(m/rho0)^(1/dim), where {:.3g} to {:.3g} are usual: check h, masses and dim",
                      itype, 2.0 * half_reach, 2.0 * H_LEAST, 2.0 * H_MOST);
-    else if (row.neighbors < NEIGHBORS_LEAST[set.laws.dim] && row.number > 1.0)
+    else if (row.neighbors < NEIGHBORS_LEAST[set.laws.dim] && row.number > 1.0 && row.moved == 0.0)
       error->warning(FLERR,
                      "Pair style hvi/sph: particles of type {} have {:.3g} neighbors in the mean, "
                      "the kernel needs {:.3g} or more: check positions, spacing and h",

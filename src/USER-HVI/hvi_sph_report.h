@@ -41,8 +41,9 @@ class HVISphReport : protected Pointers {
     double spacing = 0.0;               // (m/rho0)^(1/dim), rho0 or else the mean density
     double neighbors = 0.0;             // mean, within reach
     double ratio = 0.0, least = 0.0, most = 0.0;    // of density to that at rest: mean, extremes
-    double far = 0.0;    // particles with a ratio far from 1 at their start
-    int layers = 0;      // of the thinnest direction, 0: cannot be told
+    double far = 0.0;      // particles with a ratio far from 1 at their start
+    double moved = 0.0;    // in a run before: particles of a cloud have few neighbors by right
+    int layers = 0;        // of the thinnest direction, 0: cannot be told
   };
   const class FixHVIStore *store;
   const std::vector<char> &is_ours;

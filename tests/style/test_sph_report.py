@@ -237,6 +237,15 @@ def test_density_of_new_particles_only(lmp, tmp_path):
     assert len(said) == 2 and ": 216 particles of type 1" in said[0] and ": 8 particles of type 1" in said[1] and "more than 20 %" in said[0], said
 
 
+def test_neighbors_of_new_particles_only(lmp, tmp_path):
+    """a cloud has few by right"""
+    s = block((6, 6, 6))
+    s.v = 20.0 * (s.x - s.box / 2)
+    r = lmp(plain(s, tmp_path, words="cubic viscosity 0 0", more="timestep 0.001\n") + "run 60\nrun 1\n")
+    assert tables(r.log)[1]["rows"][1]["neighbors"] < 28 < tables(r.log)[0]["rows"][1]["neighbors"]
+    assert not r.warnings, r.warnings
+
+
 @pytest.mark.parametrize("nranks", [1, 2])
 def test_restart_round_trip(lmp, tmp_path, nranks):
     """planes, a type that is a liquid by pair_coeff, volumes and a mass that was changed later: the same table, the same bits as without the restart"""
