@@ -82,7 +82,7 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces"}),
-    spall_name("principal"), store(nullptr), fresh(true)
+    spall_name("principal"), store(nullptr), fresh(true), checked(false)
 {
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
   bool damage_given = false;
@@ -186,6 +186,7 @@ void FixHVIJohnsonCook::init()
                "Fix hvi/johnson-cook: the restart file was written with {}, this run uses {}",
                restored, settings());
   restored.clear();    // later runs of this script may use another fix
+  checked = false;
 }
 
 /* ----------------------------------------------------------------------
@@ -264,6 +265,8 @@ void FixHVIJohnsonCook::count_particles()
 
 void FixHVIJohnsonCook::setup(int /*vflag*/)
 {
+  if (checked) return;
+  checked = true;
   for (int itype = 1; itype <= atom->ntypes; itype++) {
     const HVI::Material *const material = store->materials.of(itype);
     if (!material || material->is_liquid() || comm->me) continue;

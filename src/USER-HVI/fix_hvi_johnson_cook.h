@@ -73,7 +73,8 @@ class FixHVIJohnsonCook :
   std::vector<int> warned;                                 // of types that do not spall
 
   class FixHVIStore *store;
-  bool fresh;    // a run begins: rates of S are to be made
+  bool fresh;      // a run begins: rates of S are to be made
+  bool checked;    // warned of what may be wrong: once per run, not again with pre no
 
   std::string settings() const override;
   void make_models();

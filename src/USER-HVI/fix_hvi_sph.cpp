@@ -92,7 +92,7 @@ const double *FixHVISPH::felt_velocity(int i) const
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {""}), store(nullptr), ledger(nullptr),
     strength(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0}, stepping(0), wallbit(0),
-    follow(0)
+    follow(0), checked(0)
 {
   static_assert(covers<Extra>(FIELDS), "a number of the record is missing, or there twice");
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
@@ -163,6 +163,7 @@ void FixHVISPH::init()
   ledger = FixHVILedger::instance(lmp);
   follow = igroup != 0 && !set.is_stock() && modify->get_fix_by_style("^sph$").empty();
   reset_dt();
+  checked = 0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -240,8 +241,11 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
 
 void FixHVISPH::setup(int /*vflag*/)
 {
-  check_left_out();
-  check_step();
+  if (!checked) {
+    check_left_out();
+    check_step();
+    checked = 1;
+  }
   stepping = 1;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!integrates(i)) continue;

@@ -72,6 +72,7 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   int stepping;      // in a run, so that the state is the one the last step left
   int wallbit;       // groups of particles that are meant to be integrated by nobody
   int follow;        // particles outside the group are moved by fixes that do not know vest
+  int checked;       // warned of what may be wrong: once per run, not again with pre no
 
   bool integrates(int) const;
   bool has_material(int) const;

@@ -92,7 +92,9 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     const int i = list.ilist[ii], itype = atom->type[i];
     for (int jj = 0; jj < list.numneigh[i]; jj++) {
       const int j = list.firstneigh[i][jj] & NEIGHMASK, jtype = atom->type[j];
-      const double reach = 0.5 * set.support * (set.h[itype] + set.h[jtype]);
+      const double h = set.riemann ? MAX(set.h[itype], set.h[jtype])
+                                   : 0.5 * (set.h[itype] + set.h[jtype]);
+      const double reach = set.support * h;
       const double d[3] = {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]};
       if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] >= reach * reach) continue;
       sum[NSUM * itype + NEIGHBORS] += 1.0;
@@ -208,7 +210,8 @@ void HVISphReport::warn() const
                      "Pair style hvi/sph: the kernel of type {} reaches {:.3g} spacings "
                      "(m/rho0)^(1/dim), where {:.3g} to {:.3g} are usual: check h, masses and dim",
                      itype, 2.0 * half_reach, 2.0 * H_LEAST, 2.0 * H_MOST);
-    else if (row.neighbors < NEIGHBORS_LEAST[set.laws.dim] && row.fresh > 1.0 && !set.mirror.planes)
+    else if (row.neighbors < NEIGHBORS_LEAST[set.laws.dim] && row.fresh > 1.0 &&
+             row.fresh == row.number && !set.mirror.planes)
       error->warning(FLERR,
                      "Pair style hvi/sph: particles of type {} have {:.3g} neighbors in the mean, "
                      "the kernel needs {:.3g} or more: check positions, spacing and h",
@@ -223,7 +226,8 @@ void HVISphReport::warn() const
   // meters per second of a unit of speed
 
   const std::string units = update->unit_style;
-  const double speed = units == "si" || units == "micro" ? 1.0 : (units == "cgs" ? 0.01 : 0.0);
+  const bool meters = units == "si" || units == "micro" || units == "nano";
+  const double speed = meters ? 1.0 : (units == "cgs" ? 0.01 : 0.0);
   if (speed > 0.0 && spread > 0.0 && spread * speed < SPEED_LEAST &&
       !modify->get_fix_by_style("^hvi/dt$").empty())
     error->warning(FLERR,

@@ -7,6 +7,7 @@ import pytest
 import test_mirror
 from sph_scenes import Fluid, random_fluid, scene
 from test_solid_forces import MATERIAL, OUT, PAIR, read, state
+from test_sph_report import tables
 
 STEPS = 10
 BESIDE = {"lj/cut": "lj/cut 2.5", "hvi/contact": "hvi/contact", "zero": "zero 4.5"}
@@ -96,7 +97,7 @@ def test_as_without(lmp, tmp_path, material, kind, nranks):
     for k, (beside, coeff) in enumerate(COEFF.items()):
         commands += "clear\n" + scene(t, tmp_path / "t.data", f"pair_style {BESIDE[beside]}\npair_coeff 1 1 {coeff.split(maxsplit=1)[1]}\n", fix="fix nve all nve\n")
         commands += f"timestep 0.004\nrun {STEPS}\ndump d all custom 1 t{k} id fx fy fz\ndump_modify d format float %.17g sort id\nrun 0\n"
-    lmp(commands)
+    table = tables(lmp(commands).log)[0]
     want = read(tmp_path / "plain")
     if kind != "riemann":
         assert (want["eps"] > 0.001).mean() > 0.2
@@ -108,9 +109,12 @@ def test_as_without(lmp, tmp_path, material, kind, nranks):
     for k, ((style, beside), newton) in enumerate(cases):
         own = beside in COEFF
         commands += text(whole if own else s, hybrid(pair, style, beside), fixes, out, tmp_path, f"f{k}", "ours" if own else "all", newton=newton)
-    lmp(commands, nranks=nranks)
+    found = tables(lmp(commands, nranks=nranks).log)[::2]  # of the first of two runs
     n = len(s.x)
+    assert len(found) == len(cases)
     for k, case in enumerate(cases):
+        assert all(found[k][name] == table[name] for name in ("style", "rows", "terms")), case
+        assert found[k]["sent"] == (table["sent"] if case[1] == "on" else [table["sent"][0], 0, 1]), case
         got = read(tmp_path / f"f{k}")
         close({name: a[:n] for name, a in got.items()}, want, case)
         if case[0][1] in alone:

@@ -102,14 +102,15 @@ def test_strength_none_of_a_type(lmp, files):
 
 @pytest.mark.parametrize("nranks", [1, 3])
 def test_particles_that_nobody_integrates(lmp, files, nranks):
-    """how many; not those of walls, nor those another fix moves, nor those without a material"""
+    """how many; not those of walls, of pistons, or whose density and energy another fix integrates, which nve does not; nor those without a material"""
     s = state()
     rest = s.x[:, 0] >= 4.0
     groups = "region left block INF 4.0 INF INF INF INF units box\nregion low block INF INF INF 2.5 INF INF units box\ngroup left region left\ngroup low region low\n"
     groups += "group rest subtract all left\n"
     cases = [("fix sph left hvi/sph\n", rest.sum()), ("fix sph left hvi/sph walls low\n", (rest & (s.x[:, 1] > 2.5)).sum()),
              ("fix sph left hvi/sph walls low walls rest\n", 0), ("fix sph left hvi/sph walls all\n", 0),
-             ("fix sph left hvi/sph\nfix piston rest move linear 0.1 0 0\n", 0), ("fix sph left hvi/sph\nfix nve low nve\n", (rest & (s.x[:, 1] > 2.5)).sum()),
+             ("fix sph left hvi/sph\nfix piston rest move linear 0.1 0 0\n", 0), ("fix sph left hvi/sph\nfix nve low nve\n", rest.sum()),
+             ("fix sph left hvi/sph\nfix still low sph/stationary\n", (rest & (s.x[:, 1] > 2.5)).sum()),
              ("fix sph left hvi/sph\nfix hold rest setforce 0 0 0\n", rest.sum()), ("fix sph all hvi/sph\n", 0)]
     text = "".join("clear\n" + head(files, words="strength none", jc="left hvi/johnson-cook strength none spall none", groups=groups, fix=fix) + f"run 1\nprint 'case {k}'\n"
                    for k, (fix, n) in enumerate(cases))
