@@ -200,7 +200,7 @@ def cases():
         case(near, sheet, True, words="cubic dim 2"), case(near.format(2), block((12, 1, 1), places=2.3, box=(40, 20, 20)), words="cubic dim 1"),
         case(near, row, True, words="cubic dim 1"),
         # h/c at rest
-        case(step.format(0.31) + " 0.3,", good, more="timestep 0.31\n"), case("time step", good, True, more="timestep 0.29\n"),
+        case(step.format(0.31) + " the stable one, about 0.3:", good, more="timestep 0.31\n"), case("time step", good, True, more="timestep 0.29\n"),
         case("time step", good, True, more="timestep 0.31\n" + DT),
         case(slow.format(5), falling(5.0), more=DT, **SI), case("velocities", falling(5000.0), True, more=DT, **SI), case("velocities", falling(11.0), True, more=DT, **SI),
         case("velocities", falling(5.0), True, more="timestep 1e-8\n", **SI), case("velocities", falling(0.0), True, more=DT, **SI),
