@@ -21,7 +21,6 @@
 #include "fix_hvi_store.h"
 #include "force.h"
 #include "group.h"
-#include "hvi_timestep.h"
 #include "modify.h"
 #include "update.h"
 
@@ -265,45 +264,6 @@ void FixHVISPH::setup(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   Energy that flows into particles whose density and energy nobody integrates is lost to the books;
-   a piston that fix move or fix rigid moves is meant so
-------------------------------------------------------------------------- */
-
-void FixHVISPH::check_left_out() const
-{
-  int known = groupbit | wallbit;
-  for (const Fix *const other : modify->get_fix_list())
-    if (utils::strmatch(other->style, "^sph") || utils::strmatch(other->style, "^meso") ||
-        utils::strmatch(other->style, "^move$") || utils::strmatch(other->style, "^rigid"))
-      known |= other->groupbit;
-  bigint here = 0, everywhere;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (has_material(i) && !(atom->mask[i] & known)) here++;
-  MPI_Allreduce(&here, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (everywhere && comm->me == 0)
-    error->warning(
-        FLERR,
-        "Fix hvi/sph: {} particles with a material are integrated by no fix: their density "
-        "and energy stay, and what flows into them is missing in compute hvi/energy (walls "
-        "GROUP if that is meant)",
-        everywhere);
-}
-
-// a fixed step that signals, or stiff pairs of other styles, outrun
-
-void FixHVISPH::check_step() const
-{
-  if (!modify->get_fix_by_style("^hvi/dt$").empty()) return;
-  const double stable = HVI::stable_step(lmp, 1.0);
-  if (stable > 0.0 && update->dt > stable && comm->me == 0)
-    error->warning(
-        FLERR,
-        "Fix hvi/sph: the time step {} is above the stable one, about {}: use fix hvi/dt, "
-        "or a third of that",
-        update->dt, stable);
-}
-
-/* ----------------------------------------------------------------------
    Half a kick and a drift; then rho, esph and vest are extrapolated to the end
    of the step, where rates are evaluated (Zisis et al. eq 18).  The package SPH
    evaluates them with density and energy of the middle of the step.
@@ -461,33 +421,6 @@ std::string FixHVISPH::settings() const
     if (const HVI::Material *const material = store->materials.of(itype))
       text += fmt::format("{}:{} ", itype, material->checksum);
   return text;
-}
-
-void FixHVISPH::check_restart() const
-{
-  if (restored.empty()) return;
-  const std::string &now = store->fields.settings.text;
-  const size_t end = restored.find('\n');
-  if (restored.substr(0, end) != now)
-    error->all(FLERR,
-               "Fix hvi/sph: the restart file was written with pair_style hvi/sph {}, this run "
-               "uses {}",
-               restored.substr(0, end), now);
-
-  for (const std::string &word : utils::split_words(restored.substr(end + 1))) {
-    const int itype = std::stoi(word);
-    const HVI::Materials::Entry &entry = store->materials.entry(itype);
-    const std::string checksum = word.substr(word.find(':') + 1);
-    if (!entry.material || std::to_string(entry.material->checksum) == checksum) continue;
-    static constexpr char SAYS[] =
-        "Fix hvi/sph: numbers of material {} of type {} are not those the restart file was written "
-        "with{}";
-    if (entry.restored)
-      error->all(FLERR, SAYS, entry.material->name, itype,
-                 ": give pair_coeff again if the new ones are meant");
-    else if (comm->me == 0)
-      error->warning(FLERR, SAYS, entry.material->name, itype, "");
-  }
 }
 
 // a restart file in the middle of a run is like one at its end
