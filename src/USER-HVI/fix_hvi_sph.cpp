@@ -415,10 +415,11 @@ void FixHVISPH::unpack_forward_comm(int n, int first, double *buf)
 
 std::string FixHVISPH::settings() const
 {
-  if (!store) return restored;
-  std::string text = store->fields.settings.text + "\n";
+  const FixHVIStore *const now = store ? FixHVIStore::find(lmp) : nullptr;
+  if (!now) return restored;
+  std::string text = now->fields.settings.text + "\n";
   for (int itype = 1; itype <= atom->ntypes; itype++)
-    if (const HVI::Material *const material = store->materials.of(itype))
+    if (const HVI::Material *const material = now->materials.of(itype))
       text += fmt::format("{}:{} ", itype, material->checksum);
   return text;
 }
