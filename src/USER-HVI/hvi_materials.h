@@ -32,7 +32,12 @@ class Materials {
     bool restored = false;                       // named by a restart file, not by the input
   };
 
-  const Material *of(int itype) const { return entry(itype).material.get(); }
+  // asked once per particle and step
+
+  const Material *of(int itype) const
+  {
+    return itype < (int) entries.size() ? entries[itype].material.get() : nullptr;
+  }
   const Entry &entry(int itype) const;
 
   void set(int itype, const Entry &);
