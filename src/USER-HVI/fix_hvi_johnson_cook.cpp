@@ -67,6 +67,12 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"shear_then", FORCES, offsetof(Solid, seen.shear)},
     {"shear", FORCES, offsetof(Solid, shear)},
     {"rate", FORCES, offsetof(Solid, rate)},
+    {"trend_xx", FORCES, offsetof(Solid, trend.xx)},
+    {"trend_yy", FORCES, offsetof(Solid, trend.yy)},
+    {"trend_zz", FORCES, offsetof(Solid, trend.zz)},
+    {"trend_xy", FORCES, offsetof(Solid, trend.xy)},
+    {"trend_xz", FORCES, offsetof(Solid, trend.xz)},
+    {"trend_yz", FORCES, offsetof(Solid, trend.yz)},
 
     // made anew when a run begins
     {nullptr, 0, offsetof(Solid, yield)},
@@ -187,6 +193,17 @@ void FixHVIJohnsonCook::init()
                restored, settings());
   restored.clear();    // later runs of this script may use another fix
   checked = false;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FixHVIJohnsonCook::can_fail() const
+{
+  int here = options.damage || options.spall != HVI::Spall::NONE, anywhere;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (failed(i)) here = 1;
+  MPI_Allreduce(&here, &anywhere, 1, MPI_INT, MPI_MAX, world);
+  return anywhere;
 }
 
 /* ----------------------------------------------------------------------
@@ -338,12 +355,13 @@ void FixHVIJohnsonCook::start(int i, bool anew)
 
 void FixHVIJohnsonCook::first_half(double dt)
 {
+  const bool trends = store->fields.settings.whole;
   for (int i = 0; i < atom->nlocal; i++) {
     const HVI::SolidModel *const model = of(i);
     if (!model) continue;
     if (fresh || !model->ready(extra[i]))
       model->prepare(extra[i], input(i, fresh ? GRADIENT : FORCES), fresh);
-    model->first_half(extra[i], dt);
+    model->first_half(extra[i], dt, trends);
   }
   fresh = false;
 }

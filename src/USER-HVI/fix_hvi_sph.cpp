@@ -73,6 +73,8 @@ constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
      [](FixHVISPH &fix, int i, double v) {
        fix.atom->vest[i][2] = v;
      }},
+    {"trend_rho", 0, offsetof(Extra, trend_rho)},
+    {"trend_esph", 0, offsetof(Extra, trend_e)},
 
     // 0 between steps
     {nullptr, 0, offsetof(Extra, drho)},
@@ -227,6 +229,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
     if (anew) {
       e.rho = atom->rho[i];
       e.esph = atom->esph[i];
+      e.trend_rho = e.trend_e = 0.0;
     }
     std::swap(e.rho, atom->rho[i]);
     std::swap(e.esph, atom->esph[i]);
@@ -267,6 +270,10 @@ void FixHVISPH::setup(int /*vflag*/)
    Half a kick and a drift; then rho, esph and vest are extrapolated to the end
    of the step, where rates are evaluated (Zisis et al. eq 18).  The package SPH
    evaluates them with density and energy of the middle of the step.
+
+   Extrapolation with the rate alone makes oscillations grow that nothing damps, by (omega dt)^4/8
+   and more in a step: a wall of two layers rings in its thickness.  For solids with gradient corrected
+   the rate is extrapolated too, from its change in the last step: then they die down, up to omega dt = 0.9.
 ------------------------------------------------------------------------- */
 
 void FixHVISPH::initial_integrate(int /*vflag*/)
@@ -279,6 +286,7 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
   double *const rho = atom->rho;
   double *const esph = atom->esph;
   const double ahead = store->fields.settings.is_stock() ? 0.0 : 1.0;
+  const double trends = store->fields.settings.whole ? 1.0 : 0.0;
   if (strength) strength->first_half(dtv);
 
   for (int i = 0; i < atom->nlocal; i++) {
@@ -291,8 +299,10 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
     }
     const double drho = dtf * atom->drho[i], de = dtf * atom->desph[i];
     Extra &e = extra[i];
-    e.drho = ahead * drho;
-    e.de = ahead * de;
+    e.drho = ahead * drho + trends * dtf * e.trend_rho;
+    e.de = ahead * de + trends * dtf * e.trend_e;
+    e.trend_rho = atom->drho[i];
+    e.trend_e = atom->desph[i];
     rho[i] += drho + e.drho;
     esph[i] += de + e.de;
   }
@@ -355,6 +365,9 @@ void FixHVISPH::final_integrate()
     e.esph = esph[i];
     rho[i] += dtf * atom->drho[i] - e.drho;
     esph[i] += dtf * atom->desph[i] - e.de;
+    const bool was_there = e.drho != 0.0 || e.de != 0.0;    // in the first half
+    e.trend_rho = was_there ? atom->drho[i] - e.trend_rho : 0.0;
+    e.trend_e = was_there ? atom->desph[i] - e.trend_e : 0.0;
     e.drho = e.de = 0.0;
   }
   if (strength) strength->second_half(dtv);

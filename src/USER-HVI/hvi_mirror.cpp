@@ -57,6 +57,7 @@ void Images::fill(const MirrorPlanes &mirror, const SphView &records) const
       reflect.symmetric(records.stress[a]);
       records.gradv[a] = {};
     }
+    if (records.contact) records.contact[a] = {};
     if (records.slopes) records.slopes[a] = {};
     if (records.art) {
       records.art[a] = records.art[image.owner];
@@ -89,7 +90,7 @@ void Images::fold(const SphView &records, bool newton)
       double *const to = &records.rates[image.owner].fx;
       const double *const from = &r.fx;
       for (int k = 0; k < (int) (sizeof(r) / sizeof(double)); k++) to[k] += from[k];
-      if (records.gradv) {
+      if (records.gradv && !records.traction) {
         reflect.gradient(records.gradv[a]);
         double *const L = &records.gradv[image.owner].xx;
         for (int k = 0; k < SphGradV::SENT; k++) L[k] += (&records.gradv[a].xx)[k];
@@ -101,23 +102,53 @@ void Images::fold(const SphView &records, bool newton)
 
 /* ---------------------------------------------------------------------- */
 
-void Images::fold_slopes(const SphView &records) const
+template <class Record>
+static void add(const Record &from, Record &to)
+{
+  for (int k = 0; k < Record::SENT; k++) (&to.xx)[k] += (&from.xx)[k];
+}
+
+void Images::fold_sums(const SphView &records) const
 {
   for (int k = 0; k < (int) images.size(); k++) {
     const Image &image = images[k];
     if (image.self) continue;
-    SphSlopes &from = records.slopes[first + k];
-    Reflection(image.op).slopes(from);
-    double *const to = &records.slopes[image.owner].xx;
-    for (int l = 0; l < SphSlopes::SENT; l++) to[l] += (&from.xx)[l];
+    const Reflection reflect(image.op);
+    const int a = first + k, i = image.owner;
+    if (records.slopes) {
+      reflect.slopes(records.slopes[a]);
+      add(records.slopes[a], records.slopes[i]);
+    }
+    if (records.traction) {
+      reflect.gradient(records.gradv[a]);
+      add(records.gradv[a], records.gradv[i]);
+    }
+    if (records.contact) {
+      reflect.gradient(records.contact[a]);
+      add(records.contact[a], records.contact[i]);
+    }
   }
 }
 
-void Images::fill_slopes(const SphView &records) const
+void Images::fill_sums(const SphView &records) const
 {
   for (int k = 0; k < (int) images.size(); k++) {
-    records.slopes[first + k] = records.slopes[images[k].owner];
-    Reflection(images[k].op).slopes(records.slopes[first + k]);
+    const Reflection reflect(images[k].op);
+    const int a = first + k, i = images[k].owner;
+    if (records.slopes) {
+      records.slopes[a] = records.slopes[i];
+      reflect.slopes(records.slopes[a]);
+    }
+    if (records.traction) {
+      records.traction[a] = records.traction[i];
+      reflect.tensor(records.traction[a]);
+      records.gradv[a] = records.gradv[i];
+      reflect.gradient(records.gradv[a]);
+    }
+    if (records.push) {
+      records.push[a] = records.push[i];
+      reflect.symmetric(records.push[a]);
+    }
   }
 }
 

@@ -80,7 +80,7 @@ struct Reflection {
     a.py *= s[1];
     a.pz *= s[2];
   }
-  void gradient(SphGradV &L) const
+  template <class Tensor> void tensor(Tensor &L) const
   {
     L.xy *= s[0] * s[1];
     L.yx *= s[0] * s[1];
@@ -88,6 +88,10 @@ struct Reflection {
     L.zx *= s[0] * s[2];
     L.yz *= s[1] * s[2];
     L.zy *= s[1] * s[2];
+  }
+  void gradient(SphGradV &L) const
+  {
+    tensor(L);
     L.mxy *= s[0] * s[1];
     L.mxz *= s[0] * s[2];
     L.myz *= s[1] * s[2];
@@ -117,8 +121,8 @@ class Images {
   // in between, likewise, the sums of a first sweep: folded before they go to the owners of
   // ghosts, filled in when those have sent them back
 
-  void fold_slopes(const SphView &) const;
-  void fill_slopes(const SphView &) const;
+  void fold_sums(const SphView &) const;
+  void fill_sums(const SphView &) const;
 
   // images that particle i may interact with: those of its neighbors, and its own.  Valid until the next call.
 

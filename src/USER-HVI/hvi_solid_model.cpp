@@ -38,7 +38,7 @@ namespace {
 
   void crush(SolidState &s)
   {
-    s.S = Deviator();
+    s.S = s.trend = Deviator();
     s.shear = s.rate = 0.0;
   }
 
@@ -145,6 +145,7 @@ void SolidModel::start(SolidState &s, SolidInput in, bool anew) const
   in.p = 0.0;    // there is no pressure yet
   if (s.shear == 0.0 && !s.failed()) s.shear = law->shear_modulus(conditions(s, in));
   s.yield = UNKNOWN;
+  s.trend = Deviator();
   show(s, s.S);
 }
 
@@ -158,7 +159,7 @@ void SolidModel::prepare(SolidState &s, const SolidInput &in, bool begin) const
     s.yield = s.rate > 0.0 ? von_mises(s.S) : law->yield(s.eps, 0.0, conditions(s, in));
 }
 
-void SolidModel::first_half(SolidState &s, double dt) const
+void SolidModel::first_half(SolidState &s, double dt, bool trends) const
 {
   Deviator ahead = s.S;
   if (!s.failed()) {
@@ -166,6 +167,8 @@ void SolidModel::first_half(SolidState &s, double dt) const
     s.carried = s.S;
     add(s.carried, 0.5 * dt, dS);
     add(ahead, dt, dS);
+    if (trends) add(ahead, 0.5 * dt, s.trend);
+    s.trend = dS;
     const double stress = von_mises(ahead);
     if (stress > s.yield) ahead = scaled(ahead, s.yield / stress);
   }
@@ -186,6 +189,12 @@ int SolidModel::second_half(int n, SolidState *const *state, const SolidInput *i
     trial[k] = s.carried;
     s.carried = elastic_rate(s, in[k]);
     add(trial[k], 0.5 * dt, s.carried);
+    const Deviator before = s.trend;
+    s.trend = Deviator();
+    if (s.yield != UNKNOWN) {    // else it was not there in the first half
+      s.trend = s.carried;
+      add(s.trend, -1.0, before);
+    }
   }
   law->radial_return(n, trial, dt, shear, eps, c, plastic);
 
@@ -237,6 +246,7 @@ void SolidModel::reflect(SolidState &s, int op)
   reflection.symmetric(s.S);
   reflection.symmetric(s.seen.S);
   reflection.symmetric(s.carried);
+  reflection.symmetric(s.trend);
 }
 
 }    // namespace HVI

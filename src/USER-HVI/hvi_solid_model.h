@@ -38,6 +38,10 @@ struct SolidState {
   // the trial stress so far; after the second half the rate of S
 
   Deviator carried;
+
+  // after a step: by how much the rate of S has changed in it; in its middle: that rate before it
+
+  Deviator trend;
   double eps;        // equivalent plastic strain
   double damage;     // failed from 1 on
   double spalled;    // 1: spalled for good
@@ -73,7 +77,8 @@ struct SolidOptions {
 
      prepare()        if a run begins or the yield surface is not known
      first_half()     half of the elastic trial stress; seen = S extrapolated to the end of the
-                      step, back to the yield surface, without plastic strain
+                      step, back to the yield surface, without plastic strain.  With trends the
+                      rate is extrapolated, too (see fix hvi/sph)
      ... forces, which give the velocity gradient of the end of the step ...
      second_half()    the other half of the trial stress, radial return, damage, spall
 
@@ -104,7 +109,7 @@ class SolidModel {
   bool ready(const SolidState &s) const { return s.yield != UNKNOWN || s.failed(); }
   void prepare(SolidState &, const SolidInput &, bool begin) const;
 
-  void first_half(SolidState &, double dt) const;
+  void first_half(SolidState &, double dt, bool trends) const;
 
   // of n, not more than LANES, that have not failed.  Returns the first whose stress is not a number;
   // -1: all is well.

@@ -22,8 +22,9 @@ enum SphScene {
   SPH_BODIES = 2,        // pairs of types differ: bodies without tension, own viscosities
   SPH_DENSITY = 4,       // interface density dissipation
   SPH_RIEMANN = 8,       // Riemann problems instead of viscosity and that
-  SPH_STRENGTH = 16,     // deviatoric stress; not with SPH_RIEMANN
-  SPH_ARTSTRESS = 32     // artificial stress; with SPH_STRENGTH only
+  SPH_STRENGTH = 16,     // deviatoric stress; with SPH_RIEMANN only if corrected
+  SPH_ARTSTRESS = 32,    // artificial stress; with SPH_STRENGTH only
+  SPH_CORRECTED = 64     // forces of stress with M^-1; with SPH_STRENGTH only
 };
 
 // laws of pairs: uniform, or from tables of type pairs (row of one type) in a scene with SPH_BODIES

@@ -32,12 +32,16 @@ double SphSettings::smoothing_length(int itype, double rho, double scale) const
 
 /* ---------------------------------------------------------------------- */
 
-void SphFields::choose(bool slopes_in, bool stress_in, bool art_in)
+void SphFields::choose(bool slopes_in, bool stress_in, bool art_in, bool whole_in, bool bodies_in)
 {
-  if (slopes_in == has_slopes && stress_in == has_stress && art_in == has_art) return;
+  if (slopes_in == has_slopes && stress_in == has_stress && art_in == has_art &&
+      whole_in == has_whole && bodies_in == has_bodies)
+    return;
   has_slopes = slopes_in;
   has_stress = stress_in;
   has_art = art_in;
+  has_whole = whole_in;
+  has_bodies = bodies_in;
   nmax = -1;    // what was there goes
   grow(0);
 }
@@ -58,13 +62,18 @@ void SphFields::grow(int n, int spare)
   records.stress = made(stress, has_stress);
   records.gradv = made(gradv, has_stress);
   records.art = made(art, has_art);
+  records.traction = made(traction, has_whole);
+  records.contact = made(contact, has_whole && has_bodies);
+  records.push = made(push, has_whole && has_bodies);
 }
 
 double SphFields::bytes_per_particle() const
 {
   return sizeof(SphPlace) + sizeof(SphState) + sizeof(SphRates) +
       (has_slopes ? sizeof(SphSlopes) : 0) +
-      (has_stress ? sizeof(SphStress) + sizeof(SphGradV) : 0) + (has_art ? sizeof(SphStress) : 0);
+      (has_stress ? sizeof(SphStress) + sizeof(SphGradV) : 0) + (has_art ? sizeof(SphStress) : 0) +
+      (has_whole ? sizeof(SphTraction) : 0) +
+      (has_whole && has_bodies ? sizeof(SphGradV) + sizeof(SphPush) : 0);
 }
 
 std::string SphFields::arrays() const
@@ -80,6 +89,9 @@ std::string SphFields::arrays() const
   add("stress", sizeof(SphStress), has_stress);
   add("gradv", sizeof(SphGradV), has_stress);
   add("art", sizeof(SphStress), has_art);
+  add("traction", sizeof(SphTraction), has_whole);
+  add("contact", sizeof(SphGradV), has_whole && has_bodies);
+  add("push", sizeof(SphPush), has_whole && has_bodies);
   return text;
 }
 
@@ -99,7 +111,7 @@ VelocityGradient SphFields::velocity_gradient(int i) const
 {
   const SphGradV &L = gradv[i];
   VelocityGradient g = {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
-  if (!settings.corrected) return g;
+  if (settings.gradient != SphSettings::LAW) return g;
   const double xx = along[0] ? L.mxx : 1.0, yy = along[1] ? L.myy : 1.0,
                zz = along[2] ? L.mzz : 1.0;
   const double xy = L.mxy, xz = L.mxz, yz = L.myz;

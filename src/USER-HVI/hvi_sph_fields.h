@@ -28,7 +28,9 @@ struct SphSettings {
   SphLaws laws = {};
   bool variable = false;             // h
   double hmin = 0.5, hmax = 1.25;    // its bounds, in units of the start value
-  bool energy = true, density = false, riemann = false, corrected = true;
+  bool energy = true, density = false, riemann = false;
+  enum Gradient { PLAIN, LAW, CORRECTED } gradient = CORRECTED;
+  bool whole = false;    // gradient corrected, and there are solids
   MirrorPlanes mirror;
   std::vector<double> h;    // by type, 0: not a particle of this style
 
@@ -68,7 +70,7 @@ class SphFields {
 
   // for the pair style
 
-  void choose(bool slopes, bool stress, bool art);    // which records the scene has
+  void choose(bool slopes, bool stress, bool art, bool whole, bool bodies);    // which records the scene has
   void grow(int n, int spare = 0);    // to hold n of each, if they do not: contents are lost
   const SphView &view() const { return records; }
   std::string arrays() const;    // those of this scene, with bytes per particle: for people
@@ -86,14 +88,16 @@ class SphFields {
 
  private:
   int nmax = 0;
-  bool has_slopes = false, has_stress = false, has_art = false;
+  bool has_slopes = false, has_stress = false, has_art = false, has_whole = false, has_bodies = false;
   SphView records;
   std::unique_ptr<SphPlace[]> place;
   std::unique_ptr<SphState[]> state;
   std::unique_ptr<SphRates[]> rates;
   std::unique_ptr<SphSlopes[]> slopes;
   std::unique_ptr<SphStress[]> stress, art;
-  std::unique_ptr<SphGradV[]> gradv;
+  std::unique_ptr<SphGradV[]> gradv, contact;
+  std::unique_ptr<SphTraction[]> traction;
+  std::unique_ptr<SphPush[]> push;
 };
 
 }    // namespace HVI

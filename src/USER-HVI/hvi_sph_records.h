@@ -50,15 +50,33 @@ struct alignas(64) SphStress {
 };
 
 struct alignas(64) SphGradV {
-  static constexpr int SENT = 15;
+  static constexpr int SENT = 16;
   double xx, xy, xz, yx;
   double yy, yz, zx, zy;
   double zz, mxx, myy,
       mzz;    // M = - sum_j V_j x_ij (x) grad W_ij: 1 where particles are even all around
-  double mxy, mxz, myz, unused;
+  double mxy, mxz, myz;
+  double nu;    // sum_j w_j W_ij, with gradient corrected only
 };
 
-static_assert(sizeof(SphStress) == 2 * sizeof(Vec4) && sizeof(SphGradV) == 4 * sizeof(Vec4),
+// with gradient corrected: the force on i is w_i w_j (T_i + T_j) grad W, with M^-1 in T; and the part
+// of the pressure, which also acts between bodies
+
+struct alignas(32) SphTraction {
+  static constexpr int SENT = 9;
+  double xx, xy, xz, yx;
+  double yy, yz, zx, zy;
+  double zz, volume, unused[2];
+};
+
+struct alignas(64) SphPush {
+  static constexpr int SENT = 6;
+  double xx, yy, zz, xy;
+  double xz, yz, unused[2];
+};
+
+static_assert(sizeof(SphStress) == 2 * sizeof(Vec4) && sizeof(SphGradV) == 4 * sizeof(Vec4) &&
+                  sizeof(SphTraction) == 3 * sizeof(Vec4) && sizeof(SphPush) == 2 * sizeof(Vec4),
               "records are read as vectors");
 static_assert(sizeof(SphPlace) == sizeof(Vec4) && sizeof(SphState) == 2 * sizeof(Vec4) &&
                   sizeof(SphRates) == 2 * sizeof(Vec4),
@@ -92,6 +110,9 @@ struct SphView {
   SphStress *stress = nullptr;    // solids, as is the next
   SphGradV *gradv = nullptr;
   SphStress *art = nullptr;    // artificial stress
+  SphTraction *traction = nullptr;    // solids with gradient corrected
+  SphGradV *contact = nullptr;        // between bodies of those, as is the next
+  SphPush *push = nullptr;
 };
 
 }    // namespace HVI

@@ -153,7 +153,10 @@ std::string HVISphReport::terms() const
   if (set.variable) text += ", variable h";
   if (!set.energy) text += ", no energy equation";
   if (solid)
-    text += fmt::format(", stress, {} velocity gradient", set.corrected ? "corrected" : "plain");
+    text += set.gradient == HVI::SphSettings::CORRECTED
+        ? ", stress, corrected"
+        : fmt::format(", stress, {} velocity gradient",
+                      set.gradient == HVI::SphSettings::LAW ? "corrected" : "plain");
   if (set.laws.art_eps > 0.0) text += ", artificial stress";
   if (set.mirror.planes) text += ", mirror planes";
   return text;

@@ -13,7 +13,7 @@
 #include "hvi_sph_sweep.h"
 
 #include "hvi_kernel.h"
-#include "hvi_sph_riemann.h"
+#include "hvi_sph_solid.h"
 
 #include <algorithm>
 #include <cstring>
@@ -27,7 +27,8 @@ namespace {
 
   template <class Kernel, int SCENE> class Sweeps final : public SphSweeps {
    public:
-    bool has_first() const override { return (SCENE & SPH_RIEMANN) != 0; }
+    int scene() const override { return SCENE; }
+    bool has_first() const override { return (SCENE & (SPH_RIEMANN | SPH_CORRECTED)) != 0; }
     void first(SphWork &) const override;
     void forces(SphWork &) const override;
     double w(double q) const override { return Kernel::template w<double>(q); }
@@ -65,7 +66,8 @@ namespace {
       const Vec4 square = d * d;
       const double rsq = square[0] + square[2] + square[1];
       if (SCENE & SPH_OWN_H) {
-        const double h = SCENE & SPH_RIEMANN ? std::max(pi.h, pi.h - d[3]) : pi.h - 0.5 * d[3];
+        const double h = SCENE & (SPH_RIEMANN | SPH_CORRECTED) ? std::max(pi.h, pi.h - d[3])
+                                                              : pi.h - 0.5 * d[3];
         n += rsq < Kernel::support * Kernel::support * h * h;
       } else
         n += rsq < reachsq;
@@ -84,7 +86,10 @@ namespace {
     for (int jj = 0; jj < number; jj++) {
       const int j = jlist[jj];
       __builtin_prefetch(&state[j]);
-      if (SCENE & SPH_RIEMANN) {
+      if (SCENE & SPH_CORRECTED) {
+        __builtin_prefetch(&work.records.traction[j]);
+        __builtin_prefetch(&work.records.traction[j].zz);
+      } else if (SCENE & SPH_RIEMANN) {
         __builtin_prefetch(&work.records.rates[j], 1);
         __builtin_prefetch(&work.records.slopes[j]);
         __builtin_prefetch(&work.records.slopes[j].pz);
@@ -163,7 +168,15 @@ namespace {
 
   template <class Kernel, int SCENE> void Sweeps<Kernel, SCENE>::first(SphWork &work) const
   {
-    if constexpr ((SCENE & SPH_RIEMANN) != 0) {
+    if constexpr ((SCENE & SPH_CORRECTED) != 0) {
+      const SphView &r = work.records;
+      each_particle(work, FIRST, r.gradv,
+                    [&](int i, const SphPlace &pi, int n, const SphLaws &laws, SphNear &near,
+                        SphGradV &sum) {
+                      sph_gradients<Kernel, SCENE>(i, pi, r.state, n, laws, near, r.gradv,
+                                                   r.contact, sum);
+                    });
+    } else if constexpr ((SCENE & SPH_RIEMANN) != 0) {
       const SphState *const state = work.records.state;
       SphSlopes *const slopes = work.records.slopes;
       each_particle(work, FIRST, slopes,
@@ -181,7 +194,9 @@ namespace {
         work, has_first() ? SECOND : ONLY, r.rates,
         [&](int i, const SphPlace &pi, int n, const SphLaws &laws, SphNear &near, SphRates &sum) {
           bool overlaps;
-          if constexpr ((SCENE & SPH_RIEMANN) != 0)
+          if constexpr ((SCENE & SPH_CORRECTED) != 0)
+            overlaps = sph_solid<Kernel, SCENE>(i, pi, r, n, laws, near, sum);
+          else if constexpr ((SCENE & SPH_RIEMANN) != 0)
             overlaps =
                 sph_riemann<Kernel, SCENE>(i, pi, r.state, r.slopes, n, laws, near, r.rates, sum);
           else
@@ -202,18 +217,20 @@ namespace {
   ------------------------------------------------------------------------- */
 
   constexpr int H = SPH_OWN_H, B = SPH_BODIES, D = SPH_DENSITY, R = SPH_RIEMANN, S = SPH_STRENGTH,
-                A = SPH_ARTSTRESS;
+                A = SPH_ARTSTRESS, C = SPH_CORRECTED | SPH_STRENGTH;
 
   using Scenes =
       std::integer_sequence<int, 0, H, B, H | B, H | B | D, R, R | H, R | H | B, S, S | B,
-                            S | H | B, S | H | B | D, S | H | B | A, S | H | B | D | A>;
+                            S | H | B, S | H | B | D, S | H | B | A, S | H | B | D | A, C, C | B,
+                            C | H | B, C | H | B | D, C | H | B | D | A, C | R, C | R | B, C | R | H | B,
+                            C | R | H | B | A>;
 
   template <class Kernel, int... SCENE>
   std::unique_ptr<SphSweeps> make(int scene, std::integer_sequence<int, SCENE...>)
   {
-    // what a Riemann problem and viscosity do excludes each other, so that bit must be the same
+    // what a Riemann problem and viscosity do excludes each other, so that bit must be the same; likewise C
     std::unique_ptr<SphSweeps> made;
-    ((!made && (scene & ~SCENE) == 0 && (scene & R) == (SCENE & R) && (scene & S) == (SCENE & S)
+    ((!made && (scene & ~SCENE) == 0 && (scene & R) == (SCENE & R) && (scene & C) == (SCENE & C)
           ? (void) (made = std::make_unique<Sweeps<Kernel, SCENE>>())
           : (void) 0),
      ...);

@@ -70,6 +70,7 @@ struct SphWork {
 class SphSweeps {
  public:
   virtual ~SphSweeps() = default;
+  virtual int scene() const = 0;    // bits of SphScene: those asked for, and maybe more
   virtual bool has_first() const = 0;
   virtual void first(SphWork &) const = 0;
   virtual void forces(SphWork &) const = 0;

@@ -82,15 +82,18 @@ void PairHVISPH::compute(int eflag, int vflag)
                        evflag != 0};
   if (sweeps->has_first()) {
     sweeps->first(work);
-    if (mirrored) images.fold_slopes(records);
-    finish_slopes();
-    if (mirrored) images.fill_slopes(records);
+    if (mirrored) images.fold_sums(records);
+    if (records.traction)
+      finish_gradients();
+    else
+      finish_slopes();
+    if (mirrored) images.fill_sums(records);
   }
   sweeps->forces(work);
 
   if (mirrored) images.fold(records, force->newton_pair);
   scatter();
-  if (records.gradv && force->newton_pair) reverse(records.gradv);
+  if (records.gradv && !records.traction && force->newton_pair) reverse(records.gradv, 15);
 
   if (vflag_fdotr) virial_fdotr_compute();
 }
@@ -170,14 +173,17 @@ void PairHVISPH::init_style()
   check_materials();
   check_mirror();
 
+  set.whole = strength && set.gradient == HVI::SphSettings::CORRECTED;
   sweeps = HVI::make_sph_sweeps(set.kernel, choose_scene());
   store->fields.settings = set;
-  store->fields.choose(set.riemann, strength != nullptr, set.laws.art_eps > 0.0);
+  store->fields.choose(set.riemann && !set.whole, strength != nullptr, set.laws.art_eps > 0.0,
+                       set.whole, sweeps->scene() & HVI::SPH_BODIES);
   kept = HVI::SphKept();
 
   // pair_style hybrid looks at these in settings() only, and sizes the buffers
 
-  comm_forward = strength ? HVI::SphStress::SENT : (set.riemann ? HVI::SphSlopes::SENT : 0);
+  comm_forward = set.whole ? HVI::SphTraction::SENT
+                           : (strength ? HVI::SphStress::SENT : (set.riemann ? HVI::SphSlopes::SENT : 0));
   comm_reverse = strength ? HVI::SphGradV::SENT : (set.riemann ? HVI::SphSlopes::SENT : 0);
   force->pair->comm_forward = MAX(force->pair->comm_forward, comm_forward);
   force->pair->comm_reverse = MAX(force->pair->comm_reverse, comm_reverse);
@@ -193,6 +199,8 @@ int PairHVISPH::choose_scene()
   int scene = set.riemann ? HVI::SPH_RIEMANN : (set.density ? HVI::SPH_DENSITY : 0);
   if (strength) scene |= HVI::SPH_STRENGTH;
   if (set.laws.art_eps > 0.0) scene |= HVI::SPH_ARTSTRESS;
+  if (set.whole) scene |= HVI::SPH_CORRECTED;
+  if (set.whole && strength->can_fail()) scene |= HVI::SPH_BODIES;
   if (set.variable) scene |= HVI::SPH_OWN_H;
   int first = 0;
   for (int i = 1; i <= atom->ntypes; i++) {
@@ -221,7 +229,8 @@ double PairHVISPH::init_one(int i, int j)
 {
   for (const int itype : {i, j})
     if (!is_ours[itype]) error->all(FLERR, "Pair style hvi/sph: type {} has no material", itype);
-  const double h = set.riemann ? MAX(set.h[i], set.h[j]) : 0.5 * (set.h[i] + set.h[j]);
+  const double h =
+      set.riemann || set.whole ? MAX(set.h[i], set.h[j]) : 0.5 * (set.h[i] + set.h[j]);
   return set.support * (set.variable ? set.hmax : 1.0) * h;
 }
 

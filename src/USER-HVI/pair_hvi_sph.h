@@ -102,9 +102,10 @@ class PairHVISPH :
   void gather_stress();
   void artificial_stress();
   void finish_slopes();
+  void finish_gradients();
   void scatter();
-  template <class Record> void forward(Record *);
-  template <class Record> void reverse(Record *);
+  template <class Record> void forward(Record *, int number = Record::SENT);
+  template <class Record> void reverse(Record *, int number = Record::SENT);
 
   // told by the sweeps
 

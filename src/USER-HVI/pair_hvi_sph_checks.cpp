@@ -41,10 +41,12 @@ void PairHVISPH::check_fixes() const
     error->all(FLERR, "More than one pair style hvi/sph");
   if (set.variable && !integrator)
     error->all(FLERR, "Pair style hvi/sph h variable needs fix hvi/sph, which keeps h");
-  if (strength && (set.riemann || set.laws.symmetric))
+  if (strength && set.laws.symmetric)
+    error->all(FLERR, "Pair style hvi/sph: fix hvi/johnson-cook works with form sum");
+  if (strength && set.riemann && set.gradient != HVI::SphSettings::CORRECTED)
     error->all(FLERR,
-               "Pair style hvi/sph: fix hvi/johnson-cook works with form sum and dissipation "
-               "monaghan");
+               "Pair style hvi/sph: dissipation riemann with fix hvi/johnson-cook needs gradient "
+               "corrected");
   if (set.laws.art_eps > 0.0 && !strength)
     error->all(FLERR,
                "Pair style hvi/sph artstress needs fix hvi/johnson-cook, which keeps the stress");

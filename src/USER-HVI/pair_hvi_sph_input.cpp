@@ -143,9 +143,12 @@ void PairHVISPH::settings(int narg, char **arg)
     } else if (key == "gradient") {
       need(1);
       const std::string name = arg[iarg + 1];
-      if (name != "plain" && name != "corrected")
-        error->all(FLERR, "Pair_style hvi/sph gradient must be plain or corrected, not {}", name);
-      set.corrected = name == "corrected";
+      if (name != "plain" && name != "law" && name != "corrected")
+        error->all(FLERR, "Pair_style hvi/sph gradient must be plain, law or corrected, not {}",
+                   name);
+      set.gradient = name == "plain" ? HVI::SphSettings::PLAIN
+          : name == "law"            ? HVI::SphSettings::LAW
+                                     : HVI::SphSettings::CORRECTED;
       iarg += 2;
     } else if (key == "artstress") {
       need(2);

@@ -22,6 +22,7 @@
 #include "fix_hvi_sph.h"
 #include "force.h"
 #include "hvi_artstress.h"
+#include "hvi_sph_solid.h"
 #include "math_special.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -54,6 +55,7 @@ void PairHVISPH::gather()
     const int itype = type[i];
     records.rates[i] = {};
     if (records.gradv) records.gradv[i] = {};
+    if (records.contact) records.contact[i] = {};
     if (records.slopes) records.slopes[i] = {};
     if (!is_ours[itype]) continue;    // of another style in a hybrid
     const HVI::Eos &eos = *store->materials.of(itype)->eos;
@@ -95,9 +97,15 @@ void PairHVISPH::gather()
     s.vz = vest[i][2];
     s.rho = rho[i];
     s.w = laws.symmetric ? m : m / rho[i];
+    if (records.traction) {
+      records.traction[i].volume = s.w;
+      if (eos.rho0() > 0.0) s.w *= std::cbrt(rho[i] / eos.rho0());
+    }
     s.p = laws.symmetric ? p / (rho[i] * rho[i]) : p;
     s.c = std::sqrt(csq);
     s.type = itype;
+    if (records.traction && records.stress[i].p_min == 0.0 && records.stress[i].shear == 0.0)
+      s.type += HVI::RUBBLE;
   }
 }
 
@@ -173,19 +181,22 @@ void PairHVISPH::finish_slopes()
    records of owned particles to their ghosts; of ghosts added up at their owners
 ------------------------------------------------------------------------- */
 
-template <class Record> void PairHVISPH::forward(Record *records)
+template <class Record> void PairHVISPH::forward(Record *records, int number)
 {
-  halo = {&records->xx, (int) (sizeof(Record) / sizeof(double)), Record::SENT};
-  comm->forward_comm(this, Record::SENT);
+  halo = {&records->xx, (int) (sizeof(Record) / sizeof(double)), number};
+  comm->forward_comm(this, number);
 }
 
-template <class Record> void PairHVISPH::reverse(Record *records)
+template <class Record> void PairHVISPH::reverse(Record *records, int number)
 {
-  halo = {&records->xx, (int) (sizeof(Record) / sizeof(double)), Record::SENT};
-  comm->reverse_comm(this, Record::SENT);
+  halo = {&records->xx, (int) (sizeof(Record) / sizeof(double)), number};
+  comm->reverse_comm(this, number);
 }
 
-template void PairHVISPH::reverse(HVI::SphGradV *);
+template void PairHVISPH::reverse(HVI::SphGradV *, int);
+template void PairHVISPH::forward(HVI::SphGradV *, int);
+template void PairHVISPH::forward(HVI::SphTraction *, int);
+template void PairHVISPH::forward(HVI::SphPush *, int);
 
 int PairHVISPH::pack_forward_comm(int n, int *sent, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {

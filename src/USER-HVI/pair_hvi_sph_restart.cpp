@@ -89,7 +89,7 @@ void PairHVISPH::write_restart_settings(FILE *fp)
   write_text(fp, set.text);
   const HVI::SphLaws &laws = set.laws;
   const int flags[8] = {laws.dim,     laws.symmetric, laws.stock,  laws.automatic,
-                        set.variable, set.energy,     set.riemann, set.corrected};
+                        set.variable, set.energy,     set.riemann, set.gradient};
   const double values[7] = {laws.a,   laws.b,       laws.alpha, set.hmin,
                             set.hmax, laws.art_eps, laws.art_n};
   fwrite(flags, sizeof(int), 8, fp);
@@ -125,7 +125,7 @@ void PairHVISPH::read_restart_settings(FILE *fp)
   set.variable = flags[4];
   set.energy = flags[5];
   set.riemann = flags[6];
-  set.corrected = flags[7];
+  set.gradient = static_cast<HVI::SphSettings::Gradient>(flags[7]);
   laws.a = values[0];
   laws.b = values[1];
   laws.alpha = values[2];

@@ -1,0 +1,55 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "hvi_inverse.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+
+namespace HVI {
+
+static constexpr double SMALL_EIGENVALUE = 0.2, LARGE_EIGENVALUE = 0.4;
+
+static double g(double lambda)
+{
+  const double w = std::max(
+      0.0,
+      std::min(1.0, (lambda - SMALL_EIGENVALUE) / (LARGE_EIGENVALUE - SMALL_EIGENVALUE)));
+  const double smooth = w * w * (3.0 - 2.0 * w);
+  return smooth > 0.0 ? 1.0 - smooth + smooth / lambda : 1.0;
+}
+
+Symmetric limited_inverse(const Symmetric &N)
+{
+  const double cxx = N.yy * N.zz - N.yz * N.yz, cxy = N.xz * N.yz - N.xy * N.zz,
+               cxz = N.xy * N.yz - N.xz * N.yy;
+  const double cyy = N.xx * N.zz - N.xz * N.xz, cyz = N.xy * N.xz - N.xx * N.yz,
+               czz = N.xx * N.yy - N.xy * N.xy;
+  const double det = N.xx * cxx + N.xy * cxy + N.xz * cxz;
+
+  // the product of the other two eigenvalues is at most the square of half their sum
+
+  const double half = 0.5 * (N.xx + N.yy + N.zz);
+  if (det > LARGE_EIGENVALUE * half * half)
+    return {cxx / det, cyy / det, czz / det, cxy / det, cxz / det, cyz / det};
+
+  Eigen::Matrix3d m;
+  m << N.xx, N.xy, N.xz, N.xy, N.yy, N.yz, N.xz, N.yz, N.zz;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m);
+  const Eigen::Vector3d &lambda = solver.eigenvalues();
+  m = solver.eigenvectors() * Eigen::Vector3d(g(lambda[0]), g(lambda[1]), g(lambda[2])).asDiagonal() *
+      solver.eigenvectors().transpose();
+  return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
+}
+
+}    // namespace HVI

@@ -1,0 +1,319 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_HVI_SPH_SOLID_H
+#define LMP_HVI_SPH_SOLID_H
+
+#include "hvi_sph_riemann.h"
+
+// solids with gradient corrected: forces that bear full stress where neighbors are missing.  The
+// equations are in doc/src/Howto_sph.rst
+
+namespace HVI {
+
+/* ----------------------------------------------------------------------
+   Who hangs together: bodies with tension between them, as far as they are sound.  The type in
+   SphState has RUBBLE added where a particle has failed.
+------------------------------------------------------------------------- */
+
+static constexpr double RUBBLE = 0.5;
+
+struct SphBonds {
+  Vec bonded = {};    // 1: hang together
+  Vec rubble = {};    // 1: would, but both have failed
+  double sound;
+  const double *tension;    // by type of the neighbor
+
+  SphBonds(double type_i, const double *tension_in) :
+      sound(type_i == static_cast<int>(type_i) ? 1.0 : 0.0), tension(tension_in)
+  {
+  }
+  inline void find(const Vec &type_j)
+  {
+    for (int k = 0; k < LANES; k++) {
+      const int jtype = static_cast<int>(type_j[k]);
+      const double both = type_j[k] == jtype ? sound : 0.0;
+      const double neither = type_j[k] == jtype ? 0.0 : 1.0 - sound;
+      bonded[k] = tension[jtype] * both;
+      rubble[k] = tension[jtype] * neither;
+    }
+  }
+};
+
+/* ----------------------------------------------------------------------
+   First sweep: sums over the n near neighbors of particle i, with weights w,
+
+     L_i = - sum_j w_j v_ij (x) grad W(r, h_i),  M_i = - sum_j w_j x_ij (x) grad W(r, h_i),
+     nu_i = sum_j w_j W(r, h_i)
+
+   of what hangs together with it to gradv; of others that are pushed or come nearer to contact,
+   and of rubble in rubble.
+------------------------------------------------------------------------- */
+
+template <class Kernel, int SCENE>
+inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int n,
+                          const SphLaws &laws, SphNear &near, SphGradV *gradv, SphGradV *contact,
+                          SphGradV &total)
+{
+  const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
+  const SphTwoKernels<Kernel, SCENE> kernels(laws, pi);
+  const SphState si = state[i];
+  const Vec zero = {}, one = zero + 1.0;
+  Vec sum_i[16] = {};
+  SphBonds bonds(si.type, laws.row_tension);
+
+  for (int m = 0; m < nlanes; m += LANES) {
+    static constexpr int in_turn[4] = {0, 1, 2, 3};
+    const int *const j = near.j + m;
+    Vec d[4], first[4];
+    read_columns(near.d + m, in_turn, 0, d);
+    read_columns(state, j, 0, first);
+    for (int k = 0; k < LANES; k++) {
+      __builtin_prefetch(gradv + j[k], 1);
+      __builtin_prefetch(&gradv[j[k]].zz, 1);
+    }
+    const Vec r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    Vec F_i, F_j, W_i, W_j;
+    kernels.F(r, d[3], F_i, F_j);
+    Vec spread_i, spread_j;
+    kernels.W(r, d[3], W_i, W_j, spread_i, spread_j);
+    const Vec a[6] = {si.vx - first[0], si.vy - first[1], si.vz - first[2], d[0], d[1], d[2]};
+
+    const auto add = [&](const Vec &part_of, SphGradV *to, Vec *sums_i) {
+      static constexpr int row[15] = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 4, 5, 3, 3, 4};
+      static constexpr int column[15] = {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 1, 2, 2};
+      const Vec w_j = part_of * first[3], w_i = part_of * si.w;
+      const Vec g_i[3] = {-w_j * F_i * d[0], -w_j * F_i * d[1], -w_j * F_i * d[2]};
+      const Vec g_j[3] = {-w_i * F_j * d[0], -w_i * F_j * d[1], -w_i * F_j * d[2]};
+      Vec on_j[16];
+      for (int k = 0; k < 15; k++) {
+        sums_i[k] += a[row[k]] * g_i[column[k]];
+        on_j[k] = a[row[k]] * g_j[column[k]];
+      }
+      sums_i[15] += w_j * W_i;
+      on_j[15] = w_i * W_j;
+      for (int k = 0; k < 4; k++) add_columns(to, j, k, on_j + 4 * k);
+    };
+
+    if (SCENE & SPH_BODIES) {
+      Vec second[4];
+      read_columns(state, j, 1, second);
+      bonds.find(second[3]);
+      if (sum(bonds.bonded) > 0.0) add(bonds.bonded, gradv, sum_i);
+      if (sum(one - bonds.bonded) > 0.0) {
+        const Vec rdotv = d[0] * a[0] + d[1] * a[1] + d[2] * a[2];
+        const Vec acts = si.p + second[0] > 0.0 ? one : bonds.rubble;
+        const Vec near_body = (one - bonds.bonded) * (rdotv < 0.0 ? one : acts);
+        Vec sum_c[16] = {};
+        add(near_body, contact, sum_c);
+        for (int k = 0; k < 4; k++) part(contact + i, k) += sums(sum_c + 4 * k);
+      }
+    } else
+      add(one, gradv, sum_i);
+  }
+  for (int k = 0; k < 4; k++) part(&total, k) += sums(sum_i + 4 * k);
+}
+
+/* ----------------------------------------------------------------------
+   Second sweep: all pairs of particle i with its n near neighbors.  With T of SphTraction,
+   f_i = w_i w_j (T_i grad W(r, h_i) + T_j grad W(r, h_j)); between bodies, while they push, with
+   the pressure's part of T only.  Energy and density of that follow from L, without pairs.
+   Dissipation acts along the pair.
+------------------------------------------------------------------------- */
+
+template <class Kernel, int SCENE>
+inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, const SphLaws &laws,
+                      SphNear &near, SphRates &total)
+{
+  // A and STEEP as in sph_riemann().  Where the solid is compressed, extrapolation goes with 1/(1 +
+  // COMPRESSION |tr L| r/c): any overshoot of a shock would unload the solid from its yield surface
+
+  static constexpr double A = 1.2, STEEP = 1.5, COMPRESSION = 300.0;
+
+  const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
+  const SphTwoKernels<Kernel, SCENE> kernels(laws, pi);
+  const SphState si = records.state[i];
+  const SphTraction T_i = records.traction[i];
+  const SphGradV L_i = SCENE & SPH_RIEMANN ? records.gradv[i] : SphGradV{};
+  const SphStress R_i = SCENE & SPH_ARTSTRESS ? records.art[i] : SphStress{};
+  const double c_i = si.c, rho_i = si.rho, V_i = T_i.volume;
+  SphBonds bonds(si.type, laws.row_tension);
+
+  const Vec zero = {}, one = zero + 1.0;
+  Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, overlaps = zero;
+
+  for (int m = 0; m < nlanes; m += LANES) {
+    static constexpr int in_turn[4] = {0, 1, 2, 3};
+    int j[LANES];    // what is written may be near.j for all the compiler knows
+    for (int k = 0; k < LANES; k++) j[k] = near.j[m + k];
+    Vec d[4], first[4], second[4], T[12];
+    read_columns(near.d + m, in_turn, 0, d);
+    read_columns(records.state, j, 0, first);
+    read_columns(records.state, j, 1, second);
+    for (int k = 0; k < 3; k++) read_columns(records.traction, j, k, T + 4 * k);
+    for (int k = 0; k < LANES; k++) __builtin_prefetch(records.rates + j[k], 1);
+    const Vec c_j = second[1], rho_j = second[2], V_j = T[9];
+    const Vec ww = si.w * first[3];
+    const Vec dv[3] = {si.vx - first[0], si.vy - first[1], si.vz - first[2]};
+    const Vec rsq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    const Vec r = sqrt(rsq);
+    const Vec rdotv = d[0] * dv[0] + d[1] * dv[1] + d[2] * dv[2];
+    overlaps += rsq > 0.0 ? zero : one;
+    Vec F_i, F_j;
+    kernels.F(r, d[3], F_i, F_j);
+    const Vec F = 0.5 * (F_i + F_j);
+
+    Vec a = zero + laws.a, b = zero + laws.b, bonded = one;
+    if (SCENE & SPH_BODIES) {
+      bonds.find(second[3]);
+      bonded = bonds.bonded;
+      for (int k = 0; k < LANES; k++) {
+        const int jtype = static_cast<int>(second[3][k]);
+        a[k] = laws.row_a[jtype];
+        b[k] = laws.row_b[jtype];
+      }
+    }
+
+    const Vec wF_i = bonded * ww * F_i, wF_j = bonded * ww * F_j;
+    Vec f[3] = {
+        wF_i * (T_i.xx * d[0] + T_i.xy * d[1] + T_i.xz * d[2]) +
+            wF_j * (T[0] * d[0] + T[1] * d[1] + T[2] * d[2]),
+        wF_i * (T_i.yx * d[0] + T_i.yy * d[1] + T_i.yz * d[2]) +
+            wF_j * (T[3] * d[0] + T[4] * d[1] + T[5] * d[2]),
+        wF_i * (T_i.zx * d[0] + T_i.zy * d[1] + T_i.zz * d[2]) +
+            wF_j * (T[6] * d[0] + T[7] * d[1] + T[8] * d[2])};
+
+    // dissipation: a pressure between the two, on the area 2 V_i V_j |grad W|
+
+    Vec q;
+    if (SCENE & SPH_RIEMANN) {
+      Vec L[12];
+      for (int k = 0; k < 3; k++) read_columns(records.gradv, j, k, L + 4 * k);
+      const Vec &u = rdotv;
+      const auto along = [&](const auto &xx, const auto &yy, const auto &zz, const auto &xy,
+                             const auto &xz, const auto &yz) {
+        return 2.0 *
+            (d[0] * (xx * d[0] + xy * d[1] + xz * d[2]) + d[1] * (yy * d[1] + yz * d[2]) +
+             zz * d[2] * d[2]);
+      };
+      const Vec ahead_i = along(L_i.xx, L_i.yy, L_i.zz, L_i.xy + L_i.yx, L_i.xz + L_i.zx,
+                                L_i.yz + L_i.zy);
+      const Vec ahead_j = along(L[0], L[4], L[8], L[1] + L[3], L[2] + L[6], L[5] + L[7]);
+      const Vec p = si.p - second[0];
+      const Vec za_i = zero + rho_i * c_i, za_j = rho_j * c_j, zainv = 1.0 / (za_i + za_j);
+      const Vec push_i = -zainv * (za_j * u + p * r), push_j = zainv * (p * r - za_i * u);
+      const Vec closing = u < 0.0 ? -u : zero;
+      const Vec z_i = za_i * r + rho_i * A * (push_i > 0.0 ? push_i : zero);
+      const Vec z_j = za_j * r + rho_j * A * (push_j > 0.0 ? push_j : zero);
+      const Vec c = r * (c_i < c_j ? zero + c_i : c_j);
+      const Vec trace_j = -(L[0] + L[4] + L[8]);
+      const double trace_i = -(L_i.xx + L_i.yy + L_i.zz);
+      const Vec most = trace_i > trace_j ? zero + trace_i : trace_j;
+      const Vec steep = c + STEEP * closing + COMPRESSION * rsq * (most > 0.0 ? most : zero);
+      const Vec z_sum = z_i + z_j;
+      const Vec inverse = 1.0 / (steep * z_sum * rsq);
+      const Vec keep = 0.5 * c * inverse * rsq * z_sum;
+      const Vec both = keep * (limited(u, ahead_i - u) + limited(u, ahead_j - u));
+      const Vec known = u < 0.0 ? both : u;
+      const Vec jump = known > u ? known - u : zero;    // what comes apart is not held
+      q = z_i * z_j * inverse * steep * jump;
+    } else {
+      const Vec h = pi.h - 0.5 * d[3];
+      const Vec hv = h * (rdotv < 0.0 ? rdotv : zero);
+      const Vec soft = rsq + 0.01 * h * h;
+      const Vec Pi = hv * (2.0 * b * hv - a * (c_i + c_j) * soft) / (soft * soft * (rho_i + rho_j));
+      q = 0.5 * rho_i * rho_j * Pi;
+    }
+    const Vec VVF = 2.0 * V_i * V_j * F;
+    const Vec visc = -q * VVF;
+    const Vec qheat = -0.5 * visc * rdotv;
+    for (int k = 0; k < 3; k++) f[k] += visc * d[k];
+    Vec de_i = qheat, de_j = qheat;
+
+    // interface density dissipation as in sph_interact()
+
+    Vec drho_j = zero;
+    if (SCENE & SPH_DENSITY) {
+      const double z_i = rho_i * c_i;
+      const Vec z_j = rho_j * c_j, dp = si.p - second[0], size = abs(dp);
+      const Vec speed = sqrt(dv[0] * dv[0] + dv[1] * dv[1] + dv[2] * dv[2]);
+      const Vec wave = bonded * (z_i < z_j ? zero + z_i : z_j) * speed;
+      const Vec excess = (size > wave ? size - wave : zero) / (size + 1.0e-300);
+      const Vec by_states = laws.automatic * excess / (z_i + z_j);
+      const Vec constant = laws.alpha / (c_i + c_j);
+      const Vec acts = si.p + second[0] > 0.0 ? one : bonded;
+      const Vec phi = 2.0 * acts * dp * F * r;
+      drho += phi * V_j * (constant + by_states * rho_i);
+      drho_j = -phi * V_i * (constant + by_states * rho_j);
+    }
+
+    if (SCENE & SPH_BODIES) {
+      if (sum(one - bonded) > 0.0) {
+        const Vec acts = (one - bonded) * (si.p + second[0] > 0.0 ? one : zero);
+        const SphPush P_i = records.push[i];
+        Vec P[8];
+        for (int k = 0; k < 2; k++) read_columns(records.push, j, k, P + 4 * k);
+        const Vec cF_i = acts * ww * F_i, cF_j = acts * ww * F_j;
+        const Vec t_i[3] = {cF_i * (P_i.xx * d[0] + P_i.xy * d[1] + P_i.xz * d[2]),
+                            cF_i * (P_i.xy * d[0] + P_i.yy * d[1] + P_i.yz * d[2]),
+                            cF_i * (P_i.xz * d[0] + P_i.yz * d[1] + P_i.zz * d[2])};
+        const Vec t_j[3] = {cF_j * (P[0] * d[0] + P[3] * d[1] + P[4] * d[2]),
+                            cF_j * (P[3] * d[0] + P[1] * d[1] + P[5] * d[2]),
+                            cF_j * (P[4] * d[0] + P[5] * d[1] + P[2] * d[2])};
+        for (int k = 0; k < 3; k++) {
+          f[k] += t_i[k] + t_j[k];
+          de_i -= t_i[k] * dv[k];
+          de_j -= t_j[k] * dv[k];
+        }
+      }
+    }
+    if (SCENE & SPH_ARTSTRESS) {
+      Vec R[8];
+      for (int k = 0; k < 2; k++) read_columns(records.art, j, k, R + 4 * k);
+      const Vec h = pi.h - 0.5 * d[3];
+      const Vec factor =
+          bonded * V_i * V_j * F * pow(Kernel::template w<Vec>(r / h), laws.art_n);
+      const Vec t_i[3] = {factor * (R_i.xx * d[0] + R_i.xy * d[1] + R_i.xz * d[2]),
+                          factor * (R_i.xy * d[0] + R_i.yy * d[1] + R_i.yz * d[2]),
+                          factor * (R_i.xz * d[0] + R_i.yz * d[1] + R_i.zz * d[2])};
+      const Vec t_j[3] = {factor * (R[0] * d[0] + R[3] * d[1] + R[4] * d[2]),
+                          factor * (R[3] * d[0] + R[1] * d[1] + R[5] * d[2]),
+                          factor * (R[4] * d[0] + R[5] * d[1] + R[2] * d[2])};
+      for (int k = 0; k < 3; k++) {
+        f[k] += t_i[k] + t_j[k];
+        de_i -= t_i[k] * dv[k];
+        de_j -= t_j[k] * dv[k];
+      }
+    }
+
+    *(Vec *) (near.fx + m) = f[0];
+    *(Vec *) (near.fy + m) = f[1];
+    *(Vec *) (near.fz + m) = f[2];
+    fx += f[0];
+    fy += f[1];
+    fz += f[2];
+    de += de_i;
+    heat += qheat;
+    Vec on_j[4] = {-f[0], -f[1], -f[2], de_j};
+    add_columns(records.rates, j, 0, on_j);
+    Vec more[4] = {drho_j, qheat, zero, zero};
+    add_columns(records.rates, j, 1, more);
+  }
+
+  total.fx += sum(fx);
+  total.fy += sum(fy);
+  total.fz += sum(fz);
+  total.de += sum(de);
+  total.drho += sum(drho);
+  total.heat += sum(heat);
+  return sum(overlaps) > 0.0;
+}
+
+}    // namespace HVI
+
+#endif
