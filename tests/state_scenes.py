@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+"""Flyers of elastic, perfectly plastic solids in three dimensions, measured against the exact states of reference/elastic_plastic.py.
+
+    python3 tests/state_scenes.py --lmp build/lmp --case al-al-5000 --kernel wendland2 --h 1.6 --words "viscosity 1 2 gradient corrected"
+
+prints errors in percent: of sigma_x = p - Sxx, rho and e on the plateau, of u in units of the jump, of the speeds of the fronts; on both
+sides of the contact. Columns of m x m particles, periodic across; the plates are free behind and have a gap of one spacing at the start.
+
+Windows are the same for all cases: the plateau is 25 to 75 % of the particles that the plastic shock has passed, counted from the contact;
+the contact is the 3 layers nearest to it. Fronts are fits of error functions to u at two times, the last and half of it; a run ends when the
+faster of the two first waves is through 90 % of its plate.
+"""
+
+import argparse
+import os
+import pathlib
+import sys
+import tempfile
+
+if __name__ == "__main__" and not os.environ.get("OMPI_ALLOW_RUN_AS_ROOT"):
+    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMP_NUM_THREADS="1")
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.special import erf
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+from reference.elastic_plastic import METALS, impact  # noqa: E402
+from shock_runs import read_log  # noqa: E402
+from solid_runs import material, read_frames  # noqa: E402
+from sph_scenes import Fluid  # noqa: E402
+
+LAYERS, ACROSS, SPACING, COURANT = 96, 5, 1e-4, 0.2
+FIELDS = ("sigma", "rho", "u", "e")
+CASES = {f"{a}-{b}-{v}": (METALS[a], METALS[b], float(v)) for a, b, v in
+         [("al", "al", v) for v in (500, 1000, 2000, 5000, 10000)] + [("cu", "cu", 2000), ("ta", "ta", 2000), ("pb", "pb", 1000), ("al", "cu", 5750)]}
+
+
+def sections(s):
+    """of a material file"""
+    more = f" S2 {s.s2} S3 {s.s3}" if s.s2 or s.s3 else ""
+    eos = f"eos gruneisen rho0 {s.rho0} C {s.c0} S1 {s.s1} g0 {s.g0} a {s.a}{more}"
+    return (eos, f"strength perfect G {s.G:.17g} Y {s.Y:.17g}") if s.Y else (eos, "strength none")
+
+
+def flyer(lmp, folder, flying, target, speed, n=LAYERS, across=ACROSS, dim=3, kernel="wendland2", h=1.6, words="viscosity 1 2", variable=False,
+          gap=1.0, jitter=0.0, units="si", dx=SPACING):
+    """runs it; lmp(text) runs LAMMPS in the folder. Returns what measure() does, with cost and books"""
+    exact = impact(flying, target, speed)
+    # relative to the rear of the plate: the first wave of either plate in spacings of it per unit time
+    end = 0.9 * n * dx / max(w[0].m / s.rho0 for w, s in zip(exact, (flying, target))) + gap * dx / speed
+    m = across if dim == 3 else 1
+    grid = np.stack(np.meshgrid(np.arange(2 * n), np.arange(m), np.arange(m), indexing="ij"), -1).reshape(-1, 3)
+    x, left = dx * (grid + 0.5), grid[:, 0] < n
+    x[:, 0] += np.where(left, 0.0, gap * dx) + 0.2 * n * dx
+    k, wide = len(x), m * dx if dim == 3 else 20 * dx
+    box = np.array([(2 * n + gap + 0.4 * n) * dx + 1.2 * speed * end, wide, wide])
+    x += jitter * dx * np.random.default_rng(1).uniform(-1, 1, x.shape)
+    if dim == 1:
+        x[:, 1:] = 0.0
+    mass = {1: flying.rho0 * dx**dim, 2: target.rho0 * dx**dim}
+    s = Fluid(x, np.zeros((k, 3)), np.where(left, flying.rho0, target.rho0), np.zeros(k), np.where(left, 1, 2), mass, {1: h * dx, 2: h * dx},
+              box, (False, True, True), dim)
+    s.v[left, 0] = speed
+    folder = pathlib.Path(folder)
+    s.write(folder / "flyer.data")
+    files = [material(folder / f"{name}.hvi", *sections(solid), units=units).name for name, solid in (("flyer", flying), ("target", target))]
+    text = f"""units {units}
+boundary f p p
+atom_style sph
+atom_modify map array
+processors * 1 1
+read_data flyer.data
+pair_style hvi/sph {kernel} dim {dim} {words} h {'variable' if variable else 'constant'}
+pair_coeff 1 1 file {files[0]} h {h * dx:.17g}
+pair_coeff 2 2 file {files[1]} h {h * dx:.17g}
+neighbor {0.3 * dx:.17g} bin
+neigh_modify every 1 delay 0 check yes one 10000
+fix jc all hvi/johnson-cook strength perfect damage no spall none
+compute book all hvi/energy
+fix move all hvi/sph
+compute S all hvi/atom p e T eps epsdot damage spalled vm sxx syy szz sxy
+compute R all property/atom rho
+thermo 10
+thermo_style custom step time dt c_book[1] c_book[2] c_book[8] c_book[9] c_book[10] c_book[11] c_book[12] c_book[28]
+thermo_modify format float %.16g
+fix step all hvi/dt {COURANT}
+"""
+    for part in (0.5, 1.0):
+        text += f"""variable left equal {part * end:.17g}-time
+fix halt all halt 1 v_left < 0.0 error continue message no
+run 100000000
+unfix halt
+write_dump all custom f.{part} id type x y z vx vy vz c_R c_S[*] modify time yes sort id format float %.17g
+"""
+    r = lmp(text)
+    frames = [read_frames(folder / f"f.{part}")[0] for part in (0.5, 1.0)]
+    if dim == 1:
+        grid[:, 1:] = 0
+    out = measure(frames, grid[:, 0], n, exact, speed)
+    table, out["seconds"], out["steps"] = read_log(r.log)
+    out.update(particles=k, drift=np.abs(table[:, 6] - 1).max(), momentum=np.abs(table[:, 7:10] - table[0, 7:10]).max() / (s.m @ s.v[:, 0]))
+    return out
+
+
+def fronts(x, u, waves):
+    """places of the shocks, by a fit of an error function for each; u from rest, in units of that of the contact"""
+    levels = np.array([w.u for w in waves]) / waves[-1].u
+    first = [x[np.flatnonzero(u > (levels[k] + (levels[k - 1] if k else 0)) / 2).max(initial=0)] for k in range(len(levels))]
+    wide = np.ptp(x) / 20
+
+    def model(q):
+        jump = np.diff(levels, prepend=0.0)
+        return sum(0.5 * j * (1 - erf((x - a) / w)) for j, a, w in zip(jump, q[::2], q[1::2]))
+
+    start = np.array([[a, wide / 5] for a in first]).ravel()
+    return least_squares(lambda q: model(q) - u, start, x_scale=wide / 5, xtol=1e-12, ftol=1e-12).x[::2]
+
+
+def measure(frames, column, n, exact, speed):
+    """by side (flyer, target): relative errors on the plateau and at the contact, scatter on the plateau, errors of the speeds"""
+    out = {}
+    for name, k, waves, sign, ours in (("flyer", 0, exact[0], -1, column < n), ("target", 1, exact[1], 1, column >= n)):
+        layer = (n - 1 - column if k == 0 else column - n)[ours]  # from the contact
+        want = waves[-1]
+        wish = dict(sigma=want.sigma, rho=want.rho, u=want.u, e=want.e)
+
+        def fields(f):  # in the frame of the material at rest, x and u towards it
+            u = f["v"][ours, 0] if k else speed - f["v"][ours, 0]
+            return dict(x=sign * (f["x"][ours, 0] - (0 if k else speed * f["time"])), u=u, sigma=-f["sxx"][ours], rho=f["rho"][ours], e=f["e"][ours])
+
+        parts = [fields(f) for f in frames]
+        place = []
+        for q in parts:
+            rows = {a: np.array([q[a][layer == j].mean() for j in range(n)]) for a in ("x", "u")}
+            on = slice(3, int(0.97 * n))  # not the contact, not the rear face
+            place.append((fronts(rows["x"][on], rows["u"][on] / want.u, waves), rows))
+        time = frames[1]["time"] - frames[0]["time"]
+        speeds = (place[1][0] - place[0][0]) / time
+        passed = np.interp(place[1][0][-1], place[1][1]["x"], np.arange(n))
+        plateau = (layer >= 0.25 * passed) & (layer <= 0.75 * passed)
+        last = parts[1]
+        out[name] = dict(plateau={f: last[f][plateau].mean() / wish[f] - 1 for f in FIELDS}, scatter={f: last[f][plateau].std() / wish[f] for f in FIELDS},
+                         contact={f: last[f][layer < 3].mean() / wish[f] - 1 for f in FIELDS}, Us=speeds[-1] / want.D - 1,
+                         precursor=speeds[0] / waves[0].D - 1 if len(waves) > 1 else np.nan, passed=passed, profile=(layer, last), exact=waves)
+    return out
+
+
+def runner(exe, folder):
+    """lmp(text) of tests without pytest"""
+    from solids import runner as make
+    return make(exe, folder)
+
+
+def columns(out):
+    """the rows of a table: side, part, errors in percent"""
+    rows = []
+    for side in ("flyer", "target"):
+        o = out[side]
+        speeds = [f"{100 * o[k]:9.3f}" for k in ("Us", "precursor")]
+        rows.append([side, "plateau", *[f"{100 * o['plateau'][f]:9.3f}" for f in FIELDS], *speeds])
+        rows.append([side, "scatter", *[f"{100 * o['scatter'][f]:9.3f}" for f in FIELDS], "", ""])
+        rows.append([side, "contact", *[f"{100 * o['contact'][f]:9.3f}" for f in FIELDS], "", ""])
+    return rows
+
+
+if __name__ == "__main__":
+    a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    a.add_argument("--lmp", default=HERE.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
+    a.add_argument("--case", default="al-al-5000", choices=CASES)
+    a.add_argument("--kernel", default="wendland2")
+    a.add_argument("--h", default=1.6, type=float, help="in spacings")
+    a.add_argument("--variable", action="store_true", help="h variable")
+    a.add_argument("--words", default="viscosity 1 2 gradient corrected")
+    a.add_argument("--layers", default=LAYERS, type=int, help="of each plate")
+    a.add_argument("--across", default=ACROSS, type=int)
+    a.add_argument("--dim", default=3, type=int, choices=(1, 3))
+    a.add_argument("--gap", default=1.0, type=float, help="in spacings")
+    a.add_argument("--jitter", default=0.0, type=float, help="largest shift of particles in each direction, in spacings")
+    a.add_argument("--liquid", action="store_true", help="Y = 0")
+    a.add_argument("--profile", action="store_true", help="prints the means of the layers, from the contact, in units of the exact state")
+    o = a.parse_args()
+    import dataclasses
+    pair = [dataclasses.replace(s, Y=0.0) if o.liquid else s for s in CASES[o.case][:2]]
+    with tempfile.TemporaryDirectory() as folder:
+        out = flyer(runner(o.lmp, pathlib.Path(folder)), folder, *pair, CASES[o.case][2], o.layers, o.across, o.dim, o.kernel, o.h, o.words, o.variable, o.gap, o.jitter)
+    print(f"{o.case}, {o.kernel} {o.h}, h {'variable' if o.variable else 'constant'}, {o.words}: {out['particles']} particles, {out['steps']} steps, "
+          f"{out['seconds']:.1f} core-seconds, energy {out['drift']:.1e}, momentum {out['momentum']:.1e}; errors in %")
+    print(f"{'side':8}{'part':8}" + "".join(f" {k:>9}" for k in ("sigma_x", "rho", "u", "e", "Us", "precursor")))
+    for row in columns(out):
+        print(f"{row[0]:8}{row[1]:8}" + " ".join([""] + row[2:]))
+    if o.profile:
+        for side in ("flyer", "target"):
+            layer, q = out[side]["profile"]
+            want = out[side]["exact"][-1]
+            print(side)
+            for j in range(o.layers):
+                print(f"{j:4d} " + " ".join(f"{q[f][layer == j].mean() / getattr(want, f):9.5f} {q[f][layer == j].std() / getattr(want, f):8.5f}" for f in FIELDS))
