@@ -28,7 +28,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 from reference.elastic_plastic import METALS, Solid, impact  # noqa: E402
 from shock_runs import read_log  # noqa: E402
-from solid_runs import material, read_frames  # noqa: E402
+from solid_runs import STATE, material, read_frames  # noqa: E402
 from solids import runner  # noqa: E402
 from sph_scenes import Fluid  # noqa: E402
 
@@ -53,6 +53,7 @@ def flyer(lmp, folder, flying, target, speed, n=LAYERS, across=ACROSS, dim=3, ke
     """runs it; lmp(text) runs LAMMPS in the folder. Returns what measure() does, with cost and books; lengths in spacings"""
     joined = flying is PISTON
     units, dx, gap = ("lj", 2.5e-3, 0.0) if joined else ("si", SPACING, gap)
+    solid = flying.Y > 0 or target.Y > 0
     exact = impact(flying, target, speed)
     end = 0.9 * n * dx / max(w[0].m / s.rho0 for w, s in zip(exact, (flying, target))) + gap * dx / speed
     m = across if dim == 3 else 1
@@ -70,7 +71,7 @@ def flyer(lmp, folder, flying, target, speed, n=LAYERS, across=ACROSS, dim=3, ke
     s.v[left, 0] = speed
     folder = pathlib.Path(folder)
     s.write(folder / "flyer.data")
-    files = [material(folder / f"{name}.hvi", *sections(solid), units=units).name for name, solid in (("flyer", flying), ("target", target))]
+    files = [material(folder / f"{name}.hvi", *sections(metal), units=units).name for name, metal in (("flyer", flying), ("target", target))]
     text = f"""units {units}
 boundary f p p
 atom_style sph
@@ -83,10 +84,10 @@ pair_coeff 2 2 file {files[1]} h {h * dx:.17g}
 pair_coeff 1 2 tension {'yes' if joined else 'no'}
 neighbor {0.3 * dx:.17g} bin
 neigh_modify every 1 delay 0 check yes one 10000
-fix jc all hvi/johnson-cook strength perfect damage no spall none
+{'fix jc all hvi/johnson-cook strength perfect damage no spall none' if solid else ''}
 compute book all hvi/energy
 fix move all hvi/sph
-compute S all hvi/atom p e T eps epsdot damage spalled vm sxx syy szz sxy
+compute S all hvi/atom {' '.join(STATE) if solid else 'p e'}
 compute R all property/atom rho
 thermo 10
 thermo_style custom step time dt c_book[1] c_book[2] c_book[8] c_book[9] c_book[10] c_book[11] c_book[12] c_book[28]
@@ -134,7 +135,7 @@ def measure(frames, column, n, exact, speed):
 
         def fields(f):  # in the frame of the material at rest, x and u towards it
             u = f["v"][ours, 0] if k else speed - f["v"][ours, 0]
-            return dict(x=sign * (f["x"][ours, 0] - (0 if k else speed * f["time"])), u=u, sigma=-f["sxx"][ours], rho=f["rho"][ours], e=f["e"][ours])
+            return dict(x=sign * (f["x"][ours, 0] - (0 if k else speed * f["time"])), u=u, sigma=-f["sxx"][ours] if "sxx" in f else f["p"][ours], rho=f["rho"][ours], e=f["e"][ours])
 
         rows = [{f: np.bincount(layer, q) / np.bincount(layer) for f, q in fields(f).items()} for f in frames]
         on = slice(CONTACT, int(0.97 * n))  # not the contact, not the rear face
@@ -159,6 +160,19 @@ def lines(out):
     return text
 
 
+def name(out):
+    """of a run, with what it cost"""
+    return (f"{out['particles']} particles, {out['steps']} steps, {out['seconds']:.1f} core-seconds, energy {out['drift']:.1e}, "
+            f"momentum {out['momentum']:.1e}")
+
+
+def run_case(exe, case, liquid=False, **how):
+    """a case by its name, in a folder that goes again"""
+    flying, target, speed = (dataclasses.replace(s, Y=0.0) if liquid and isinstance(s, Solid) else s for s in CASES[case])
+    with tempfile.TemporaryDirectory() as folder:
+        return flyer(runner(exe, pathlib.Path(folder)), folder, flying, target, speed, **how)
+
+
 if __name__ == "__main__":
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     a.add_argument("--lmp", default=HERE.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
@@ -166,24 +180,22 @@ if __name__ == "__main__":
     a.add_argument("--kernel", default="wendland2")
     a.add_argument("--h", default=1.6, type=float, help="in spacings")
     a.add_argument("--variable", action="store_true", help="h variable")
-    a.add_argument("--words", default="viscosity 1 2 gradient corrected")
-    a.add_argument("--layers", default=LAYERS, type=int, help="of each plate")
-    a.add_argument("--across", default=ACROSS, type=int)
+    a.add_argument("--words", default="viscosity 1 2", help="of the pair style")
+    a.add_argument("--layers", dest="n", default=LAYERS, type=int, help="of each plate")
+    a.add_argument("--across", default=ACROSS, type=int, help="columns in each direction")
     a.add_argument("--dim", default=3, type=int, choices=(1, 3))
     a.add_argument("--gap", default=1.0, type=float, help="in spacings")
     a.add_argument("--jitter", default=0.0, type=float, help="largest shift of particles in each direction, in spacings")
-    a.add_argument("--liquid", action="store_true", help="Y = 0")
+    a.add_argument("--liquid", action="store_true", help="without strength")
     a.add_argument("--profile", action="store_true", help="prints the means of the layers, from the contact, in units of the exact state")
-    o = a.parse_args()
-    pair = [dataclasses.replace(s, Y=0.0) if o.liquid else s for s in CASES[o.case][:2]]
-    with tempfile.TemporaryDirectory() as folder:
-        out = flyer(runner(o.lmp, pathlib.Path(folder)), folder, *pair, CASES[o.case][2], o.layers, o.across, o.dim, o.kernel, o.h, o.words, o.variable, o.gap, o.jitter)
-    print(f"{o.case}, {o.kernel} {o.h}, h {'variable' if o.variable else 'constant'}, {o.words}: {out['particles']} particles, {out['steps']} steps, "
-          f"{out['seconds']:.1f} core-seconds, energy {out['drift']:.1e}, momentum {out['momentum']:.1e}; errors in %")
+    o = vars(a.parse_args())
+    exe, case, profile = (o.pop(k) for k in ("lmp", "case", "profile"))
+    out = run_case(exe, case, **o)
+    print(f"{case}, {o['kernel']} {o['h']}, h {'variable' if o['variable'] else 'constant'}, {o['words']}: {name(out)}; errors in %")
     print(lines(out))
-    if o.profile:
+    if profile:
         for side in ("flyer", "target"):
             rows, want = out[side]["layers"], out[side]["exact"][-1]
             print(side)
-            for k in range(o.layers):
+            for k in range(o["n"]):
                 print(f"{k:4d}" + "".join(f"{rows[f][k] / getattr(want, f):10.5f}" for f in FIELDS))
