@@ -9,7 +9,8 @@ free behind and have a gap of one spacing at the start.
 
 Windows are the same for all cases: the plateau is 25 to 75 % of the layers that the plastic shock has passed, counted from the contact;
 the contact is the 3 layers nearest to it, near the 16 after these. Fronts are fits of error functions to u at two times, the last and half of
-it; a run ends when the faster of the two first waves is through 90 % of its plate.
+it; a run ends when the faster of the two first waves is through 90 % of its plate. number is the density that the places of the particles
+make, the mean over the plateau: where rho differs from it, the two drift apart.
 
 Case piston: plates that hang together and have no gap, the hypoelastic piston of verify/test_solids.py (cm, g, us, Mbar).
 """
@@ -105,7 +106,7 @@ write_dump all custom f.{part} id type x y z vx vy vz c_R c_S[*] modify time yes
     frames = [read_frames(folder / f"f.{part}")[0] for part in (0.5, 1.0)]
     if dim == 1:
         grid[:, 1:] = 0
-    out = measure(frames, grid[:, 0], n, exact, speed)
+    out = measure(frames, grid[:, 0], n, dx, exact, speed)
     table, out["seconds"], out["steps"] = read_log(r.log)
     out.update(particles=k, drift=np.abs(table[:, 6] - 1).max(), momentum=np.abs(table[:, 7:10] - table[0, 7:10]).max() / (s.m @ s.v[:, 0]))
     return out
@@ -125,37 +126,42 @@ def fronts(x, u, waves):
     return least_squares(lambda q: model(q) - u, start, x_scale=wide / 5, xtol=1e-12, ftol=1e-12).x[::2]
 
 
-def measure(frames, column, n, exact, speed):
+def measure(frames, column, n, spacing, exact, speed):
     """by side (flyer, target): relative errors on the plateau and at the contact, scatter on the plateau, errors of the speeds"""
     out = {}
     for name, k, waves, sign, ours in (("flyer", 0, exact[0], -1, column < n), ("target", 1, exact[1], 1, column >= n)):
         layer = (n - 1 - column if k == 0 else column - n)[ours]  # from the contact
-        want = waves[-1]
+        want, rest = waves[-1], waves[0].m / waves[0].D
         wish = dict(sigma=want.sigma, rho=want.rho, u=want.u, e=want.e)
 
         def fields(f):  # in the frame of the material at rest, x and u towards it
             u = f["v"][ours, 0] if k else speed - f["v"][ours, 0]
-            return dict(x=sign * (f["x"][ours, 0] - (0 if k else speed * f["time"])), u=u, sigma=-f["sxx"][ours] if "sxx" in f else f["p"][ours], rho=f["rho"][ours], e=f["e"][ours])
+            sigma = -f["sxx"] if "sxx" in f else f["p"]
+            x = f["x"][ours, 0] - (0 if k else speed * f["time"])
+            return dict(x=sign * x, u=u, sigma=sigma[ours], rho=f["rho"][ours], e=f["e"][ours])
 
         rows = [{f: np.bincount(layer, q) / np.bincount(layer) for f, q in fields(f).items()} for f in frames]
         on = slice(CONTACT, int(0.97 * n))  # not the contact, not the rear face
         place = [fronts(q["x"][on], q["u"][on] / want.u, waves) for q in rows]
         speeds = (place[1] - place[0]) / (frames[1]["time"] - frames[0]["time"])
         passed = np.interp(place[1][-1], rows[1]["x"], np.arange(n))
+        a, b = np.ceil(0.25 * passed), np.floor(0.75 * passed)
+        near, far = np.interp((a, b), np.arange(n), rows[1]["x"])
+        number = (b - a) * spacing / (far - near) * rest / want.rho
         last = fields(frames[1])
-        parts = dict(plateau=(layer >= 0.25 * passed) & (layer <= 0.75 * passed), near=(layer >= CONTACT) & (layer < NEAR), contact=layer < CONTACT)
+        parts = dict(plateau=(layer >= a) & (layer <= b), near=(layer >= CONTACT) & (layer < NEAR), contact=layer < CONTACT)
         out[name] = {part: {f: last[f][k].mean() / wish[f] - 1 for f in FIELDS} for part, k in parts.items()}
         out[name].update(scatter={f: last[f][parts["plateau"]].std() / wish[f] for f in FIELDS}, Us=speeds[-1] / want.D - 1,
-                         precursor=speeds[0] / waves[0].D - 1 if len(waves) > 1 else np.nan, passed=passed, layers=rows[1], exact=waves)
+                         precursor=speeds[0] / waves[0].D - 1 if len(waves) > 1 else np.nan, number=number - 1, layers=rows[1], exact=waves)
     return out
 
 
 def lines(out):
     """side, part, errors in percent"""
-    text = f"{'side':8}{'part':8}" + "".join(f"{k:>10}" for k in ("sigma_x", *FIELDS[1:], "Us", "precursor"))
+    text = f"{'side':8}{'part':8}" + "".join(f"{k:>10}" for k in ("sigma_x", *FIELDS[1:], "number", "Us", "precursor"))
     for side in ("flyer", "target"):
         for part in ("plateau", "scatter", "near", "contact"):
-            speeds = [out[side][k] for k in ("Us", "precursor")] if part == "plateau" else []
+            speeds = [out[side][k] for k in ("number", "Us", "precursor")] if part == "plateau" else []
             text += f"\n{side:8}{part:8}" + "".join(f"{100 * v:10.3f}" for v in [*out[side][part].values(), *speeds] if np.isfinite(v))
     return text
 

@@ -17,7 +17,7 @@ from state_scenes import CASES, run_case  # noqa: E402
 
 KERNELS = [("wendland2", 1.6, False), ("wendland2", 1.6, True), ("cubic", 1.2, False), ("cubic", 1.2, True)]
 UNEVEN = dict(n=96, across=5, jitter=0.05)  # disorder in the lattice, which columns of one particle cannot have
-HEAD = ["case", "kernel", "h", "side", "sigma_x", "rho", "u", "e", "Us", "precursor", "scatter sigma_x", "near sigma_x", "near rho", "contact sigma_x",
+HEAD = ["case", "kernel", "h", "side", "sigma_x", "rho", "u", "e", "number", "Us", "precursor", "scatter sigma_x", "near sigma_x", "near rho", "contact sigma_x",
         "contact rho", "contact e", "seconds"]
 
 
@@ -27,7 +27,7 @@ def rows(exe, case, kernel, h, variable, **how):
     one = CASES[case][0] == CASES[case][1] and "jitter" not in how  # symmetric: both sides are the same
     for side in ("target",) if one else ("flyer", "target"):
         q = out[side]
-        errors = [*q["plateau"].values(), q["Us"], q["precursor"], q["scatter"]["sigma"], q["near"]["sigma"], q["near"]["rho"],
+        errors = [*q["plateau"].values(), q["number"], q["Us"], q["precursor"], q["scatter"]["sigma"], q["near"]["sigma"], q["near"]["rho"],
                   *(q["contact"][f] for f in ("sigma", "rho", "e"))]
         yield [case + (", uneven" if "jitter" in how else ""), f"{kernel} {h}", "variable" if variable else "constant", "both" if one else side,
                *("" if e != e else f"{100 * e:.3f}" for e in errors), f"{out['seconds']:.1f}"]
@@ -35,7 +35,7 @@ def rows(exe, case, kernel, h, variable, **how):
 
 def worst(table):
     """of all rows with even plates, the largest error of each column on the plateau"""
-    k = [HEAD.index(c) for c in ("sigma_x", "rho", "u", "e", "Us", "precursor")]
+    k = [HEAD.index(c) for c in ("sigma_x", "rho", "u", "e", "number", "Us", "precursor")]
     even = [r for r in table if "uneven" not in r[0]]
     return ", ".join(f"{HEAD[c]} {max(abs(float(r[c] or 0)) for r in even):.3f}" for c in k)
 

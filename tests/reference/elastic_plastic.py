@@ -87,7 +87,9 @@ def to_speed(solid, ahead, u):
     while 0.5 * solid.gamma(top) * solid.rho0 * (1 / ahead.rho - 1 / top) >= 1:
         top = ahead.rho + 0.99 * (top - ahead.rho)
     hi = ahead.rho + np.array([1e-6, 1e-3, 1e-2, *np.linspace(0.02, 0.999, 200)]) * (top - ahead.rho)
-    hi = next(r for r in hi if behind(solid, ahead, r).u > u)
+    hi = next((r for r in hi if behind(solid, ahead, r).u > u), None)
+    if hi is None:
+        raise ValueError(f"Grueneisen's law with this Hugoniot has no shock to {u}")
     rho = brentq(lambda r: behind(solid, ahead, r).u - u, ahead.rho * (1 + 1e-13), hi, xtol=1e-15 * ahead.rho, rtol=1e-15)
     return behind(solid, ahead, rho)
 
