@@ -18,8 +18,8 @@ from state_scenes import CASES, run_case  # noqa: E402
 KERNELS = [("wendland2", 1.6, False), ("wendland2", 1.6, True), ("cubic", 1.2, False), ("cubic", 1.2, True)]
 UNEVEN = dict(n=96, across=5, jitter=0.05)  # disorder in the lattice, which columns of one particle cannot have
 BOUND, PISTON_BOUND = dict(sigma_x=0.3, rho=0.3, u=0.3, Us=0.3), dict(sigma_x=0.3, rho=0.3, u=0.3, Us=0.5, precursor=0.5)  # %
-HEAD = ["case", "kernel", "h", "side", "sigma_x", "rho", "u", "e", "number", "Us", "precursor", "scatter sigma_x", "near sigma_x", "near rho", "contact sigma_x",
-        "contact rho", "contact e", "seconds"]
+HEAD = ["case", "kernel", "h", "side", "sigma_x", "rho", "u", "e", "number", "Us", "precursor", "scatter sigma_x",
+        "near sigma_x", "near rho", "contact sigma_x", "contact rho", "contact e", "seconds"]
 
 
 def rows(exe, case, kernel, h, variable, **how):
