@@ -5,6 +5,7 @@ fronts.py  the same problems by event-driven front tracking: exact but for the s
 sph1d.py   one-dimensional SPH, form "sum", with interface density dissipation: the equations as published
 gas.py     shocks in an ideal gas: Riemann problems, Noh, Sedov, blasts between walls
 impedance.py  plates that meet, sound at a step of impedance
+elastic_plastic.py  plates of elastic, perfectly plastic solids that meet
 measures.py  errors of particle runs against these
 rule.py    how rules for the dissipation do on random layers
 """
