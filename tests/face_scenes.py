@@ -145,3 +145,178 @@ def bending(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=
     a, w, g, off = ring(t, v, w0)
     return dict(head(dict(layers=layers), words, kernel, h, s, steps, seconds), frequency=w / w0, lattice=np.sqrt(1 - 1 / layers**2),
                 loss=1 - np.exp(-2 * np.pi * g / w), misfit=off, drift=books(r)["drift"])
+
+
+def wave(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, length=300, wide=15.0):
+    """a pulse runs along a wall from its free end: speed of the middle of its momentum, which dispersion leaves alone, and of its front, at half of
+    its height; between 0.3 and 0.7 of the length"""
+    s, x = wall(length, layers, h, ends=False)
+    A = 1e-4 * CL
+    s.v[:, 0] = A * np.exp(-0.5 * (x[:, 0] / wide) ** 2)
+    if layers:
+        s.v[:, 2] = NU / (1 - NU) * x[:, 2] * x[:, 0] / wide**2 * s.v[:, 0]
+    c = CP if layers else CL
+    r, steps, seconds = go(lmp, folder, s, words, kernel, h, 0.8 * length / c, 40, "p")
+    t = np.array([f["time"] for f in r.frames])
+    columns = np.array([f["v"][:, 0].reshape(length, -1).mean(1) for f in r.frames])
+    place = x[:, 0].reshape(length, -1)[:, 0]
+    middle = columns @ place / columns.sum(1)
+    front = np.array([(crossings(place, u, 0.5 * u.max()) if u.max() > 0 else [np.nan])[-1] for u in columns])
+    tail = 0.5 * (front.max() - 6 * wide)
+
+    def speed(y):
+        k = (y > 0.3 * length) & (y < 0.7 * length)
+        return np.polyfit(t[k], y[k], 1)[0] / c if k.sum() > 4 else np.nan
+
+    return dict(head(dict(layers=layers), words, kernel, h, s, steps, seconds), speed=speed(middle), front=speed(front),
+                height=columns[-1].max() / columns[0].max(), noise=np.abs(columns[-1][place < tail]).max() / A, **books(r))
+
+
+def block(counts, apart=0.0):
+    """particles of a block around the origin"""
+    x = np.stack(np.meshgrid(*[np.arange(n) + 0.5 * (1 - n) for n in counts], indexing="ij"), -1).reshape(-1, len(counts))
+    return np.pad(x, ((0, 0), (0, 3 - len(counts))))
+
+
+def spinning(lmp, folder, n, words="viscosity 0.1 0", kernel="wendland2", h=1.6, dim=2, speed=0.05, turns=10.0):
+    """a square of n by n particles (dim 3: a cube) is set spinning, its corners at a part of the longitudinal speed of sound
+
+    Angular momentum, kinetic energy and the angle at the end, in units of those of a rigid body; the worst place, less the best rotation, on the
+    way and at the end, in spacings. (Spin stretches it, by rho v^2/E, and the start is sudden: it pulses.)
+    """
+    d = block([n] * dim)
+    k = len(d)
+    R = 0.5 * (n - 1) * np.sqrt(2)
+    w = speed * CL / R
+    box = np.full(3, 3.0 * n)
+    if dim == 2:
+        box[2] = 1.0
+    s = Fluid(d + 0.5 * box * [1, 1, dim == 3], np.cross([0, 0, w], d), np.full(k, RHO), np.zeros(k), np.ones(k, int), {1: RHO}, {1: h}, box,
+              (False, False, dim == 2), dim)
+    t_end = turns * 2 * np.pi / w
+    r, steps, seconds = go(lmp, folder, s, words, kernel, h, t_end, 100, "s", skin=0.3, lost="ignore")
+    J, kinetic, shape, angle = [], [], [], [0.0]
+    for f in r.frames:
+        if len(f["x"]) < k:
+            J.append(np.nan)
+            break
+        x, v = f["x"] - f["x"].mean(0), f["v"]
+        J.append(np.cross(x, v)[:, 2].sum())
+        kinetic.append((v**2).sum())
+        c, q = (x[:, :2] * d[:, :2]).sum(), (x[:, 1] * d[:, 0] - x[:, 0] * d[:, 1]).sum()
+        a = np.arctan2(q, c)
+        angle.append(angle[-1] + (a - angle[-1] + np.pi) % (2 * np.pi) - np.pi)
+        turned = np.stack([np.cos(a) * d[:, 0] - np.sin(a) * d[:, 1], np.sin(a) * d[:, 0] + np.cos(a) * d[:, 1], d[:, 2]], 1)
+        shape.append(np.sqrt(((x - turned) ** 2).sum(1).max()))
+    J, kinetic = np.array(J) / J[0], np.array(kinetic) / kinetic[0]
+    return dict(head(dict(across=n), words, kernel, h, s, steps, seconds), dim=dim, spin=J[-1], worst=np.abs(J - 1).max(), kinetic=kinetic[-1],
+                turned=angle[-1] / (2 * np.pi * turns), shape=max(shape), shape_end=shape[-1], **books(r))
+
+
+def spinning_cube(lmp, folder, n, words="viscosity 0.1 0", kernel="wendland2", h=1.6, **more):
+    return spinning(lmp, folder, n, words, kernel, h, dim=3, **more)
+
+
+def mirror_face(lmp, folder, n, words="viscosity 0.1 0", kernel="wendland2", h=1.6, length=40):
+    """a bar of n by n particles, free all around, with pulses from both ends that meet in its middle; and an eighth of it with three mirrors:
+    largest difference of velocity and of stress, in units of those of the pulse, at all times"""
+    A, t_end = 1e-4 * CL, 2 * length / CL
+    out, steps, seconds = [], 0, 0.0
+    for eighth in (False, True):
+        x = block([length, n, n])
+        if eighth:
+            x = x[(x > 0).all(1)]
+        k = len(x)
+        box = np.array([length, n, n]) + 8.0
+        low = 0.0 if eighth else 0.5 * box
+        s = Fluid(x + low, np.zeros((k, 3)), np.full(k, RHO), np.zeros(k), np.ones(k, int), {1: RHO}, {1: h}, box, (False,) * 3)
+        s.v[:, 0] = -A * np.sign(x[:, 0]) * np.exp(-0.5 * ((np.abs(x[:, 0]) - 0.5 * length) / 5) ** 2)
+        mirrors = " ".join(f"mirror {a} 0 lo" for a in "xyz") if eighth else ""
+        r, more, sec = go(lmp, folder, s, f"{words} {mirrors}", kernel, h, t_end, 20, "m", skin=0.3)
+        out.append((x, r))
+        steps, seconds = steps + more, seconds + sec
+    (x, whole), (_, part) = out
+    here = (x > 0).all(1)
+    v = max(np.abs(a["v"][here] - b["v"]).max() for a, b in zip(whole.frames, part.frames)) / A
+    sigma = max(np.abs(a[c][here] - b[c]).max() for a, b in zip(whole.frames, part.frames) for c in ("sxx", "syy", "szz", "sxy")) / (RHO * CL * A)
+    size = max(np.abs(f["v"]).max() for f in whole.frames) / A
+    return dict(head(dict(across=n), words, kernel, h, s, steps, seconds), velocity=v, stress=sigma, largest=size, **books(part))
+
+
+def contact(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, length=300, wide=10.0):
+    """a pulse of pressure along a wall (layers 0: bulk) meets a contact of two bodies, against the same wall in one piece
+
+    Behind it: its momentum and height in units of those without contact, and by how many spacings it is late; before it what came back, and how
+    much neighbors differ there, as parts of the height.
+    """
+    s, x = wall(length, layers, h, ends=False)
+    s.type = np.where(x[:, 0] < 0.5 * length, 1, 2)
+    s.mass, s.h = {1: RHO, 2: RHO}, {1: h, 2: h}
+    shape = np.exp(-0.5 * ((x[:, 0] - 0.3 * length) / wide) ** 2)
+    A, c, out = 1e-4 * CL, CP if layers else CL, []
+    s.v[:, 0] = A * shape
+    if layers:
+        s.v[:, 2] = NU / (1 - NU) * x[:, 2] * (x[:, 0] - 0.3 * length) / wide**2 * s.v[:, 0]
+    for joined in (True, False):
+        r, steps, seconds = go(lmp, folder, s, words, kernel, h, 0.4 * length / c, 10, "c", pair="pair_coeff 1 2 tension yes\n" if joined else "")
+        out.append((r.frames[-1]["v"][:, 0].reshape(length, -1).mean(1), books(r), seconds))
+    (u1, _, first), (u, book, seconds) = out
+    X = x[:, 0].reshape(length, -1)[:, 0]
+    behind, near = X > 0.5 * length, (X > 0.2 * length) & (X < 0.5 * length)
+
+    def middle(a):
+        return (X * a)[behind].sum() / a[behind].sum()
+
+    top = u1[behind].max()
+    return dict(head(dict(layers=layers), words, kernel, h, s, 2 * steps, first + seconds), passed=u[behind].sum() / u1[behind].sum(),
+                height=u[behind].max() / top, late=middle(u1) - middle(u), back=np.abs(u - u1)[near].max() / top,
+                noise=np.abs(np.diff((u - u1)[near])).max() / top, **book)
+
+
+def verney_cylinder(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="cubic", stop=4.0, t_end=150.0):
+    """Verney's shell as a cylinder: beryllium (cm, g, us, Mbar), from 8 to 10, plane strain, stops at the inner radius 4
+
+    Incompressible: v = u r/x at the radius x, r the inner one, R^2 - r^2 stays; D = diag(-1, 1) v/x in the plane, D_zz = 0, so that the rate of
+    plastic strain is sqrt(2/3 D:D) = 2/sqrt(3) v/x. Per length: kinetic energy pi rho u^2 r^2 ln(R/r), plastic work in dt = dr/u the integral
+    of Y 2/sqrt(3) u r/x^2 2 pi x dx, which is 4 pi/sqrt(3) Y r ln(R/r) dr. Monaghan's linear viscosity is nu = a c h/8 in two dimensions,
+    half of it where one half of the pairs approach: 2 rho nu D:D = 4 rho nu v^2/x^2, 4 pi rho nu u r^2 (1/r^2 - 1/R^2) dr.
+    """
+    rho, Y = 1.845, 0.0033
+    u0 = np.sqrt(plastic(stop) * Y / (rho * np.pi * 64 * np.log(10 / 8)))
+    path = material(folder / "Be.hvi", "eos gruneisen rho0 1.845 C 0.7998 S1 1.124 g0 1.11 a 0.16 T0 300", "strength perfect G 1.510 Y 0.0033")
+    k = int(np.ceil(10 / dx))
+    x = dx * block([2 * k] * 2)
+    r0 = np.sqrt((x**2).sum(1))
+    x, r0 = x[(r0 > 8) & (r0 < 10)], r0[(r0 > 8) & (r0 < 10)]
+    n = len(x)
+    s = Fluid(x + [12, 12, 0], -u0 * 8 / r0[:, None] ** 2 * x, np.full(n, rho), np.zeros(n), np.ones(n, int), {1: rho * dx**2}, {1: h * dx},
+              np.array([24.0, 24.0, 20 * dx]), (False, False, True), 2)
+    steps = int(t_end / (COURANT * h * dx / 1.35))
+    pair = f"pair_style hvi/sph {kernel} dim 2 form sum {words} h constant\npair_coeff 1 1 file {path} h {h * dx}\n"
+    start = time.time()
+    r = run(lmp, folder, s, pair, JC, steps, dt=t_end / steps, frames=max(1, steps // 50), lost="ignore")
+    inner = np.array([np.median(np.sqrt(np.maximum(64 + ((f["x"] - [12, 12, 0]) ** 2).sum(1) - r0**2, 0))) if len(f["x"]) == n else np.inf for f in r.frames])
+    k = int(np.argmin(inner))
+    kinetic = r.thermo["c_book[1]"]
+    nu = 0.5 * float((words.split("viscosity")[1:] or ["1"])[0].split()[0]) * 1.316 * h * dx / 8
+    return dict(spacing=dx, kernel=kernel, h=h, words=words, particles=n, steps=steps, seconds=time.time() - start, inner=inner[k],
+                stops_at=r.frames[k]["time"], kinetic=kinetic.min() / kinetic[0], strength=plastic(stop) / plastic(inner[k]),
+                viscous=cylinder_stop(u0, nu, rho, Y), **books(r))
+
+
+def plastic(r):
+    """plastic work per length and yield stress, of a cylinder that goes from the inner radius 8 to r"""
+    x = np.linspace(r, 8, 4001)
+    return 4 * np.pi / np.sqrt(3) * np.trapz(x * 0.5 * np.log1p(36 / x**2), x)
+
+
+def cylinder_stop(u, nu, rho, Y, r=8.0, R=10.0, dr=1e-3):
+    """where it stops with a kinematic viscosity"""
+    area = R**2 - r**2
+    energy = np.pi * rho * u * u * r * r * np.log(R / r)
+    while energy > 0 and r > dr:
+        R = np.sqrt(r**2 + area)
+        u = np.sqrt(energy / (np.pi * rho * r * r * np.log(R / r)))
+        energy -= dr * (4 * np.pi / np.sqrt(3) * Y * r * np.log(R / r) + 4 * np.pi * rho * nu * u * r * r * (1 / r**2 - 1 / R**2))
+        r -= dr
+    return r
