@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 from scipy.optimize import brentq, least_squares
-from solid_runs import consistency, crossings, material, momentum_error, run
+from solid_runs import crossings, material, momentum_error, run
 from sph_scenes import Fluid
 
 RHO, K, G = 1.0, 16.0, 6.0  # E = 16, nu = 1/3
@@ -273,7 +273,7 @@ def contact(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=
                 noise=np.abs(np.diff((u - u1)[near])).max() / top, **book)
 
 
-def verney_cylinder(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="cubic", stop=4.0, t_end=150.0):
+def verney_cylinder(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="cubic", stop=4.0, t_end=170.0):
     """Verney's shell as a cylinder: beryllium (cm, g, us, Mbar), from 8 to 10, plane strain, stops at the inner radius 4
 
     Incompressible: v = u r/x at the radius x, r the inner one, R^2 - r^2 stays; D = diag(-1, 1) v/x in the plane, D_zz = 0, so that the rate of
