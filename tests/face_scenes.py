@@ -61,16 +61,26 @@ def ring(t, y, guess):
 # scenes
 
 
-def wall(length, layers, h, width=1, ends=True, margin=4.0):
+def wall(length, layers, h, width=1, ends=True, margin=4.0, turned=False):
     """particles of a wall, middle of the thickness at z = 0 (the box is not); ends: periodic along x; layers 0: no faces, 4 particles across a
-    periodic box"""
+    periodic box; turned: the lattice by atan(1/2) about y, so that faces are stairs, as at the rim of a crater (thickness and length nearly those)"""
     nz = layers or 4
-    x = np.stack(np.meshgrid(np.arange(length), np.arange(width), np.arange(nz), indexing="ij"), -1).reshape(-1, 3) + 0.5
+    if turned:
+        a = np.sqrt(5)
+        nz, length = round(nz * a) / a, round(length / a) * a
+        x = lattice(round(length / a), 1, round(nz * a)) * [a, 1, 1 / a]
+        x[:, 0] -= 0.5 * a - (-2 * np.floor(x[:, 2] * a) % 5 + 0.5) / a
+    else:
+        x = lattice(length, width, nz)
     shift = np.array([0.0 if ends else margin, 0.0, margin if layers else 0.0])
     n = len(x)
     s = Fluid(x + shift, np.zeros((n, 3)), np.full(n, RHO), np.zeros(n), np.ones(n, int), {1: RHO}, {1: h},
               np.array([length, width, nz]) + 2 * shift, (ends, True, not layers))
     return s, x - [0, 0, 0.5 * nz]
+
+
+def lattice(*counts):
+    return np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), -1).reshape(-1, len(counts)) + 0.5
 
 
 def go(lmp, folder, s, words, kernel, h, t_end, frames, name, pair="", **how):
@@ -92,19 +102,19 @@ def books(r):
     return dict(drift=np.abs(r.thermo["c_book[9]"] - 1).max(), momentum=max(momentum_error(r.thermo)))
 
 
-def standing(lmp, folder, layers, words, kernel, h, length, shear, amplitude=1e-4, width=1, name="w"):
+def standing(lmp, folder, layers, words, kernel, h, length, shear, amplitude=1e-4, width=1, turned=False, name="w"):
     """a standing wave in the plane of a wall, v = A sin(k x) along x, or y for shear, a period of it
 
     Momentum, rho dv/dt = b d(sigma)/dx, and the law, d(sigma)/dt = l M dv/dx with the modulus M of theory: b is the part of their stress that
-    the particles bear, l that of the stress they should have; w^2 = b l w_0^2.
+    the particles bear, l that of the stress they should have; w^2 = b l w_0^2. noise: rms of what stress differs from the wave, where it is largest.
     """
-    s, x = wall(length, layers, h, width)
-    k = 2 * np.pi / length
+    s, x = wall(length, layers, h, width, turned=turned)
+    k = 2 * np.pi / s.box[0]
     if shear:
         w0, modulus = CT * k, G
         s.v[:, 1] = amplitude * CT * np.sin(k * x[:, 0])
     else:
-        w0 = lamb(k, layers, False) if layers else CL * k
+        w0 = lamb(k, len(x) / (s.box[0] * width), False) if layers else CL * k
         modulus = RHO * (w0 / k) ** 2
         s.v[:, 0] = amplitude * CL * np.sin(k * x[:, 0])
         if layers:  # it gets thinner as it is stretched
@@ -116,17 +126,24 @@ def standing(lmp, folder, layers, words, kernel, h, length, shear, amplitude=1e-
     a, w, g, off = ring(t, v, w0)
     sa, sw, sg, _ = ring(t, stress, w0)
     borne = RHO * abs(complex(-g, w)) * abs(a) / (k * abs(sa))
+    top = np.argmax(np.abs(stress))
+    noise = np.sqrt(2 * ((r.frames[top]["sxy" if shear else "sxx"] - stress[top] * np.cos(k * x[:, 0])) ** 2).mean()) / abs(stress[top])
     return r, s, steps, seconds, dict(borne=borne, law=abs(complex(-sg, sw)) * abs(sa) / (modulus * k * abs(a)), stiffness=(w / w0) ** 2,
-                                      speed=w / w0, loss=1 - np.exp(-2 * np.pi * g / w), misfit=off)
+                                      speed=w / w0, loss=1 - np.exp(-2 * np.pi * g / w), noise=noise, misfit=off)
 
 
-def borne(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, length=200, width=1):
+def borne(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, length=200, width=1, turned=False):
     """a wall of so many layers, 0: bulk, with a long standing wave in its plane: the part of stress that is borne, the law's part of stress,
     and what they give together, as a factor of stiffness and of speed; the last two for shear, too"""
-    r, s, steps, seconds, o = standing(lmp, folder, layers, words, kernel, h, length, False, width=width)
-    q, _, more, time_, p = standing(lmp, folder, layers, words, kernel, h, length, True, width=width)
+    r, s, steps, seconds, o = standing(lmp, folder, layers, words, kernel, h, length, False, width=width, turned=turned)
+    q, _, more, time_, p = standing(lmp, folder, layers, words, kernel, h, length, True, width=width, turned=turned)
     return dict(head(dict(layers=layers), words, kernel, h, s, steps + more, seconds + time_), **o, shear_borne=p["borne"], shear_law=p["law"],
-                shear_speed=p["speed"], shear_misfit=p["misfit"], drift=max(books(r)["drift"], books(q)["drift"]))
+                shear_speed=p["speed"], shear_noise=p["noise"], shear_misfit=p["misfit"], drift=max(books(r)["drift"], books(q)["drift"]))
+
+
+def stairs(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, **more):
+    """the same for a wall out of a lattice that is turned: its faces are stairs"""
+    return borne(lmp, folder, layers, words, kernel, h, turned=True, **more)
 
 
 def bending(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, slender=20, width=1):
@@ -174,8 +191,7 @@ def wave(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6
 
 def block(counts, apart=0.0):
     """particles of a block around the origin"""
-    x = np.stack(np.meshgrid(*[np.arange(n) + 0.5 * (1 - n) for n in counts], indexing="ij"), -1).reshape(-1, len(counts))
-    return np.pad(x, ((0, 0), (0, 3 - len(counts))))
+    return np.pad(lattice(*counts) - 0.5 * np.array(counts), ((0, 0), (0, 3 - len(counts))))
 
 
 def spinning(lmp, folder, n, words="viscosity 0.1 0", kernel="wendland2", h=1.6, dim=2, speed=0.05, turns=10.0):
@@ -298,10 +314,10 @@ def verney_cylinder(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="c
     inner = np.array([np.median(np.sqrt(np.maximum(64 + ((f["x"] - [12, 12, 0]) ** 2).sum(1) - r0**2, 0))) if len(f["x"]) == n else np.inf for f in r.frames])
     k = int(np.argmin(inner))
     kinetic = r.thermo["c_book[1]"]
-    nu = 0.5 * float((words.split("viscosity")[1:] or ["1"])[0].split()[0]) * 1.316 * h * dx / 8
+    a = 0.0 if "riemann" in words else float((words.split("viscosity")[1:] or ["1"])[0].split()[0])
     return dict(spacing=dx, kernel=kernel, h=h, words=words, particles=n, steps=steps, seconds=time.time() - start, inner=inner[k],
                 stops_at=r.frames[k]["time"], kinetic=kinetic.min() / kinetic[0], strength=plastic(stop) / plastic(inner[k]),
-                viscous=cylinder_stop(u0, nu, rho, Y), **books(r))
+                viscous=cylinder_stop(u0, 0.5 * a * 1.316 * h * dx / 8, rho, Y), **books(r))
 
 
 def plastic(r):
