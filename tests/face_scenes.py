@@ -83,14 +83,14 @@ def lattice(*counts):
     return np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), -1).reshape(-1, len(counts)) + 0.5
 
 
-def go(lmp, folder, s, words, kernel, h, t_end, frames, name, pair="", **how):
+def go(lmp, folder, s, words, kernel, h, t_end, frames, name, pair="", jc=JC, **how):
     """runs to t_end; about so many frames. Result, steps, seconds"""
     path = material(folder / "elastic.hvi", *ELASTIC)
     every = int(np.ceil(t_end / frames / (COURANT * h / CL)))
     steps = every * frames
     text = f"pair_style hvi/sph {kernel} dim {s.dim} form sum {words} h constant\npair_coeff * * file {path} h {h:.17g}\n{pair}"
     start = time.time()
-    r = run(lmp, folder, s, text, JC, steps, dt=t_end / steps, frames=every, name=name, skin=how.pop("skin", 0.1), **how)
+    r = run(lmp, folder, s, text, jc, steps, dt=t_end / steps, frames=every, name=name, skin=how.pop("skin", 0.1), **how)
     return r, steps, time.time() - start
 
 
@@ -102,32 +102,41 @@ def books(r):
     return dict(drift=np.abs(r.thermo["c_book[9]"] - 1).max(), momentum=max(momentum_error(r.thermo)))
 
 
-def standing(lmp, folder, layers, words, kernel, h, length, shear, amplitude=1e-4, width=1, turned=False, name="w"):
+def standing(lmp, folder, layers, words, kernel, h, length, shear, amplitude=1e-4, width=1, turned=False, rubble=0, name="w"):
     """a standing wave in the plane of a wall, v = A sin(k x) along x, or y for shear, a period of it
 
     Momentum, rho dv/dt = b d(sigma)/dx, and the law, d(sigma)/dt = l M dv/dx with the modulus M of theory: b is the part of their stress that
     the particles bear, l that of the stress they should have; w^2 = b l w_0^2. noise: rms of what stress differs from the wave, where it is largest.
     """
-    s, x = wall(length, layers, h, width, turned=turned)
-    k = 2 * np.pi / s.box[0]
+    s, x = wall(length, layers + 2 * rubble, h, width, turned=turned)
+    k, pair, jc = 2 * np.pi / s.box[0], "", JC
+    sound = (np.abs(x[:, 2]) < 0.5 * layers) | (rubble == 0)
+    if rubble:
+        s.type, s.mass, s.h, jc = np.where(sound, 1, 2), {1: RHO, 2: RHO}, {1: h, 2: h}, "strength perfect damage yes spall none"
+        for name_, Y, eps in (("sound", 1e3, 1e3), ("rubble", 1e-15, 1e-15)):
+            material(folder / f"{name_}.hvi", ELASTIC[0], f"strength perfect G 6 Y {Y}",
+                     f"damage johnson-cook D1 {eps} D2 0 D3 0 D4 0 D5 0 epsdot0 1")
+        pair = f"pair_coeff 1 1 file {folder}/sound.hvi h {h:.17g}\npair_coeff 2 2 file {folder}/rubble.hvi h {h:.17g}\npair_coeff 1 2 tension yes\n"
     if shear:
         w0, modulus = CT * k, G
         s.v[:, 1] = amplitude * CT * np.sin(k * x[:, 0])
     else:
-        w0 = lamb(k, len(x) / (s.box[0] * width), False) if layers else CL * k
+        w0 = lamb(k, sound.sum() / (s.box[0] * width), False) if layers else CL * k
         modulus = RHO * (w0 / k) ** 2
         s.v[:, 0] = amplitude * CL * np.sin(k * x[:, 0])
         if layers:  # it gets thinner as it is stretched
             s.v[:, 2] = -NU / (1 - NU) * amplitude * CL * k * x[:, 2] * np.cos(k * x[:, 0])
-    r, steps, seconds = go(lmp, folder, s, words, kernel, h, 2 * np.pi / w0, 50, name)
-    t = np.array([f["time"] for f in r.frames])
-    v = 2 * np.array([f["v"][:, int(shear)] @ np.sin(k * x[:, 0]) for f in r.frames]) / len(x)
-    stress = 2 * np.array([f["sxy" if shear else "sxx"] @ np.cos(k * x[:, 0]) for f in r.frames]) / len(x)
+    s.v[~sound] = 0.0
+    r, steps, seconds = go(lmp, folder, s, words, kernel, h, 2 * np.pi / w0, 50, name, pair, jc)
+    t, x = np.array([f["time"] for f in r.frames]), x[sound]
+    v = 2 * np.array([f["v"][sound, int(shear)] @ np.sin(k * x[:, 0]) for f in r.frames]) / len(x)
+    sigma = np.array([f["sxy" if shear else "sxx"][sound] for f in r.frames])
+    stress = 2 * sigma @ np.cos(k * x[:, 0]) / len(x)
     a, w, g, off = ring(t, v, w0)
     sa, sw, sg, _ = ring(t, stress, w0)
     borne = RHO * abs(complex(-g, w)) * abs(a) / (k * abs(sa))
     top = np.argmax(np.abs(stress))
-    noise = np.sqrt(2 * ((r.frames[top]["sxy" if shear else "sxx"] - stress[top] * np.cos(k * x[:, 0])) ** 2).mean()) / abs(stress[top])
+    noise = np.sqrt(2 * ((sigma[top] - stress[top] * np.cos(k * x[:, 0])) ** 2).mean()) / abs(stress[top])
     return r, s, steps, seconds, dict(borne=borne, law=abs(complex(-sg, sw)) * abs(sa) / (modulus * k * abs(a)), stiffness=(w / w0) ** 2,
                                       speed=w / w0, loss=1 - np.exp(-2 * np.pi * g / w), noise=noise, misfit=off)
 
@@ -139,6 +148,16 @@ def borne(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.
     q, _, more, time_, p = standing(lmp, folder, layers, words, kernel, h, length, True, width=width, turned=turned)
     return dict(head(dict(layers=layers), words, kernel, h, s, steps + more, seconds + time_), **o, shear_borne=p["borne"], shear_law=p["law"],
                 shear_speed=p["speed"], shear_noise=p["noise"], shear_misfit=p["misfit"], drift=max(books(r)["drift"], books(q)["drift"]))
+
+
+def rubble(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, length=200, failed=2):
+    """the same for the sound layers between others that have failed, at rest: they bear neither tension nor shear, and are free to get out of the
+    way of pressure, so that the sound wall should swing as if it were alone; and what the failed ones have of its speed at the end"""
+    r, s, steps, seconds, o = standing(lmp, folder, layers, words, kernel, h, length, False, rubble=failed)
+    last = r.frames[-1]
+    fast = [np.sqrt((last["v"][s.type == t, 0] ** 2).mean()) for t in (1, 2)]
+    return dict(head(dict(layers=layers), words, kernel, h, s, steps, seconds), **o, dragged=fast[1] / fast[0],
+                failed=(last["damage"] >= 1)[s.type == 2].mean(), **books(r))
 
 
 def stairs(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, **more):

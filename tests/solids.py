@@ -18,7 +18,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 from conftest import Result  # noqa: E402
-from face_scenes import bending, borne, contact, mirror_face, spinning, spinning_cube, stairs, verney_cylinder, wave  # noqa: E402
+from face_scenes import bending, borne, contact, mirror_face, rubble, spinning, spinning_cube, stairs, verney_cylinder, wave  # noqa: E402
 from solid_runs import material, momentum_error, run  # noqa: E402
 from sph_scenes import Fluid  # noqa: E402
 from tensile_scenes import rings  # noqa: E402
@@ -146,6 +146,8 @@ LONG = [
     ("Standing waves in the plane of a wall: part of stress that is borne, part that the law has, stiffness and speed they give; then shear", borne,
      [(n, words) for words in GRADIENT for n in (1, 2, 4, 0)]),
     ("The same for walls whose faces are stairs, out of a lattice that is turned by atan(1/2)", stairs, [(n, words) for words in GRADIENT for n in (2, 4)]),
+    ("The same for walls between two layers of failed particles on either side, which should let them swing alone", rubble,
+     [(n, words) for words in GRADIENT for n in (2, 4)]),
     ("A pulse along a wall: speed of its middle and of its front", wave, [(n, words) for words in GRADIENT for n in (1, 2, 4, 0)]),
     ("Bending of a wall, 20 thicknesses long: frequency; sqrt(1 - 1/n^2) is that of a lattice of n layers", bending,
      [(n, words) for words in GRADIENT for n in (4, 8)]),
