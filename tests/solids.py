@@ -146,7 +146,7 @@ LONG = [
     ("Standing waves in the plane of a wall: part of stress that is borne, part that the law has, stiffness and speed they give; then shear", borne,
      [(n, words) for words in GRADIENT for n in (1, 2, 4, 0)]),
     ("The same for walls whose faces are stairs, out of a lattice that is turned by atan(1/2)", stairs, [(n, words) for words in GRADIENT for n in (2, 4)]),
-    ("The same for walls between two layers of failed particles on either side, which should let them swing alone", rubble,
+    ("Walls that swing between two layers of failed particles on either side, at rest: what differs from swinging alone, what is dragged along", rubble,
      [(n, words) for words in GRADIENT for n in (2, 4)]),
     ("A pulse along a wall: speed of its middle and of its front", wave, [(n, words) for words in GRADIENT for n in (1, 2, 4, 0)]),
     ("Bending of a wall, 20 thicknesses long: frequency; sqrt(1 - 1/n^2) is that of a lattice of n layers", bending,
