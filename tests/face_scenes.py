@@ -10,7 +10,7 @@ import time
 import numpy as np
 from scipy.optimize import brentq, least_squares
 from solid_runs import crossings, material, momentum_error, run
-from sph_scenes import Fluid
+from sph_scenes import SUPPORT, Fluid, shape
 
 RHO, K, G = 1.0, 16.0, 6.0  # E = 16, nu = 1/3
 E, NU = 9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)
@@ -56,6 +56,20 @@ def ring(t, y, guess):
     b = basis(p[0] * guess, p[1] * guess)
     a = np.linalg.lstsq(b, y, rcond=None)[0]
     return complex(*a), p[0] * guess, p[1] * guess, np.sqrt((rest(p) ** 2).mean()) / np.hypot(*a)
+
+
+def levers(kernel, h, layers):
+    """the frequency of bending by a gradient that is exact for linear fields only, forces being the adjoint, in units of the exact one
+
+    v_x = z x has the gradient z in x; the corrected sum has sum(w_ij z_j)/sum(w_ij) with w_ij = -V x_ij dW/dx: near a face that is farther
+    inside. The layers bend with these levers, and their forces have them again.
+    """
+    z, grid = np.arange(layers) - 0.5 * (layers - 1), np.arange(-int(SUPPORT[kernel] * h) - 1, int(SUPPORT[kernel] * h) + 2)
+    x, y, zj, zi = np.meshgrid(grid, grid, z, z, indexing="ij")
+    r = np.sqrt(x**2 + y**2 + (zj - zi) ** 2)
+    w = -(x**2) * shape(kernel, r / h)[1] / np.maximum(r, 1e-300) * (r > 0) * (r < SUPPORT[kernel] * h)
+    lever = (w * zj).sum((0, 1, 2)) / w.sum((0, 1, 2))
+    return np.sqrt(12 * (lever**2).sum() / layers**3)
 
 
 # scenes
@@ -175,7 +189,8 @@ def stairs(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1
 
 def bending(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, slender=20, width=1):
     """a standing bending wave of a wall, as long as 20 thicknesses, for a period, against Rayleigh-Lamb; a lattice of n layers with all its
-    stress has sqrt(1 - 1/n^2) of the frequency, since it has that of its layers in their middles"""
+    stress has sqrt(1 - 1/n^2) of the frequency, since it has that of its layers in their middles, and with
+    a gradient that is exact for linear fields only that of levers()"""
     length = slender * layers
     s, x = wall(length, layers, h, width)
     k = 2 * np.pi / length
@@ -188,7 +203,7 @@ def bending(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=
     v = 2 * np.array([f["v"][:, 2] @ np.sin(k * x[:, 0]) for f in r.frames]) / len(x)
     a, w, g, off = ring(t, v, w0)
     return dict(head(dict(layers=layers), words, kernel, h, s, steps, seconds), frequency=w / w0, lattice=np.sqrt(1 - 1 / layers**2),
-                loss=1 - np.exp(-2 * np.pi * g / w), misfit=off, drift=books(r)["drift"])
+                levers=levers(kernel, h, layers), loss=1 - np.exp(-2 * np.pi * g / w), misfit=off, drift=books(r)["drift"])
 
 
 def wave(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, length=300, wide=15.0):
@@ -213,7 +228,7 @@ def wave(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6
         return np.polyfit(t[k], y[k], 1)[0] / c if k.sum() > 4 else np.nan
 
     return dict(head(dict(layers=layers), words, kernel, h, s, steps, seconds), speed=speed(middle), front=speed(front),
-                height=columns[-1].max() / columns[0].max(), noise=np.abs(columns[-1][place < tail]).max() / A, **books(r))
+                height=columns[-1].max() / columns[0].max(), noise=np.abs(columns[-1][place < max(tail, 1)]).max() / A, **books(r))
 
 
 def block(counts, apart=0.0):

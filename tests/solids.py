@@ -17,6 +17,7 @@ import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
+import face_scenes  # noqa: E402
 from conftest import Result  # noqa: E402
 from face_scenes import bending, borne, contact, mirror_face, rubble, spinning, spinning_cube, stairs, verney_cylinder, wave  # noqa: E402
 from solid_runs import material, momentum_error, run  # noqa: E402
@@ -168,7 +169,9 @@ if __name__ == "__main__":
     a.add_argument("--words", help="of the pair style, in place of those of the long form, like 'viscosity 0.1 0.5'")
     a.add_argument("--kernel", help="not with Taylor's cylinder")
     a.add_argument("--h", type=float, help="in spacings")
+    a.add_argument("--courant", type=float, help="of the scenes of faces: the step in units of h/c")
     args = a.parse_args()
+    face_scenes.COURANT = args.courant or face_scenes.COURANT
     args.out = args.out.resolve()
     args.out.mkdir(parents=True, exist_ok=True)
     lmp = runner(args.lmp, args.out)

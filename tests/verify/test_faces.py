@@ -5,7 +5,7 @@ What faces bear with each form of forces is in `make verify` (tests/solids.py).
 
 import numpy as np
 import pytest
-from face_scenes import CP, CT, E, NU, borne, cylinder_stop, lamb, mirror_face, plastic, wave
+from face_scenes import CP, CT, E, NU, borne, cylinder_stop, lamb, levers, mirror_face, plastic, wave
 from solid_runs import consistency, sheet
 
 PLAIN = "viscosity 0.1 0 gradient plain"
@@ -18,6 +18,8 @@ def test_theory_of_plates():
         shear = CP**2 / CT**2 * (6 - NU) / 5  # the coefficient of shear that is exact for long waves
         assert 1 - lamb(k, 4.0, True) / thin == pytest.approx(0.5 * (4 * k) ** 2 / 12 * (1 + shear), rel=0.01)
         assert 1 - lamb(k, 4.0, False) / (CP * k) == pytest.approx((2 * k * NU / (1 - NU)) ** 2 / 6, rel=0.01)
+    assert levers("cubic", 0.6, 4) == pytest.approx(np.sqrt(1 - 1 / 16))  # neighbors in the own layer alone (and above and below: x = 0)
+    assert levers("wendland2", 1.6, 64) == pytest.approx(1.0, rel=0.02)
     assert E == 16 and NU == pytest.approx(1 / 3)
 
 
