@@ -353,7 +353,8 @@ def verney_cylinder(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="c
     pair = f"pair_style hvi/sph {kernel} dim 2 form sum {words} h constant\npair_coeff 1 1 file {path} h {h * dx}\n"
     start = time.time()
     r = run(lmp, folder, s, pair, JC, steps, dt=t_end / steps, frames=max(1, steps // 50), lost="ignore")
-    inner = np.array([np.median(np.sqrt(np.maximum(64 + ((f["x"] - [12, 12, 0]) ** 2).sum(1) - r0**2, 0))) if len(f["x"]) == n else np.inf for f in r.frames])
+    inner = np.array([np.median(np.sqrt(np.maximum(64 + ((f["x"] - [12, 12, 0]) ** 2).sum(1) - r0**2, 0))) if len(f["x"]) == n else np.inf
+                      for f in r.frames])
     k = int(np.argmin(inner))
     kinetic = r.thermo["c_book[1]"]
     a = 0.0 if "riemann" in words else float((words.split("viscosity")[1:] or ["1"])[0].split()[0])
