@@ -51,10 +51,18 @@ struct SphSettings {
    state      owned, ghosts, images     pair hvi/sph, before its loop                  loop, its time step, pressure()
    stress     owned                     pair, from the fix that integrates it          loop
               ghosts, images            pair, forward communication; reflected
+                                        (with traction: p_min and shear only)
    art        owned, ghosts, images     pair, after state and stress                   loop
    slopes     owned, ghosts             first sweep; reverse, then forward comm.       second sweep
    rates      owned, ghosts, images     loop; images folded back to owners             pair: f, drho, desph
    gradv      owned, ghosts, images     loop; images folded, reverse communication     velocity_gradient()
+
+   Solids with gradient corrected (records there are for them only):
+   gradv      owned, ghosts, images     first sweep; folded, reverse; then L M^-1      second sweep (riemann),
+   contact    (the same of other bodies, and of rubble)                                velocity_gradient()
+   traction,  owned                     pair, between the sweeps, from M^-1            second sweep
+   push       ghosts, images            forward communication; reflected
+   rates      drho and de of stress are written between the sweeps, without pairs
 
    They hold from a force evaluation to the next exchange of particles, that is: through
    final_integrate and end_of_step, and through the initial_integrate that follows, unless a

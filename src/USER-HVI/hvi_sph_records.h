@@ -42,7 +42,7 @@ struct alignas(64) SphRates {
 // it comes out as if L is 1
 
 struct alignas(64) SphStress {
-  static constexpr int SENT = 8;
+  static constexpr int SENT = 8, FIRST_LIMIT = 6, LIMITS = 2;    // the last two numbers alone
   double xx, yy, zz, xy;
   double xz, yz;
   double p_min;    // what pressure cannot fall below: 0 in rubble, see clip_tension()
@@ -50,7 +50,7 @@ struct alignas(64) SphStress {
 };
 
 struct alignas(64) SphGradV {
-  static constexpr int SENT = 16;
+  static constexpr int SENT = 16, SENT_PLAIN = 15, SENT_L = 9;    // without nu; L only
   double xx, xy, xz, yx;
   double yy, yz, zx, zy;
   double zz, mxx, myy,

@@ -93,7 +93,7 @@ void PairHVISPH::compute(int eflag, int vflag)
 
   if (mirrored) images.fold(records, force->newton_pair);
   scatter();
-  if (records.gradv && !records.traction && force->newton_pair) reverse(records.gradv, 15);
+  if (records.gradv && !records.traction && force->newton_pair) reverse(records.gradv, HVI::SphGradV::SENT_PLAIN);
 
   if (vflag_fdotr) virial_fdotr_compute();
 }
@@ -183,8 +183,11 @@ void PairHVISPH::init_style()
   // pair_style hybrid looks at these in settings() only, and sizes the buffers
 
   comm_forward = set.whole ? HVI::SphTraction::SENT
-                           : (strength ? HVI::SphStress::SENT : (set.riemann ? HVI::SphSlopes::SENT : 0));
-  comm_reverse = strength ? HVI::SphGradV::SENT : (set.riemann ? HVI::SphSlopes::SENT : 0);
+                           : (strength ? HVI::SphStress::SENT
+                                       : (set.riemann ? HVI::SphSlopes::SENT : 0));
+  comm_reverse = set.whole ? HVI::SphGradV::SENT
+                           : (strength ? HVI::SphGradV::SENT_PLAIN
+                                       : (set.riemann ? HVI::SphSlopes::SENT : 0));
   force->pair->comm_forward = MAX(force->pair->comm_forward, comm_forward);
   force->pair->comm_reverse = MAX(force->pair->comm_reverse, comm_reverse);
   neighbor->add_request(this);
@@ -245,6 +248,13 @@ void PairHVISPH::setup()
   HVISphReport report(lmp, store, is_ours);
   report.forward = comm_forward;
   report.reverse = force->newton_pair ? comm_reverse : 0;
+  if (set.whole) {
+    const HVI::SphView &records = store->fields.view();
+    report.forward += records.art ? HVI::SphStress::SENT : HVI::SphStress::LIMITS;
+    if (records.push) report.forward += HVI::SphPush::SENT;
+    if (set.riemann) report.forward += HVI::SphGradV::SENT_L;
+    if (records.contact) report.reverse *= 2;
+  }
   if (integrator) {
     report.border = 1;
     report.kept_bytes += integrator->bytes_per_particle();

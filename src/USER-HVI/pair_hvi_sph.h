@@ -104,7 +104,7 @@ class PairHVISPH :
   void finish_slopes();
   void finish_gradients();
   void scatter();
-  template <class Record> void forward(Record *, int number = Record::SENT);
+  template <class Record> void forward(Record *, int number = Record::SENT, int first = 0);
   template <class Record> void reverse(Record *, int number = Record::SENT);
 
   // told by the sweeps

@@ -115,9 +115,18 @@ void PairHVISPH::gather()
 
 void PairHVISPH::gather_stress()
 {
-  HVI::SphStress *const stress = store->fields.view().stress;
+  const HVI::SphView &records = store->fields.view();
+  HVI::SphStress *const stress = records.stress;
   for (int i = 0; i < atom->nlocal; i++) stress[i] = strength->stress(i);
-  forward(stress);
+  if (!records.traction || records.art) {
+    forward(stress);
+    return;
+  }
+
+  // the stress itself goes to neighbors as traction
+
+  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) stress[i] = {};
+  forward(stress, HVI::SphStress::LIMITS, HVI::SphStress::FIRST_LIMIT);
 }
 
 /* ----------------------------------------------------------------------
@@ -181,9 +190,9 @@ void PairHVISPH::finish_slopes()
    records of owned particles to their ghosts; of ghosts added up at their owners
 ------------------------------------------------------------------------- */
 
-template <class Record> void PairHVISPH::forward(Record *records, int number)
+template <class Record> void PairHVISPH::forward(Record *records, int number, int first)
 {
-  halo = {&records->xx, (int) (sizeof(Record) / sizeof(double)), number};
+  halo = {&records->xx + first, (int) (sizeof(Record) / sizeof(double)), number};
   comm->forward_comm(this, number);
 }
 
@@ -194,9 +203,9 @@ template <class Record> void PairHVISPH::reverse(Record *records, int number)
 }
 
 template void PairHVISPH::reverse(HVI::SphGradV *, int);
-template void PairHVISPH::forward(HVI::SphGradV *, int);
-template void PairHVISPH::forward(HVI::SphTraction *, int);
-template void PairHVISPH::forward(HVI::SphPush *, int);
+template void PairHVISPH::forward(HVI::SphGradV *, int, int);
+template void PairHVISPH::forward(HVI::SphTraction *, int, int);
+template void PairHVISPH::forward(HVI::SphPush *, int, int);
 
 int PairHVISPH::pack_forward_comm(int n, int *sent, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {
