@@ -30,13 +30,13 @@
 using namespace LAMMPS_NS;
 
 /* ----------------------------------------------------------------------
-   Two sections of data files: the state, and the stress in the last forces with
-   what the next step needs beside it.  Data files have no infinity: it is DBL_MAX.
+   Three sections of data files: the state; the stress in the last forces with what the next step
+   needs beside it; changes of its rate.  Data files have no infinity: it is DBL_MAX.
 ------------------------------------------------------------------------- */
 
 namespace {
 using Solid = HVI::SolidState;
-enum { STATE, FORCES };
+enum { STATE, FORCES, TRENDS };
 }    // namespace
 
 constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
@@ -67,12 +67,12 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"shear_then", FORCES, offsetof(Solid, seen.shear)},
     {"shear", FORCES, offsetof(Solid, shear)},
     {"rate", FORCES, offsetof(Solid, rate)},
-    {"trend_xx", FORCES, offsetof(Solid, trend.xx)},
-    {"trend_yy", FORCES, offsetof(Solid, trend.yy)},
-    {"trend_zz", FORCES, offsetof(Solid, trend.zz)},
-    {"trend_xy", FORCES, offsetof(Solid, trend.xy)},
-    {"trend_xz", FORCES, offsetof(Solid, trend.xz)},
-    {"trend_yz", FORCES, offsetof(Solid, trend.yz)},
+    {"Sxx", TRENDS, offsetof(Solid, trend.xx)},
+    {"Syy", TRENDS, offsetof(Solid, trend.yy)},
+    {"Szz", TRENDS, offsetof(Solid, trend.zz)},
+    {"Sxy", TRENDS, offsetof(Solid, trend.xy)},
+    {"Sxz", TRENDS, offsetof(Solid, trend.xz)},
+    {"Syz", TRENDS, offsetof(Solid, trend.yz)},
 
     // made anew when a run begins
     {nullptr, 0, offsetof(Solid, yield)},
@@ -87,7 +87,7 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
 /* ---------------------------------------------------------------------- */
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
-    FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces"}),
+    FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces", "_trends"}),
     spall_name("principal"), store(nullptr), fresh(true), checked(false)
 {
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
@@ -199,9 +199,11 @@ void FixHVIJohnsonCook::init()
 
 bool FixHVIJohnsonCook::can_fail() const
 {
-  int here = options.damage || options.spall != HVI::Spall::NONE, anywhere;
+  int here = 0, anywhere;
+  for (const auto &model : models)
+    if (model && model->can_fail()) here = 1;
   for (int i = 0; i < atom->nlocal; i++)
-    if (failed(i)) here = 1;
+    if (of(i) && failed(i)) here = 1;
   MPI_Allreduce(&here, &anywhere, 1, MPI_INT, MPI_MAX, world);
   return anywhere;
 }

@@ -18,7 +18,7 @@
 
 namespace HVI {
 
-static constexpr double SMALL_EIGENVALUE = 0.2, LARGE_EIGENVALUE = 0.4;
+static constexpr double SMALL_EIGENVALUE = 0.15, LARGE_EIGENVALUE = 0.3;
 
 static double g(double lambda)
 {
@@ -29,6 +29,22 @@ static double g(double lambda)
   return smooth > 0.0 ? 1.0 - smooth + smooth / lambda : 1.0;
 }
 
+static Eigen::Matrix3d matrix(const Symmetric &s)
+{
+  Eigen::Matrix3d m;
+  m << s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz;
+  return m;
+}
+
+double stress_along_largest(const Symmetric &M, const Symmetric &S)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix(M));
+  const Eigen::Vector3d n = solver.eigenvectors().col(2);    // they are in increasing order
+  return n.dot(matrix(S) * n);
+}
+
+/* ---------------------------------------------------------------------- */
+
 Symmetric limited_inverse(const Symmetric &N)
 {
   const double cxx = N.yy * N.zz - N.yz * N.yz, cxy = N.xz * N.yz - N.xy * N.zz,
@@ -37,17 +53,19 @@ Symmetric limited_inverse(const Symmetric &N)
                czz = N.xx * N.yy - N.xy * N.xy;
   const double det = N.xx * cxx + N.xy * cxy + N.xz * cxz;
 
-  // the product of the other two eigenvalues is at most the square of half their sum
+  // all eigenvalues are above LARGE where N - LARGE is positive definite: its leading minors are
 
-  const double half = 0.5 * (N.xx + N.yy + N.zz);
-  if (det > LARGE_EIGENVALUE * half * half)
+  const double xx = N.xx - LARGE_EIGENVALUE, yy = N.yy - LARGE_EIGENVALUE,
+               zz = N.zz - LARGE_EIGENVALUE;
+  if (xx > 0.0 && xx * yy > N.xy * N.xy &&
+      xx * (yy * zz - N.yz * N.yz) + N.xy * (N.xz * N.yz - N.xy * zz) +
+              N.xz * (N.xy * N.yz - yy * N.xz) >
+          0.0)
     return {cxx / det, cyy / det, czz / det, cxy / det, cxz / det, cyz / det};
 
-  Eigen::Matrix3d m;
-  m << N.xx, N.xy, N.xz, N.xy, N.yy, N.yz, N.xz, N.yz, N.zz;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix(N));
   const Eigen::Vector3d &lambda = solver.eigenvalues();
-  m = solver.eigenvectors() * Eigen::Vector3d(g(lambda[0]), g(lambda[1]), g(lambda[2])).asDiagonal() *
+  const Eigen::Matrix3d m = solver.eigenvectors() * Eigen::Vector3d(g(lambda[0]), g(lambda[1]), g(lambda[2])).asDiagonal() *
       solver.eigenvectors().transpose();
   return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
 }

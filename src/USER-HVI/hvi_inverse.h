@@ -23,6 +23,10 @@ struct Symmetric {
 
 Symmetric limited_inverse(const Symmetric &N);
 
+// n.S.n, with n the axis of M's largest eigenvalue
+
+double stress_along_largest(const Symmetric &M, const Symmetric &S);
+
 }    // namespace HVI
 
 #endif

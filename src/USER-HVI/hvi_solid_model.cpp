@@ -134,6 +134,7 @@ SolidState SolidModel::blank()
 void SolidModel::liquefy(SolidState &s)
 {
   s.yield = UNKNOWN;
+  s.trend = Deviator();
   s.seen = {s.S, -NO_LIMIT, s.shear};
 }
 

@@ -23,11 +23,12 @@ struct alignas(32) SphPlace {
 
 struct alignas(64) SphState {
   double vx, vy, vz;
-  double w;    // weight in sums over particles: m/rho in form sum, m in form symmetric
+  double w;    // weight in sums over particles: m/rho in form sum, m in form symmetric; see Howto_sph for
+               // gradient corrected
   double p;    // pressure, in form symmetric p/rho^2
   double c;    // speed of sound
   double rho;
-  double type;
+  double type;    // with gradient corrected more for rubble, see SphBonds
 };
 
 struct alignas(64) SphRates {
@@ -66,13 +67,17 @@ struct alignas(32) SphTraction {
   static constexpr int SENT = 9;
   double xx, xy, xz, yx;
   double yy, yz, zx, zy;
-  double zz, volume, unused[2];
+  double zz, volume;
+  double stiffness;    // of owned particles, for the time step
+  double unused;
 };
 
 struct alignas(64) SphPush {
-  static constexpr int SENT = 6;
+  static constexpr int SENT = 7;
   double xx, yy, zz, xy;
-  double xz, yz, unused[2];
+  double xz, yz;
+  double p;    // what bodies push each other with: - n.sigma.n, n the normal of the contact
+  double unused;
 };
 
 static_assert(sizeof(SphStress) == 2 * sizeof(Vec4) && sizeof(SphGradV) == 4 * sizeof(Vec4) &&

@@ -24,6 +24,7 @@ namespace HVI {
 static constexpr double RUBBLE = 0.5;
 
 struct SphBonds {
+  Vec tied = {};      // 1: one body, sound or not
   Vec bonded = {};    // 1: hang together
   Vec rubble = {};    // 1: would, but both have failed
   double sound;
@@ -39,9 +40,27 @@ struct SphBonds {
       const int jtype = static_cast<int>(type_j[k]);
       const double both = type_j[k] == jtype ? sound : 0.0;
       const double neither = type_j[k] == jtype ? 0.0 : 1.0 - sound;
+      tied[k] = tension[jtype];
       bonded[k] = tension[jtype] * both;
       rubble[k] = tension[jtype] * neither;
     }
+  }
+
+  // how much of what does not hang together counts: all of it under pressure, or while it comes
+  // nearer, and of rubble in rubble; smoothly to nothing within LITTLE of rho c^2, and of c
+
+  inline Vec touching(const SphState &i, const Vec &p_j, const Vec &c_j, const Vec &rho_j,
+                      const Vec &r, const Vec &rdotv) const
+  {
+    static constexpr double LITTLE = 1.0e-3;
+    const Vec zero = {}, one = zero + 1.0;
+    const Vec c = c_j > i.c ? c_j : zero + i.c;
+    const Vec stiff = i.rho * i.c * i.c + rho_j * c_j * c_j;
+    Vec pushed = (i.p + p_j) / (abs(zero + i.p) + abs(p_j) + LITTLE * stiff);
+    Vec nearing = -rdotv / (LITTLE * r * c + 1.0e-300);
+    pushed = pushed > nearing ? pushed : nearing;
+    pushed = pushed > rubble ? pushed : rubble;
+    return (one - bonded) * (pushed < 0.0 ? zero : (pushed > 1.0 ? one : pushed));
   }
 };
 
@@ -69,7 +88,8 @@ inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int 
 
   for (int m = 0; m < nlanes; m += LANES) {
     static constexpr int in_turn[4] = {0, 1, 2, 3};
-    const int *const j = near.j + m;
+    int j[LANES];    // what is written may be near.j for all the compiler knows
+    for (int k = 0; k < LANES; k++) j[k] = near.j[m + k];
     Vec d[4], first[4];
     read_columns(near.d + m, in_turn, 0, d);
     read_columns(state, j, 0, first);
@@ -107,10 +127,8 @@ inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int 
       if (sum(bonds.bonded) > 0.0) add(bonds.bonded, gradv, sum_i);
       if (sum(one - bonds.bonded) > 0.0) {
         const Vec rdotv = d[0] * a[0] + d[1] * a[1] + d[2] * a[2];
-        const Vec acts = si.p + second[0] > 0.0 ? one : bonds.rubble;
-        const Vec near_body = (one - bonds.bonded) * (rdotv < 0.0 ? one : acts);
         Vec sum_c[16] = {};
-        add(near_body, contact, sum_c);
+        add(bonds.touching(si, second[0], second[1], second[2], r, rdotv), contact, sum_c);
         for (int k = 0; k < 4; k++) part(contact + i, k) += sums(sum_c + 4 * k);
       }
     } else
@@ -122,7 +140,7 @@ inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int 
 /* ----------------------------------------------------------------------
    Second sweep: all pairs of particle i with its n near neighbors.  With T of SphTraction,
    f_i = w_i w_j (T_i grad W(r, h_i) + T_j grad W(r, h_j)); between bodies, while they push, with
-   the pressure's part of T only.  Energy and density of that follow from L, without pairs.
+   the part of T that is a pressure.  Energy and density of that follow from L, without pairs.
    Dissipation acts along the pair.
 ------------------------------------------------------------------------- */
 
@@ -168,10 +186,11 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
     kernels.F(r, d[3], F_i, F_j);
     const Vec F = 0.5 * (F_i + F_j);
 
-    Vec a = zero + laws.a, b = zero + laws.b, bonded = one;
+    Vec a = zero + laws.a, b = zero + laws.b, bonded = one, tied = one;
     if (SCENE & SPH_BODIES) {
       bonds.find(second[3]);
       bonded = bonds.bonded;
+      tied = bonds.tied;
       for (int k = 0; k < LANES; k++) {
         const int jtype = static_cast<int>(second[3][k]);
         a[k] = laws.row_a[jtype];
@@ -242,11 +261,11 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
       const double z_i = rho_i * c_i;
       const Vec z_j = rho_j * c_j, dp = si.p - second[0], size = abs(dp);
       const Vec speed = sqrt(dv[0] * dv[0] + dv[1] * dv[1] + dv[2] * dv[2]);
-      const Vec wave = bonded * (z_i < z_j ? zero + z_i : z_j) * speed;
+      const Vec wave = tied * (z_i < z_j ? zero + z_i : z_j) * speed;
       const Vec excess = (size > wave ? size - wave : zero) / (size + 1.0e-300);
       const Vec by_states = laws.automatic * excess / (z_i + z_j);
       const Vec constant = laws.alpha / (c_i + c_j);
-      const Vec acts = si.p + second[0] > 0.0 ? one : bonded;
+      const Vec acts = si.p + second[0] > 0.0 ? one : tied;
       const Vec phi = 2.0 * acts * dp * F * r;
       drho += phi * V_j * (constant + by_states * rho_i);
       drho_j = -phi * V_i * (constant + by_states * rho_j);
@@ -254,10 +273,11 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
 
     if (SCENE & SPH_BODIES) {
       if (sum(one - bonded) > 0.0) {
-        const Vec acts = (one - bonded) * (si.p + second[0] > 0.0 ? one : zero);
         const SphPush P_i = records.push[i];
         Vec P[8];
         for (int k = 0; k < 2; k++) read_columns(records.push, j, k, P + 4 * k);
+        const Vec acts =
+            P_i.p + P[6] > 0.0 ? bonds.touching(si, second[0], c_j, rho_j, r, rdotv) : zero;
         const Vec cF_i = acts * ww * F_i, cF_j = acts * ww * F_j;
         const Vec t_i[3] = {cF_i * (P_i.xx * d[0] + P_i.xy * d[1] + P_i.xz * d[2]),
                             cF_i * (P_i.xy * d[0] + P_i.yy * d[1] + P_i.yz * d[2]),

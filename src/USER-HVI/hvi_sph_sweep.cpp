@@ -89,6 +89,10 @@ namespace {
       if (SCENE & SPH_CORRECTED) {
         __builtin_prefetch(&work.records.traction[j]);
         __builtin_prefetch(&work.records.traction[j].zz);
+        if (SCENE & SPH_RIEMANN) {
+          __builtin_prefetch(&work.records.gradv[j]);
+          __builtin_prefetch(&work.records.gradv[j].zz);
+        }
       } else if (SCENE & SPH_RIEMANN) {
         __builtin_prefetch(&work.records.rates[j], 1);
         __builtin_prefetch(&work.records.slopes[j]);

@@ -249,11 +249,11 @@ void PairHVISPH::setup()
   report.forward = comm_forward;
   report.reverse = force->newton_pair ? comm_reverse : 0;
   if (set.whole) {
-    const HVI::SphView &records = store->fields.view();
-    report.forward += records.art ? HVI::SphStress::SENT : HVI::SphStress::LIMITS;
-    if (records.push) report.forward += HVI::SphPush::SENT;
+    const bool bodies = sweeps->scene() & HVI::SPH_BODIES;
+    report.forward += set.laws.art_eps > 0.0 ? HVI::SphStress::SENT : HVI::SphStress::LIMITS;
+    if (bodies) report.forward += HVI::SphPush::SENT;
     if (set.riemann) report.forward += HVI::SphGradV::SENT_L;
-    if (records.contact) report.reverse *= 2;
+    if (bodies) report.reverse *= 2;
   }
   if (integrator) {
     report.border = 1;

@@ -44,8 +44,10 @@ def test_words(refused, words, message):
 def test_what_it_needs(refused):
     text = MATERIAL.format(sigma_p=3.0)
     refused("needs fix hvi/sph, which calls it", fix="")
-    refused("form sum and dissipation monaghan", words="form symmetric")
-    refused("form sum and dissipation monaghan", words="dissipation riemann")
+    refused("fix hvi/johnson-cook works with form sum", words="form symmetric")
+    for gradient in ("law", "plain"):
+        refused("dissipation riemann with fix hvi/johnson-cook needs gradient corrected", words=f"dissipation riemann gradient {gradient}")
+    refused("gradient must be plain, law or corrected, not none", words="gradient none")
     refused("More than one fix hvi/johnson-cook", more="fix other all hvi/johnson-cook\n")
     refused("has no section damage; use damage no", text=text[:text.index("damage")] + text[text.index("spall"):])
     refused("has no section damage johnson-cook; use damage no", jc="all hvi/johnson-cook damage johnson-cook",
@@ -65,8 +67,8 @@ def test_what_it_needs(refused):
     ("artstress 0.3 four", "four"),
     ("artstress nan 4", "nan"),
     ("artstress 0.3 inf", "inf"),
-    ("artstress 0.3 4 dissipation riemann", "form sum and dissipation monaghan"),
-    ("artstress 0.3 4 form symmetric", "form sum and dissipation monaghan")])
+    ("artstress 0.3 4 dissipation riemann gradient law", "needs gradient corrected"),
+    ("artstress 0.3 4 form symmetric", "works with form sum")])
 def test_artificial_stress(refused, words, message):
     refused(message, words=words)
 
