@@ -168,7 +168,7 @@ def lump(seed=45, n=6, jitter=0.03, types=2):
 def test_free_lump(lmp, tmp_path, pair, words):
     """energy of pairs, momentum and, where M is neither limited nor different for others, angular momentum: to round-off"""
     s = lump()
-    lmp("".join(script(s, tmp_path, pair, words, jc) + "run 20\n" + ANEW + OUT.format(f"f{k}") for k, jc in enumerate((UNBROKEN, ""))))
+    lmp("".join(script(s, tmp_path, pair, words, jc) + f"run {20 + 60 * k}\n" + ANEW + OUT.format(f"f{k}") for k, jc in enumerate((UNBROKEN, ""))))
     for k in range(2):
         d = read(tmp_path / f"f{k}")
         least = rates(solid(s, d, words == "h variable"))["own"].min()
@@ -220,12 +220,10 @@ def test_linear_field(lmp, tmp_path, pair, words):
         first = rate(FIELD, np.zeros((3, 3)))
         want = 0.5 * dt * (first + rate(FIELD @ np.linalg.inv(np.eye(3) + dt * FIELD), dt * first))
         assert np.abs(as_tensor(late) - want).max() < 1e-12 * np.abs(want).max()
-        for k in (1, 2):  # the others: density as without correction, the law with its own M^-1 (law) or none (plain)
+        for k in (1, 2):  # not so the others: their density is not corrected, and at corners their stress is limited or not corrected
             a, b = read(tmp_path / f"a{k}"), read(tmp_path / f"b{k}")
             assert np.abs(a["drho"] / -s.rho / np.trace(FIELD) - 1).max() > 0.3
-            S = np.abs(as_tensor(b) - want).max() / np.abs(want).max()
-            print("S of", k, S)
-            assert (S < 1e-3) == (k == 1) and S > 1e-9
+            assert np.abs(as_tensor(b) - want).max() > 0.3 * np.abs(want).max()
 
 
 def test_virial_of_uniform_stress(lmp, tmp_path, pair):
@@ -264,7 +262,7 @@ def test_words(lmp, tmp_path, pair):
         size = np.abs(f[0][name]).max()
         assert np.array_equal(f[0][name], f[1][name]), name
         for a, b in ((0, 2), (0, 3), (2, 3)):
-            assert np.abs(f[a][name] - f[b][name]).max() > 0.01 * size, (name, a, b)
+            assert np.abs(f[a][name] - f[b][name]).max() > 1e-3 * size, (name, a, b)
 
 
 # a run in parts
@@ -330,26 +328,40 @@ def test_hybrid(lmp, tmp_path, pair, words, nranks):
 # dissipation
 
 
-@pytest.mark.parametrize("words", ["viscosity 0 0", "dissipation riemann"])
-def test_wall_that_rings(lmp, tmp_path, pair, words):
-    """a wall of two layers, rung in its thickness, does not gain energy: rates of density and stress are extrapolated to the second order"""
+def ringing_wall(lmp, tmp_path, pair, words):
+    """a wall of two layers, rung in its thickness over 160 periods, C 0.2; kinetic and total energy, in units of the kinetic energy at the start"""
     s = body(seed=49, n=6, jitter=0.0, speed=0.0)
     keep = s.x[:, 2] < 2
-    s.x, s.v, s.rho, s.esph = s.x[keep], 0 * s.v[keep], np.ones(keep.sum()), np.zeros(keep.sum())
-    s.type, s.mass, s.periodic, s.box = np.ones(keep.sum(), int), {1: 1.0, 2: 1.0}, (True, True, False), np.array([6.0, 6.0, 12.0])
-    s.x[:, 2] += 5.0
-    s.v[:, 2] = np.where(s.x[:, 2] > 6, 0.01, -0.01)
+    n = keep.sum()
+    s.x, s.rho, s.esph, s.type, s.mass = s.x[keep] + [0, 0, 5], np.ones(n), np.zeros(n), np.ones(n, int), {1: 1.0, 2: 1.0}
+    s.periodic, s.box = (True, True, False), np.array([6.0, 6.0, 12.0])
+    s.v = np.outer(np.where(s.x[:, 2] > 6, 0.01, -0.01), [0, 0, 1])
     text = script(s, tmp_path, pair, words, UNBROKEN, elastic=True).replace("timestep 0.004", "fix step all hvi/dt 0.2")
-    t = lmp(text + "compute book all hvi/energy\nthermo 20\nthermo_style custom step time c_book[1] c_book[2] c_book[9]\n"
+    t = lmp(text + "compute book all hvi/energy\nthermo 20\nthermo_style custom step time c_book[1] c_book[2]\n"
             + "thermo_modify format float %.17g\nrun 2000\n").thermo
-    start = t["c_book[1]"][0]
-    energy = (t["c_book[1]"] + t["c_book[2]"]) / start
-    print(words, "ledger", np.abs(t["c_book[9]"] - 1).max(), "energy", energy[-1], "kinetic, first and second half", t["c_book[1]"][:50].max() / start,
-          t["c_book[1]"][50:].max() / start, "time", t["Time"][-1])
-    assert np.abs(t["c_book[9]"] - 1).max() < 1e-4 and np.abs(energy - 1).max() < 1e-4
-    assert t["c_book[1]"].min() < 0.1 * start and t["c_book[1]"].max() < 1.001 * start
-    if "riemann" not in words:
-        assert t["c_book[1]"][50:].max() > 0.5 * start  # it rings
+    kinetic, internal = t["c_book[1]"] / t["c_book[1]"][0], t["c_book[2]"] / t["c_book[1]"][0]
+    print(words, "kinetic", kinetic.max(), "total", np.abs(kinetic + internal - 1).max())
+    return kinetic, kinetic + internal
+
+
+WORDS = ["viscosity 0 0", "viscosity 1 2", "dissipation riemann"]
+
+
+@pytest.mark.parametrize("words", WORDS)
+def test_wall_that_rings(lmp, tmp_path, pair, words):
+    """its oscillation does not grow, as it did before rates of density and stress were extrapolated: gradient law shows that"""
+    kinetic, _ = ringing_wall(lmp, tmp_path, pair, words)
+    assert kinetic.max() < 1.001 and kinetic[1:].max() > 0.01
+    if words == "viscosity 0 0":
+        kinetic, _ = ringing_wall(lmp, tmp_path, pair, words + " gradient law")
+        assert kinetic.max() > 10
+
+
+@pytest.mark.parametrize("words", WORDS)
+def test_ledger_of_a_wall_that_rings(lmp, tmp_path, pair, words):
+    """the heat of it is what its kinetic energy was"""
+    _, total = ringing_wall(lmp, tmp_path, pair, words)
+    assert np.abs(total - 1).max() < 1e-4
 
 
 RIEMANN = "dissipation riemann"
@@ -357,7 +369,7 @@ RIEMANN = "dissipation riemann"
 
 @pytest.mark.parametrize("words", ["", "h variable"])
 def test_heat_of_riemann(lmp, tmp_path, pair, words):
-    """in random states no particle is cooled, forces of it are along pairs and against closing; all are kept"""
+    """in random states no particle is cooled; density is not touched; what heats is what the forces take"""
     s = body(seed=50, speed=0.5)
     lmp(script(s, tmp_path, pair, f"{RIEMANN} {words}", tension=False) + "run 30\n" + ANEW + OUT.format("f"))
     d = read(tmp_path / "f")
