@@ -54,8 +54,8 @@ def inverse(M, nu, dim):
     return out, value
 
 
-def rates(s, tension=True, visc=(1.0, 2.0), limits=True):
-    """f, drho, de; of the viscosity alone heat; the eigenvalues of M/nu (own, all). limits=False: the contact as if all others were own"""
+def rates(s, tension=True, visc=(1.0, 2.0)):
+    """f, drho, de, and the eigenvalues of M/nu of those who hang together"""
     n, V = len(s.x), s.m / s.rho
     w = V * np.cbrt(s.rho / s.rho0)
     reach = SUPPORT[s.kernel] * s.h
@@ -85,10 +85,10 @@ def rates(s, tension=True, visc=(1.0, 2.0), limits=True):
         g = (-w[j] * F_i * who)[:, None, None]
         L, M = (total(g * a[:, :, None] * d[:, None, :]) for a in (u, d))
         nu = w * scale * shape(s.kernel, np.zeros(n))[0] + total(w[j] * W_i * who)
-        return L, M, *inverse(M, nu, s.dim)
+        return L, *inverse(M, nu, s.dim)
 
-    L_own, M_own, K_own, value_own = sums(own)
-    L_all, M_all, K_all, value_all = sums(all_)
+    L_own, K_own, value = sums(own)
+    L_all, K_all, _ = sums(all_)
     P = -(V / w * s.p)[:, None, None] * K_all
     T = (V / w)[:, None, None] * s.S @ K_own + P
 
@@ -104,9 +104,7 @@ def rates(s, tension=True, visc=(1.0, 2.0), limits=True):
     Pi = (-visc[0] * 0.5 * (s.c[i] + s.c[j]) * mu + visc[1] * mu**2) / (0.5 * (s.rho[i] + s.rho[j]))
     q = s.m[i] * s.m[j] * Pi * 0.5 * (F_i + F_j)
     de = V * (np.einsum("nab,nab->n", s.S, L_own @ K_own) - s.p * np.einsum("nab,nab->n", L_own, K_all))
-    heat = total(0.5 * q * ur)
-    return dict(f=total(f - q[:, None] * d), drho=-s.rho * np.einsum("nab,nab->n", L_all, K_all), de=de - total(work) + heat, heat=heat,
-                own=value_own, all=value_all, open=total(push * 1.0) + total((all_ & ~own) * 1.0))
+    return dict(f=total(f - q[:, None] * d), drho=-s.rho * np.einsum("nab,nab->n", L_all, K_all), de=de + total(0.5 * q * ur - work), own=value)
 
 
 def close(s, reach):
