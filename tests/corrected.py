@@ -1,0 +1,118 @@
+"""Forces, density and energy of solids with gradient corrected, written out in NumPy for all pairs (doc/src/Howto_sph.rst).
+
+Each particle has its own kernel, grad W(r, h_i) = F_i x_ij, and the weight w = V (rho/rho0)^(1/3), V = m/rho. Sums over those who hang together
+with i ("own") are M_i = - sum w_j x_ij (x) grad W_i, L_i = - sum w_j v_ij (x) grad W_i, nu_i = w_i W(0, h_i) + sum w_j W(r, h_i); "all" has
+besides other bodies and rubble that come nearer or push, and the rubble in rubble. With inverses K of M,
+
+  T_i = V_i/w_i (S_i K_own - p_i K_all),  P_i = - V_i/w_i p_i K_all,  f_ij = w_i w_j (T_i F_i + T_j F_j) x_ij (others, while they push: P)
+  drho_i = - rho_i tr(L_all K_all),  de_i = V_i (S_i : L_own K_own - p_i tr(L_own K_all)), and what the push of others does.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from sph_scenes import SUPPORT, norm, shape
+
+
+@dataclass
+class Solid:
+    """a state of particles; S: deviators (n, 3, 3); c: of longitudinal waves; box: period by direction, 0 for none"""
+
+    x: np.ndarray
+    v: np.ndarray
+    m: np.ndarray
+    rho: np.ndarray
+    rho0: np.ndarray
+    p: np.ndarray
+    S: np.ndarray
+    c: np.ndarray
+    h: np.ndarray
+    kind: np.ndarray
+    failed: np.ndarray
+    box: np.ndarray
+    kernel: str = "cubic"
+    dim: int = 3
+
+    def mirrored(self, k, at):
+        """with the images of all in the plane x_k = at"""
+        flip = np.ones(3)
+        flip[k] = -1
+        new = {a: np.concatenate([getattr(self, a)] * 2) for a in ("m", "rho", "rho0", "p", "c", "h", "kind", "failed")}
+        x = np.concatenate([self.x, self.x * flip + 2 * at * (1 - flip) / 2])
+        return Solid(x=x, v=np.concatenate([self.v, self.v * flip]), S=np.concatenate([self.S, self.S * np.outer(flip, flip)]), **new,
+                     box=self.box, kernel=self.kernel, dim=self.dim)
+
+
+def inverse(M, nu, dim):
+    """of M/nu, over nu: where an eigenvalue is below 0.4 less and less, below 0.2 not at all; and the eigenvalues"""
+    value, axis = np.linalg.eigh(M[:, :dim, :dim] / nu[:, None, None])
+    s = np.clip((value - 0.2) / 0.2, 0, 1)
+    s = s * s * (3 - 2 * s)
+    g = 1 - s + s / np.maximum(value, 0.2)
+    out = np.zeros_like(M)
+    out[:, :dim, :dim] = np.einsum("nak,nk,nbk->nab", axis, g, axis) / nu[:, None, None]
+    return out, value
+
+
+def rates(s, tension=True, visc=(1.0, 2.0)):
+    """f, drho, de, and the eigenvalues of M/nu of those who hang together"""
+    n, V = len(s.x), s.m / s.rho
+    w = V * np.cbrt(s.rho / s.rho0)
+    reach = SUPPORT[s.kernel] * s.h
+    i, j = np.nonzero(close(s, reach.max()))
+    d = s.x[i] - s.x[j]
+    d -= s.box * np.round(d / np.where(s.box > 0, s.box, np.inf))
+    r = np.sqrt((d**2).sum(1))
+    near = r < np.maximum(reach[i], reach[j])
+    i, j, d, r = i[near], j[near], d[near], r[near]
+    scale = norm(s.kernel, s.dim) / s.h**s.dim
+    W_i = scale[i] * shape(s.kernel, r / s.h[i])[0]
+    F_i, F_j = (scale[k] / s.h[k] * shape(s.kernel, r / s.h[k])[1] / r for k in (i, j))
+    u = s.v[i] - s.v[j]
+    ur = (u * d).sum(1)
+
+    together = np.full(len(i), True) if tension else s.kind[i] == s.kind[j]
+    own = together & ~s.failed[i] & ~s.failed[j]
+    push = ~own & (s.p[i] + s.p[j] > 0)
+    all_ = own | push | (ur < 0) | (together & s.failed[i] & s.failed[j])
+
+    def total(a):
+        out = np.zeros((n,) + a.shape[1:])
+        np.add.at(out, i, a)
+        return out
+
+    def sums(who):
+        g = (-w[j] * F_i * who)[:, None, None]
+        L, M = (total(g * a[:, :, None] * d[:, None, :]) for a in (u, d))
+        nu = w * scale * shape(s.kernel, np.zeros(n))[0] + total(w[j] * W_i * who)
+        return L, *inverse(M, nu, s.dim)
+
+    L_own, K_own, value = sums(own)
+    L_all, K_all, _ = sums(all_)
+    P = -(V / w * s.p)[:, None, None] * K_all
+    T = (V / w)[:, None, None] * s.S @ K_own + P
+
+    def apply(A, k, F):  # w_i w_j F_k A_k x_ij
+        return (w[i] * w[j] * F)[:, None] * np.einsum("kab,kb->ka", A[k], d)
+
+    f = own[:, None] * (apply(T, i, F_i) + apply(T, j, F_j)) + push[:, None] * (apply(P, i, F_i) + apply(P, j, F_j))
+    work = push * (apply(P, i, F_i) * u).sum(1)
+
+    # Monaghan's viscosity, with the means of h, of grad W, of c and of rho
+    h = 0.5 * (s.h[i] + s.h[j])
+    mu = np.where(ur < 0, h * ur / (r**2 + 0.01 * h**2), 0.0)
+    Pi = (-visc[0] * 0.5 * (s.c[i] + s.c[j]) * mu + visc[1] * mu**2) / (0.5 * (s.rho[i] + s.rho[j]))
+    q = s.m[i] * s.m[j] * Pi * 0.5 * (F_i + F_j)
+    de = V * (np.einsum("nab,nab->n", s.S, L_own @ K_own) - s.p * np.einsum("nab,nab->n", L_own, K_all))
+    return dict(f=total(f - q[:, None] * d), drho=-s.rho * np.einsum("nab,nab->n", L_all, K_all), de=de + total(0.5 * q * ur - work), own=value)
+
+
+def close(s, reach):
+    """pairs (n, n) not farther from each other than reach, by coordinates"""
+    near = ~np.eye(len(s.x), dtype=bool)
+    for a in range(3):
+        d = s.x[:, None, a] - s.x[None, :, a]
+        if s.box[a] > 0:
+            d -= s.box[a] * np.round(d / s.box[a])
+        near &= np.abs(d) < reach
+    return near
