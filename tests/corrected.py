@@ -4,8 +4,10 @@ Each particle has its own kernel, grad W(r, h_i) = F_i x_ij, and the weight w = 
 with i ("own") are M_i = - sum w_j x_ij (x) grad W_i, L_i = - sum w_j v_ij (x) grad W_i, nu_i = w_i W(0, h_i) + sum w_j W(r, h_i); "all" has
 besides other bodies and rubble that come nearer or push, and the rubble in rubble. With inverses K of M,
 
-  T_i = V_i/w_i (S_i K_own - p_i K_all),  P_i = - V_i/w_i p_i K_all,  f_ij = w_i w_j (T_i F_i + T_j F_j) x_ij (others, while they push: P)
-  drho_i = - rho_i tr(L_all K_all),  de_i = V_i (S_i : L_own K_own - p_i tr(L_own K_all)), and what the push of others does.
+  T_i = V_i/w_i ((S_i - s_i) K_own - q_i K_all),  P_i = - V_i/w_i q_i K_all,  f_ij = w_i w_j (T_i F_i + T_j F_j) x_ij (others, while they push: P)
+  drho_i = - rho_i tr(L_all K_all),  de_i = V_i ((S_i - s_i) : L_own K_own - q_i tr(L_own K_all)), and what the push of others does.
+
+q_i = p_i - s_i; s_i = n.S_i.n in contact, n the axis of M of the others with the largest eigenvalue, times min(1, 4 nu_others/nu_all).
 """
 
 from dataclasses import dataclass
@@ -43,14 +45,17 @@ class Solid:
                      box=self.box, kernel=self.kernel, dim=self.dim)
 
 
-def inverse(M, nu, dim):
-    """of M/nu, over nu: where an eigenvalue is below 0.4 less and less, below 0.2 not at all; and the eigenvalues"""
+def inverse(M, nu, full, dim):
+    """of M/nu, over nu: where an eigenvalue is below 0.3 less and less, below 0.15 not at all; 1 of what is nearly alone; and the eigenvalues"""
     value, axis = np.linalg.eigh(M[:, :dim, :dim] / nu[:, None, None])
-    s = np.clip((value - 0.2) / 0.2, 0, 1)
+    s = np.clip((value - 0.15) / 0.15, 0, 1)
     s = s * s * (3 - 2 * s)
-    g = 1 - s + s / np.maximum(value, 0.2)
+    g = 1 - s + s / np.maximum(value, 0.15)
     out = np.zeros_like(M)
     out[:, :dim, :dim] = np.einsum("nak,nk,nbk->nab", axis, g, axis) / nu[:, None, None]
+    counts = np.clip((full - 0.2) / 0.15, 0, 1)
+    counts = (counts**2 * (3 - 2 * counts))[:, None, None]
+    out[:, :dim, :dim] = counts * out[:, :dim, :dim] + (1 - counts) * np.eye(dim)
     return out, value
 
 
@@ -73,8 +78,10 @@ def rates(s, tension=True, visc=(1.0, 2.0)):
 
     together = np.full(len(i), True) if tension else s.kind[i] == s.kind[j]
     own = together & ~s.failed[i] & ~s.failed[j]
-    push = ~own & (s.p[i] + s.p[j] > 0)
-    all_ = own | push | (ur < 0) | (together & s.failed[i] & s.failed[j])
+    stiff = s.rho * s.c**2
+    pushed = (s.p[i] + s.p[j]) / (np.abs(s.p[i]) + np.abs(s.p[j]) + 1e-3 * (stiff[i] + stiff[j]))
+    nearing = -ur / (1e-3 * r * np.maximum(s.c[i], s.c[j]))
+    others = ~own * np.clip(np.maximum(np.maximum(pushed, nearing), together & s.failed[i] & s.failed[j]), 0, 1)
 
     def total(a):
         out = np.zeros((n,) + a.shape[1:])
@@ -85,12 +92,19 @@ def rates(s, tension=True, visc=(1.0, 2.0)):
         g = (-w[j] * F_i * who)[:, None, None]
         L, M = (total(g * a[:, :, None] * d[:, None, :]) for a in (u, d))
         nu = w * scale * shape(s.kernel, np.zeros(n))[0] + total(w[j] * W_i * who)
-        return L, *inverse(M, nu, s.dim)
+        return L, M, nu, *inverse(M, nu, V / w * nu, s.dim)
 
-    L_own, K_own, value = sums(own)
-    L_all, K_all, _ = sums(all_)
-    P = -(V / w * s.p)[:, None, None] * K_all
-    T = (V / w)[:, None, None] * s.S @ K_own + P
+    L_own, _, _, K_own, value = sums(own)
+    L_all, M_all, nu_all, K_all, _ = sums(own + others)
+    _, M_others, nu_others, _, _ = sums(others)
+    nu_others -= w * scale * shape(s.kernel, np.zeros(n))[0]
+    axis = np.linalg.eigh(M_others)[1][:, :, 2]
+    normal = np.einsum("na,nab,nb->n", axis, s.S, axis) * np.minimum(1, 4 * nu_others / nu_all)
+    pushing = s.p - np.where((nu_others > 0) & ~s.failed, normal, 0.0)
+    rest = s.S + (pushing - s.p)[:, None, None] * np.eye(3)
+    P = -(V / w * pushing)[:, None, None] * K_all
+    T = (V / w)[:, None, None] * rest @ K_own + P
+    push = others * (pushing[i] + pushing[j] > 0)
 
     def apply(A, k, F):  # w_i w_j F_k A_k x_ij
         return (w[i] * w[j] * F)[:, None] * np.einsum("kab,kb->ka", A[k], d)
@@ -103,7 +117,7 @@ def rates(s, tension=True, visc=(1.0, 2.0)):
     mu = np.where(ur < 0, h * ur / (r**2 + 0.01 * h**2), 0.0)
     Pi = (-visc[0] * 0.5 * (s.c[i] + s.c[j]) * mu + visc[1] * mu**2) / (0.5 * (s.rho[i] + s.rho[j]))
     q = s.m[i] * s.m[j] * Pi * 0.5 * (F_i + F_j)
-    de = V * (np.einsum("nab,nab->n", s.S, L_own @ K_own) - s.p * np.einsum("nab,nab->n", L_own, K_all))
+    de = V * (np.einsum("nab,nab->n", rest, L_own @ K_own) - pushing * np.einsum("nab,nab->n", L_own, K_all))
     return dict(f=total(f - q[:, None] * d), drho=-s.rho * np.einsum("nab,nab->n", L_all, K_all), de=de + total(0.5 * q * ur - work), own=value)
 
 

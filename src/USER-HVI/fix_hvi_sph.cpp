@@ -32,8 +32,10 @@ using namespace FixConst;
 
 /* ----------------------------------------------------------------------
    Data files: what the last rates belong to, for particles that go on from it, and the constant of
-   variable h.  atom_style sph does not write vest.
+   variable h.  atom_style sph does not write vest.  In a section of its own: how rates change.
 ------------------------------------------------------------------------- */
+
+static constexpr int TRENDS = 1;
 
 constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
     {"going_on", 0, offsetof(Extra, mark),
@@ -73,8 +75,11 @@ constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
      [](FixHVISPH &fix, int i, double v) {
        fix.atom->vest[i][2] = v;
      }},
-    {"trend_rho", 0, offsetof(Extra, trend_rho)},
-    {"trend_esph", 0, offsetof(Extra, trend_e)},
+    {"rho", TRENDS, offsetof(Extra, trend_rho)},
+    {"esph", TRENDS, offsetof(Extra, trend_e)},
+    {"vx", TRENDS, offsetof(Extra, trend_v[0])},
+    {"vy", TRENDS, offsetof(Extra, trend_v[1])},
+    {"vz", TRENDS, offsetof(Extra, trend_v[2])},
 
     // 0 between steps
     {nullptr, 0, offsetof(Extra, drho)},
@@ -91,7 +96,7 @@ const double *FixHVISPH::felt_velocity(int i) const
 /* ---------------------------------------------------------------------- */
 
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
-    FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {""}), store(nullptr), ledger(nullptr),
+    FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {"", "_trends"}), store(nullptr), ledger(nullptr),
     strength(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0}, stepping(0), wallbit(0),
     follow(0), checked(0)
 {
@@ -230,6 +235,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
       e.rho = atom->rho[i];
       e.esph = atom->esph[i];
       e.trend_rho = e.trend_e = 0.0;
+      for (double &trend : e.trend_v) trend = 0.0;
     }
     std::swap(e.rho, atom->rho[i]);
     std::swap(e.esph, atom->esph[i]);
@@ -273,7 +279,8 @@ void FixHVISPH::setup(int /*vflag*/)
 
    Extrapolation with the rate alone makes oscillations grow that nothing damps, by (omega dt)^4/8
    and more in a step: a wall of two layers rings in its thickness.  For solids with gradient corrected
-   the rate is extrapolated too, from its change in the last step: then they die down, up to omega dt = 0.9.
+   rates are extrapolated too, from their change in the last step: then they die down, up to omega dt
+   = 0.7.  A sixth of the change of acceleration makes the work of forces on vest that on v.
 ------------------------------------------------------------------------- */
 
 void FixHVISPH::initial_integrate(int /*vflag*/)
@@ -286,23 +293,31 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
   double *const rho = atom->rho;
   double *const esph = atom->esph;
   const double ahead = store->fields.settings.is_stock() ? 0.0 : 1.0;
-  const double trends = store->fields.settings.whole ? 1.0 : 0.0;
+  const bool trends = store->fields.settings.whole;
   if (strength) strength->first_half(dtv);
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
+    Extra &e = extra[i];
     for (int k = 0; k < 3; k++) {
       vest[i][k] = v[i][k] + 2.0 * dtfm * f[i][k];
+      if (trends) {
+        vest[i][k] += dtf / 3.0 * e.trend_v[k];
+        e.trend_v[k] = dtfm / dtf * f[i][k];
+      }
       v[i][k] += dtfm * f[i][k];
       x[i][k] += dtv * v[i][k];
     }
     const double drho = dtf * atom->drho[i], de = dtf * atom->desph[i];
-    Extra &e = extra[i];
-    e.drho = ahead * drho + trends * dtf * e.trend_rho;
-    e.de = ahead * de + trends * dtf * e.trend_e;
-    e.trend_rho = atom->drho[i];
-    e.trend_e = atom->desph[i];
+    e.drho = ahead * drho;
+    e.de = ahead * de;
+    if (trends) {
+      e.drho += dtf * e.trend_rho;
+      e.de += dtf * e.trend_e;
+      e.trend_rho = atom->drho[i];
+      e.trend_e = atom->desph[i];
+    }
     rho[i] += drho + e.drho;
     esph[i] += de + e.de;
   }
@@ -341,6 +356,7 @@ void FixHVISPH::reflect()
             2.0 * (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * atom->v[i][k];
       atom->v[i][k] = -atom->v[i][k];
       atom->vest[i][k] = -atom->vest[i][k];
+      extra[i].trend_v[k] = -extra[i].trend_v[k];
     }
     if (op && strength) strength->reflect(i, op);
   }
@@ -351,6 +367,7 @@ void FixHVISPH::reflect()
 
 void FixHVISPH::final_integrate()
 {
+  const bool trends = store->fields.settings.whole;
   double *const *const v = atom->v;
   const double *const *const f = atom->f;
   double *const rho = atom->rho;
@@ -365,9 +382,13 @@ void FixHVISPH::final_integrate()
     e.esph = esph[i];
     rho[i] += dtf * atom->drho[i] - e.drho;
     esph[i] += dtf * atom->desph[i] - e.de;
-    const bool was_there = e.drho != 0.0 || e.de != 0.0;    // in the first half
-    e.trend_rho = was_there ? atom->drho[i] - e.trend_rho : 0.0;
-    e.trend_e = was_there ? atom->desph[i] - e.trend_e : 0.0;
+    if (trends) {
+      const bool was_there = e.drho != 0.0 || e.de != 0.0;    // in the first half
+      e.trend_rho = was_there ? atom->drho[i] - e.trend_rho : 0.0;
+      e.trend_e = was_there ? atom->desph[i] - e.trend_e : 0.0;
+      for (int k = 0; k < 3; k++)
+        e.trend_v[k] = was_there ? dtfm / dtf * f[i][k] - e.trend_v[k] : 0.0;
+    }
     e.drho = e.de = 0.0;
   }
   if (strength) strength->second_half(dtv);

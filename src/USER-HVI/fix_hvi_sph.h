@@ -31,9 +31,10 @@ struct HVISPHExtra {
   uint64_t mark;       // fingerprint of the state at the end of the last run
   double hscale;       // h rho^(1/dim), 0: not known yet
 
-  // after a step: by how much the rates have changed in it; in its middle: those before it
+  // after a step: by how much the rates and the acceleration have changed in it; in its middle: those
+  // before it
 
-  double trend_rho, trend_e;
+  double trend_rho, trend_e, trend_v[3];
 };
 
 class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::EnergyCarrier {
