@@ -195,15 +195,15 @@ void FixHVIJohnsonCook::init()
   checked = false;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   asked before models are made, so it goes by the options
+------------------------------------------------------------------------- */
 
 bool FixHVIJohnsonCook::can_fail() const
 {
-  int here = 0, anywhere;
-  for (const auto &model : models)
-    if (model && model->can_fail()) here = 1;
+  int here = options.damage || options.spall != HVI::Spall::NONE, anywhere;
   for (int i = 0; i < atom->nlocal; i++)
-    if (of(i) && failed(i)) here = 1;
+    if (failed(i)) here = 1;
   MPI_Allreduce(&here, &anywhere, 1, MPI_INT, MPI_MAX, world);
   return anywhere;
 }

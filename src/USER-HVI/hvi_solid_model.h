@@ -95,7 +95,6 @@ class SolidModel {
   const Strength &strength() const { return *law; }
   const Damage *damage() const { return fracture.get(); }    // null: none
   bool spall_limited() const { return sigma_p < NO_LIMIT; }
-  bool can_fail() const { return fracture || (spall != Spall::NONE && spall_limited()); }
 
   // of something new, without stress; of something that has no model any more: a liquid
 

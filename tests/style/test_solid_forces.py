@@ -140,7 +140,7 @@ def test_forces(lmp, tmp_path, material, tension):
     """after 40 steps, with stress, yielding and failed particles: against all pairs in NumPy"""
     s = state()
     # a changed velocity starts particles anew: forces are then those of the stress in the output
-    text = start(s, tmp_path, material, tension=tension) + "velocity all ramp vx 0.0 0.3 x 0.0 8.0 sum yes units box\n"
+    text = start(s, tmp_path, material, tension=tension, words="viscosity 1 2 gradient law") + "velocity all ramp vx 0.0 0.3 x 0.0 8.0 sum yes units box\n"
     lmp(text + OUT.format("f"))
     d = read(tmp_path / "f")
     assert (d["eps"] > 0.01).mean() > 0.3 and 0.02 < (d["damage"] >= 1).mean() < 0.9 and d["vm"].max() > 0.2
@@ -157,7 +157,7 @@ def test_artificial_stress(lmp, tmp_path, material, kernel, tension, eps, n):
     """the same with artstress, in bodies that expand; energy of pairs and momentum to round-off"""
     s = state(seed=25)
     s.rho *= 0.97
-    text = start(s, tmp_path, material, tension=tension, kernel=kernel, words=f"viscosity 1 2 artstress {eps} {n}", steps=10)
+    text = start(s, tmp_path, material, tension=tension, kernel=kernel, words=f"viscosity 1 2 artstress {eps} {n} gradient law", steps=10)
     lmp(text + "velocity all ramp vx 0.0 0.3 x 0.0 8.0 sum yes units box\n" + OUT.format("f"))
     d = read(tmp_path / "f")
     want = brute_force(s, d, tension == "yes", kernel=kernel, art=(eps, n))
@@ -181,7 +181,7 @@ def test_artificial_stress_variable_h(lmp, tmp_path, material):
     """h follows density, h of the start and the spacing of the start belong together"""
     s = state(seed=26)
     s.rho *= 0.97
-    lmp(start(s, tmp_path, material, words=f"{ART} h variable", steps=10) + "velocity all ramp vx 0.0 0.3 x 0.0 8.0 sum yes units box\n" + OUT.format("f"))
+    lmp(start(s, tmp_path, material, words=f"{ART} h variable gradient law", steps=10) + "velocity all ramp vx 0.0 0.3 x 0.0 8.0 sum yes units box\n" + OUT.format("f"))
     d = read(tmp_path / "f")
     h = 1.25 * np.cbrt(0.97 / d["rho"])
     assert np.ptp(h) > 0.01
