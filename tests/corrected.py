@@ -79,8 +79,8 @@ def rates(s, tension=True, visc=(1.0, 2.0)):
     together = np.full(len(i), True) if tension else s.kind[i] == s.kind[j]
     own = together & ~s.failed[i] & ~s.failed[j]
     stiff = s.rho * s.c**2
-    pushed = (s.p[i] + s.p[j]) / (np.abs(s.p[i]) + np.abs(s.p[j]) + 1e-3 * (stiff[i] + stiff[j]))
-    nearing = -ur / (1e-3 * r * np.maximum(s.c[i], s.c[j]))
+    pushed = (s.p[i] + s.p[j]) / (np.abs(s.p[i]) + np.abs(s.p[j]) + 1e-6 * (stiff[i] + stiff[j]))
+    nearing = -ur / (1e-6 * r * np.maximum(s.c[i], s.c[j]))
     others = ~own * np.clip(np.maximum(np.maximum(pushed, nearing), together & s.failed[i] & s.failed[j]), 0, 1)
 
     def total(a):

@@ -61,7 +61,7 @@ class FixHVIJohnsonCook :
   }
   double plastic_work(int) const override;    // energy, from the start on
   bool failed(int i) const { return extra[i].failed(); }
-  bool can_fail() const;    // collective: has failed, or may fail in this run
+  bool can_fail() const;                   // collective: has failed, or may fail in this run
   std::string laws_of(int itype) const;    // in words
 
  private:

@@ -23,8 +23,7 @@ static constexpr double SMALL_EIGENVALUE = 0.15, LARGE_EIGENVALUE = 0.3;
 static double g(double lambda)
 {
   const double w = std::max(
-      0.0,
-      std::min(1.0, (lambda - SMALL_EIGENVALUE) / (LARGE_EIGENVALUE - SMALL_EIGENVALUE)));
+      0.0, std::min(1.0, (lambda - SMALL_EIGENVALUE) / (LARGE_EIGENVALUE - SMALL_EIGENVALUE)));
   const double smooth = w * w * (3.0 - 2.0 * w);
   return smooth > 0.0 ? 1.0 - smooth + smooth / lambda : 1.0;
 }
@@ -65,7 +64,8 @@ Symmetric limited_inverse(const Symmetric &N)
 
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix(N));
   const Eigen::Vector3d &lambda = solver.eigenvalues();
-  const Eigen::Matrix3d m = solver.eigenvectors() * Eigen::Vector3d(g(lambda[0]), g(lambda[1]), g(lambda[2])).asDiagonal() *
+  const Eigen::Matrix3d m = solver.eigenvectors() *
+      Eigen::Vector3d(g(lambda[0]), g(lambda[1]), g(lambda[2])).asDiagonal() *
       solver.eigenvectors().transpose();
   return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
 }

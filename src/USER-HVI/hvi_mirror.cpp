@@ -102,8 +102,7 @@ void Images::fold(const SphView &records, bool newton)
 
 /* ---------------------------------------------------------------------- */
 
-template <class Record>
-static void add(const Record &from, Record &to)
+template <class Record> static void add(const Record &from, Record &to)
 {
   for (int k = 0; k < Record::SENT; k++) (&to.xx)[k] += (&from.xx)[k];
 }

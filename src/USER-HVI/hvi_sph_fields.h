@@ -78,7 +78,8 @@ class SphFields {
 
   // for the pair style
 
-  void choose(bool slopes, bool stress, bool art, bool whole, bool bodies);    // which records the scene has
+  void choose(bool slopes, bool stress, bool art, bool whole,
+              bool bodies);           // which records the scene has
   void grow(int n, int spare = 0);    // to hold n of each, if they do not: contents are lost
   const SphView &view() const { return records; }
   std::string arrays() const;    // those of this scene, with bytes per particle: for people
@@ -96,7 +97,8 @@ class SphFields {
 
  private:
   int nmax = 0;
-  bool has_slopes = false, has_stress = false, has_art = false, has_whole = false, has_bodies = false;
+  bool has_slopes = false, has_stress = false, has_art = false, has_whole = false,
+       has_bodies = false;
   SphView records;
   std::unique_ptr<SphPlace[]> place;
   std::unique_ptr<SphState[]> state;

@@ -23,8 +23,9 @@ struct alignas(32) SphPlace {
 
 struct alignas(64) SphState {
   double vx, vy, vz;
-  double w;    // weight in sums over particles: m/rho in form sum, m in form symmetric; see Howto_sph for
-               // gradient corrected
+  double
+      w;    // weight in sums over particles: m/rho in form sum, m in form symmetric; see Howto_sph for
+            // gradient corrected
   double p;    // pressure, in form symmetric p/rho^2
   double c;    // speed of sound
   double rho;
@@ -67,9 +68,7 @@ struct alignas(32) SphTraction {
   static constexpr int SENT = 9;
   double xx, xy, xz, yx;
   double yy, yz, zx, zy;
-  double zz, volume;
-  double stiffness;    // of owned particles, for the time step
-  double unused;
+  double zz, volume, unused[2];
 };
 
 struct alignas(64) SphPush {
@@ -114,7 +113,7 @@ struct SphView {
   SphSlopes *slopes = nullptr;    // dissipation riemann
   SphStress *stress = nullptr;    // solids, as is the next
   SphGradV *gradv = nullptr;
-  SphStress *art = nullptr;    // artificial stress
+  SphStress *art = nullptr;           // artificial stress
   SphTraction *traction = nullptr;    // solids with gradient corrected
   SphGradV *contact = nullptr;        // between bodies of those, as is the next
   SphPush *push = nullptr;

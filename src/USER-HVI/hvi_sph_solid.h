@@ -52,7 +52,7 @@ struct SphBonds {
   inline Vec touching(const SphState &i, const Vec &p_j, const Vec &c_j, const Vec &rho_j,
                       const Vec &r, const Vec &rdotv) const
   {
-    static constexpr double LITTLE = 1.0e-3;
+    static constexpr double LITTLE = 1.0e-6;
     const Vec zero = {}, one = zero + 1.0;
     const Vec c = c_j > i.c ? c_j : zero + i.c;
     const Vec stiff = i.rho * i.c * i.c + rho_j * c_j * c_j;
@@ -199,13 +199,12 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
     }
 
     const Vec wF_i = bonded * ww * F_i, wF_j = bonded * ww * F_j;
-    Vec f[3] = {
-        wF_i * (T_i.xx * d[0] + T_i.xy * d[1] + T_i.xz * d[2]) +
-            wF_j * (T[0] * d[0] + T[1] * d[1] + T[2] * d[2]),
-        wF_i * (T_i.yx * d[0] + T_i.yy * d[1] + T_i.yz * d[2]) +
-            wF_j * (T[3] * d[0] + T[4] * d[1] + T[5] * d[2]),
-        wF_i * (T_i.zx * d[0] + T_i.zy * d[1] + T_i.zz * d[2]) +
-            wF_j * (T[6] * d[0] + T[7] * d[1] + T[8] * d[2])};
+    Vec f[3] = {wF_i * (T_i.xx * d[0] + T_i.xy * d[1] + T_i.xz * d[2]) +
+                    wF_j * (T[0] * d[0] + T[1] * d[1] + T[2] * d[2]),
+                wF_i * (T_i.yx * d[0] + T_i.yy * d[1] + T_i.yz * d[2]) +
+                    wF_j * (T[3] * d[0] + T[4] * d[1] + T[5] * d[2]),
+                wF_i * (T_i.zx * d[0] + T_i.zy * d[1] + T_i.zz * d[2]) +
+                    wF_j * (T[6] * d[0] + T[7] * d[1] + T[8] * d[2])};
 
     // dissipation: a pressure between the two, on the area 2 V_i V_j |grad W|
 
@@ -220,8 +219,8 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
             (d[0] * (xx * d[0] + xy * d[1] + xz * d[2]) + d[1] * (yy * d[1] + yz * d[2]) +
              zz * d[2] * d[2]);
       };
-      const Vec ahead_i = along(L_i.xx, L_i.yy, L_i.zz, L_i.xy + L_i.yx, L_i.xz + L_i.zx,
-                                L_i.yz + L_i.zy);
+      const Vec ahead_i =
+          along(L_i.xx, L_i.yy, L_i.zz, L_i.xy + L_i.yx, L_i.xz + L_i.zx, L_i.yz + L_i.zy);
       const Vec ahead_j = along(L[0], L[4], L[8], L[1] + L[3], L[2] + L[6], L[5] + L[7]);
       const Vec p = si.p - second[0];
       const Vec za_i = zero + rho_i * c_i, za_j = rho_j * c_j, zainv = 1.0 / (za_i + za_j);
@@ -276,8 +275,8 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
         const SphPush P_i = records.push[i];
         Vec P[8];
         for (int k = 0; k < 2; k++) read_columns(records.push, j, k, P + 4 * k);
-        const Vec acts =
-            P_i.p + P[6] > 0.0 ? bonds.touching(si, second[0], c_j, rho_j, r, rdotv) : zero;
+        const Vec acts = P_i.p + P[6] > 0.0 ? bonds.touching(si, second[0], c_j, rho_j, r, rdotv)
+                                            : zero;
         const Vec cF_i = acts * ww * F_i, cF_j = acts * ww * F_j;
         const Vec t_i[3] = {cF_i * (P_i.xx * d[0] + P_i.xy * d[1] + P_i.xz * d[2]),
                             cF_i * (P_i.xy * d[0] + P_i.yy * d[1] + P_i.yz * d[2]),
@@ -296,8 +295,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
       Vec R[8];
       for (int k = 0; k < 2; k++) read_columns(records.art, j, k, R + 4 * k);
       const Vec h = pi.h - 0.5 * d[3];
-      const Vec factor =
-          bonded * V_i * V_j * F * pow(Kernel::template w<Vec>(r / h), laws.art_n);
+      const Vec factor = bonded * V_i * V_j * F * pow(Kernel::template w<Vec>(r / h), laws.art_n);
       const Vec t_i[3] = {factor * (R_i.xx * d[0] + R_i.xy * d[1] + R_i.xz * d[2]),
                           factor * (R_i.xy * d[0] + R_i.yy * d[1] + R_i.yz * d[2]),
                           factor * (R_i.xz * d[0] + R_i.yz * d[1] + R_i.zz * d[2])};

@@ -67,7 +67,7 @@ namespace {
       const double rsq = square[0] + square[2] + square[1];
       if (SCENE & SPH_OWN_H) {
         const double h = SCENE & (SPH_RIEMANN | SPH_CORRECTED) ? std::max(pi.h, pi.h - d[3])
-                                                              : pi.h - 0.5 * d[3];
+                                                               : pi.h - 0.5 * d[3];
         n += rsq < Kernel::support * Kernel::support * h * h;
       } else
         n += rsq < reachsq;
@@ -174,12 +174,11 @@ namespace {
   {
     if constexpr ((SCENE & SPH_CORRECTED) != 0) {
       const SphView &r = work.records;
-      each_particle(work, FIRST, r.gradv,
-                    [&](int i, const SphPlace &pi, int n, const SphLaws &laws, SphNear &near,
-                        SphGradV &sum) {
-                      sph_gradients<Kernel, SCENE>(i, pi, r.state, n, laws, near, r.gradv,
-                                                   r.contact, sum);
-                    });
+      each_particle(
+          work, FIRST, r.gradv,
+          [&](int i, const SphPlace &pi, int n, const SphLaws &laws, SphNear &near, SphGradV &sum) {
+            sph_gradients<Kernel, SCENE>(i, pi, r.state, n, laws, near, r.gradv, r.contact, sum);
+          });
     } else if constexpr ((SCENE & SPH_RIEMANN) != 0) {
       const SphState *const state = work.records.state;
       SphSlopes *const slopes = work.records.slopes;
@@ -226,8 +225,8 @@ namespace {
   using Scenes =
       std::integer_sequence<int, 0, H, B, H | B, H | B | D, R, R | H, R | H | B, S, S | B,
                             S | H | B, S | H | B | D, S | H | B | A, S | H | B | D | A, C, C | B,
-                            C | H | B, C | H | B | D, C | H | B | D | A, C | R, C | R | B, C | R | H | B,
-                            C | R | H | B | A>;
+                            C | H | B, C | H | B | D, C | H | B | D | A, C | R, C | R | B,
+                            C | R | H | B, C | R | H | B | A>;
 
   template <class Kernel, int... SCENE>
   std::unique_ptr<SphSweeps> make(int scene, std::integer_sequence<int, SCENE...>)

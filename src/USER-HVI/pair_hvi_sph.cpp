@@ -93,7 +93,8 @@ void PairHVISPH::compute(int eflag, int vflag)
 
   if (mirrored) images.fold(records, force->newton_pair);
   scatter();
-  if (records.gradv && !records.traction && force->newton_pair) reverse(records.gradv, HVI::SphGradV::SENT_PLAIN);
+  if (records.gradv && !records.traction && force->newton_pair)
+    reverse(records.gradv, HVI::SphGradV::SENT_PLAIN);
 
   if (vflag_fdotr) virial_fdotr_compute();
 }
@@ -182,12 +183,12 @@ void PairHVISPH::init_style()
 
   // pair_style hybrid looks at these in settings() only, and sizes the buffers
 
-  comm_forward = set.whole ? HVI::SphTraction::SENT
-                           : (strength ? HVI::SphStress::SENT
-                                       : (set.riemann ? HVI::SphSlopes::SENT : 0));
-  comm_reverse = set.whole ? HVI::SphGradV::SENT
-                           : (strength ? HVI::SphGradV::SENT_PLAIN
-                                       : (set.riemann ? HVI::SphSlopes::SENT : 0));
+  comm_forward = set.whole
+      ? HVI::SphTraction::SENT
+      : (strength ? HVI::SphStress::SENT : (set.riemann ? HVI::SphSlopes::SENT : 0));
+  comm_reverse = set.whole
+      ? HVI::SphGradV::SENT
+      : (strength ? HVI::SphGradV::SENT_PLAIN : (set.riemann ? HVI::SphSlopes::SENT : 0));
   force->pair->comm_forward = MAX(force->pair->comm_forward, comm_forward);
   force->pair->comm_reverse = MAX(force->pair->comm_reverse, comm_reverse);
   neighbor->add_request(this);
@@ -232,8 +233,7 @@ double PairHVISPH::init_one(int i, int j)
 {
   for (const int itype : {i, j})
     if (!is_ours[itype]) error->all(FLERR, "Pair style hvi/sph: type {} has no material", itype);
-  const double h =
-      set.riemann || set.whole ? MAX(set.h[i], set.h[j]) : 0.5 * (set.h[i] + set.h[j]);
+  const double h = set.riemann || set.whole ? MAX(set.h[i], set.h[j]) : 0.5 * (set.h[i] + set.h[j]);
   return set.support * (set.variable ? set.hmax : 1.0) * h;
 }
 

@@ -229,6 +229,8 @@ void PairHVISPH::settings(int narg, char **arg)
     if (set.mirror.has(k))
       set.text += fmt::format(" mirror {} {} {}", "xyz"[k], set.mirror.at[k],
                               set.mirror.side[k] > 0.0 ? "lo" : "hi");
+  if (set.gradient != HVI::SphSettings::CORRECTED)
+    set.text += set.gradient == HVI::SphSettings::LAW ? " gradient law" : " gradient plain";
   if (laws.art_eps > 0.0) set.text += fmt::format(" artstress {} {}", laws.art_eps, laws.art_n);
 }
 

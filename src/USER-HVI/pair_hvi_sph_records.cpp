@@ -298,15 +298,12 @@ void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
 {
   const HVI::SphPlace *const place = store->fields.view().place;
   const HVI::SphState *const state = store->fields.view().state;
-  const HVI::SphTraction *const traction = store->fields.view().traction;
   const double scale = 0.5 * set.support;
   double shortest = bounds.signal;
 
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_ours[atom->type[i]]) continue;
-    const double c = traction ? traction[i].stiffness * state[i].c : state[i].c;
-    if (!(scale * place[i].h >= shortest * c)) shortest = scale * place[i].h / c;
-  }
+  for (int i = 0; i < atom->nlocal; i++)
+    if (is_ours[atom->type[i]] && !(scale * place[i].h >= shortest * state[i].c))
+      shortest = scale * place[i].h / state[i].c;
 
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
@@ -335,7 +332,7 @@ void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
       const double rsq = dx * dx + dy * dy + dz * dz;
       if (jj >= jnum && rsq > images.reachsq()) continue;
       const double h = 0.5 * (pi.h + pj.h);
-      const double c = MAX(traction ? traction[i].stiffness * si.c : si.c, sj.c);
+      const double c = MAX(si.c, sj.c);
       const double mu = -h * rdotv / (rsq + 0.01 * h * h);
       const int jtype = static_cast<int>(sj.type);
       const double signal =

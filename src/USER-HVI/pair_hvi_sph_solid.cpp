@@ -20,9 +20,6 @@
 #include "hvi_inverse.h"
 #include "math_special.h"
 
-#include <cmath>
-
-
 using namespace LAMMPS_NS;
 using HVI::SphGradV;
 using HVI::Symmetric;
@@ -44,12 +41,7 @@ static double trace(const HVI::VelocityGradient &L, const Symmetric &K)
       (L.yz + L.zy) * K.yz;
 }
 
-/* ----------------------------------------------------------------------
-   By M^-1 a particle with few neighbors is stiffer: its stiffness, 1 inside and at a plain face, where
-   the least eigenvalue of N is about AT_A_FACE, goes into the time step.
-------------------------------------------------------------------------- */
-
-static constexpr double AT_A_FACE = 0.68;
+/* ---------------------------------------------------------------------- */
 
 void PairHVISPH::finish_gradients()
 {
@@ -121,8 +113,6 @@ void PairHVISPH::finish_gradients()
     T.zx = scale * B.zx - p * by_all.xz;
     T.zy = scale * B.zy - p * by_all.yz;
     T.zz = scale * B.zz - p * by_all.zz;
-    const double softest = scale * own.nu * (by_own.xx + by_own.yy + by_own.zz) - 2.0;
-    T.stiffness = std::sqrt(MAX(1.0, AT_A_FACE * softest));
     if (records.push)
       records.push[i] = {-p * by_all.xx, -p * by_all.yy, -p * by_all.zz, -p * by_all.xy,
                          -p * by_all.xz, -p * by_all.yz, push,           0.0};

@@ -483,7 +483,7 @@ def test_spall(lmp, tmp_path, root):
     hel = Y0 * rho0 * cl**2 / (2 * G_)
     stepanov = sigma / rho0 * (1 / c0 + 1 / cl)
     found = []
-    for n in (50, 100):
+    for n in (60, 120):
         s, r, first, a, dx = flyer(lmp, tmp_path, root, V, n, a=a, t_end=1.6e-6, name=f"s{n}")
         t, u, up, t_sp = pull_back(s, r)
         top = up + u[up:].argmax()

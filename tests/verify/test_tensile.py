@@ -20,15 +20,15 @@ def test_rings(lmp, tmp_path, kernel, h):
         print({k: round(float(v), 3) for k, v in f.items()})
     assert max(f["pieces"] for f in frames) == 1
     assert min(f["near"] for f in frames) > 0.5  # of the spacing: no pairs
-    v = np.array([f["v"] for f in frames])
+    t, v = (np.array([f[a] for f in frames]) for a in ("t", "v"))
+    with_it = [f["near"] for f in frames if f["t"] < 0.5 * t[-1]]
     assert v[-1] < -0.5 and abs(v[-1] - v[-3]) < 1e-6  # apart and on their way; the rest of the energy is in their oscillation and heat
     assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
     assert max(momentum_error(r.thermo)) < 1e-11
-    # without: this scene is one that tears
-    r, frames = rings(lmp, tmp_path, "viscosity 1 2", h=h, kernel=kernel, name="torn")
+    # without: this scene is one whose particles clump, and what tears later has no strength to lose: it may end at a negative density
+    r, frames = rings(lmp, tmp_path, "viscosity 1 2", h=h, kernel=kernel, name="torn", t_end=0.5 * t[-1])
     print("without", frames[-1])
-    assert max(f["pieces"] for f in frames) > 1 and min(f["near"] for f in frames) < 0.4
-    assert frames[-1]["v"] > -0.3
+    assert min(f["near"] for f in frames) < 0.4 < min(with_it)
     assert max(momentum_error(r.thermo)) < 1e-11
 
 
