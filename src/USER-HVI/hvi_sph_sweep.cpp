@@ -16,7 +16,6 @@
 #include "hvi_sph_solid.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace HVI {
@@ -131,7 +130,7 @@ namespace {
     for (int ii = 0; ii < list.inum; ii++) {
       const int i = list.ilist[ii];
       const SphPlace pi = work.records.place[i];
-      const int *const jlist = pass == SECOND ? &kept.j[nkept] : list.firstneigh[i];
+      const int *const jlist = pass == SECOND ? kept.j.data() + nkept : list.firstneigh[i];
       const int jnum = pass == SECOND ? kept.number[ii] : list.numneigh[i];
       Record sum = {};
 
@@ -150,7 +149,7 @@ namespace {
           const int n = how == SECOND
               ? all_of(work, pi, jvisit + jfirst, nvisit, near)
               : within_reach(work, pi, jvisit + jfirst, nvisit, records, near);
-          if (how == FIRST) memcpy(&kept.j[nkept + found], near.j, n * sizeof(int));
+          if (how == FIRST) std::copy_n(near.j, n, kept.j.data() + nkept + found);
           found += n;
           law(i, pi, n, laws, near, sum);
         }
