@@ -7,7 +7,7 @@ besides other bodies and rubble that come nearer or push, and the rubble in rubb
   T_i = V_i/w_i ((S_i - s_i) K_own - q_i K_all),  P_i = - V_i/w_i q_i K_all,  f_ij = w_i w_j (T_i F_i + T_j F_j) x_ij (others, while they push: P)
   drho_i = - rho_i tr(L_all K_all),  de_i = V_i ((S_i - s_i) : L_own K_own - q_i tr(L_own K_all)), and what the push of others does.
 
-q_i = p_i - s_i; s_i = n.S_i.n in contact, n the axis of M of the others with the largest eigenvalue, times min(1, 4 nu_others/nu_all).
+q_i = p_i - s_i; s_i = M^4 : S_i/tr M^4 in contact, M of the others, times min(1, 4 nu_others/nu_all).
 """
 
 from dataclasses import dataclass
@@ -98,8 +98,9 @@ def rates(s, tension=True, visc=(1.0, 2.0)):
     L_all, M_all, nu_all, K_all, _ = sums(own + others)
     _, M_others, nu_others, _, _ = sums(others)
     nu_others -= w * scale * shape(s.kernel, np.zeros(n))[0]
-    axis = np.linalg.eigh(M_others)[1][:, :, 2]
-    normal = np.einsum("na,nab,nb->n", axis, s.S, axis) * np.minimum(1, 4 * nu_others / nu_all)
+    fourth = np.linalg.matrix_power(M_others, 4)
+    size = np.trace(fourth, axis1=1, axis2=2)
+    normal = np.einsum("nab,nab->n", fourth, s.S) / np.where(size > 0, size, 1.0) * np.minimum(1, 4 * nu_others / nu_all)
     pushing = s.p - np.where((nu_others > 0) & ~s.failed, normal, 0.0)
     rest = s.S + (pushing - s.p)[:, None, None] * np.eye(3)
     P = -(V / w * pushing)[:, None, None] * K_all

@@ -37,9 +37,9 @@ static Eigen::Matrix3d matrix(const Symmetric &s)
 
 double stress_along_largest(const Symmetric &M, const Symmetric &S)
 {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix(M));
-  const Eigen::Vector3d n = solver.eigenvectors().col(2);    // they are in increasing order
-  return n.dot(matrix(S) * n);
+  const Eigen::Matrix3d m = matrix(M) / (M.xx + M.yy + M.zz), square = m * m,
+                        fourth = square * square;
+  return fourth.cwiseProduct(matrix(S)).sum() / fourth.trace();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -23,7 +23,8 @@ struct Symmetric {
 
 Symmetric limited_inverse(const Symmetric &N);
 
-// n.S.n, with n the axis of M's largest eigenvalue
+// M^4 : S / tr M^4: n.S.n with n the axis of M's largest eigenvalue, where that stands out; a mean where
+// several are alike, so that it does not jump
 
 double stress_along_largest(const Symmetric &M, const Symmetric &S);
 

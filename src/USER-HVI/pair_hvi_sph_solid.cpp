@@ -94,7 +94,7 @@ void PairHVISPH::finish_gradients()
       const SphGradV &c = records.contact[i];
       for (int k = 0; k < SphGradV::SENT; k++) (&all.xx)[k] += (&c.xx)[k];
       by_all = inverse(all, scale * all.nu);
-      if (S.shear > 0.0)
+      if (S.shear > 0.0 && c.mxx + c.myy + c.mzz > 0.0)
         push -= MIN(1.0, 4.0 * c.nu / all.nu) *
             HVI::stress_along_largest({c.mxx, c.myy, c.mzz, c.mxy, c.mxz, c.myz},
                                       {S.xx, S.yy, S.zz, S.xy, S.xz, S.yz});
