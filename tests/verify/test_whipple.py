@@ -126,8 +126,10 @@ def test_quarter_is_the_whole(shield):
     """until the cloud of wall 1 has passed, a quarter between mirrors is what the whole is, to what is printed"""
     quarter, whole = [shield(folder=q, **{**SMALL, "quarter": q}) for q in ("yes", "no")]
     assert 4 * quarter["particles"] == whole["particles"]
+    # if the largest fragments are single particles, which is the largest is anybody's guess
+    single = quarter["wall1_largest_fragment_mm"] < 1.01 * (6 / np.pi) ** (1 / 3) * SMALL["dx"]
     for key in PER_WALL:
-        if key not in ("reached", "perforated", "detached_spall", "fragments"):
+        if key not in ("reached", "perforated", "detached_spall", "fragments", *["largest_fragment_velocity_m_s"] * single):
             assert quarter[f"wall1_{key}"] == pytest.approx(whole[f"wall1_{key}"], rel=1e-3), key
     assert quarter["hole1_diameter_mm"] == pytest.approx(whole["hole1_diameter_mm"], rel=0.03)
     assert abs(quarter["energy_ratio"] - 1) < 1e-3 and quarter["momentum_error"] < 1e-10
