@@ -30,7 +30,7 @@ enum { MAXIMUM, CONTACT, SPRING, APPROACH, GROWING, SIGNAL, NLIMITER };
 /* ---------------------------------------------------------------------- */
 
 FixHVIDt::FixHVIDt(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtmin(0.0), dtmax(HVI::NO_BOUND), every(10), limiter(MAXIMUM), restored(0),
+    Fix(lmp, narg, arg), dtmin(0.0), dtmax(HVI::NO_BOUND), every(0), limiter(MAXIMUM), restored(0),
     chosen(0), laststep(0)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix hvi/dt", error);
@@ -89,6 +89,7 @@ void FixHVIDt::init()
   sources = HVI::find_interface<HVI::TimeStepSource>(lmp);
   if (sources.empty())
     error->all(FLERR, "Fix hvi/dt needs a pair style, bond style or fix that limits the time step");
+  if (every == 0) every = HVI::at_hand(sources) ? 1 : 10;
 }
 
 /* ----------------------------------------------------------------------

@@ -379,6 +379,10 @@ void FixHVIJohnsonCook::second_half(double dt)
   for (int i = 0; i < atom->nlocal; i++) {
     const HVI::SolidModel *const model = of(i);
     if (!model || failed(i)) continue;
+    if (store->fields.asleep(i)) {
+      HVI::SolidModel::rest(extra[i]);
+      continue;
+    }
     if (n == HVI::LANES || model != now) {
       if (n) second_half(n, who, dt);
       n = 0;

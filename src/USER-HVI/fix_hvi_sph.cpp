@@ -37,6 +37,10 @@ using namespace FixConst;
 
 static constexpr int TRENDS = 1;
 
+// sleep exact: what rounding of sums over neighbors leaves of rest, in parts of the speed of sound
+
+static constexpr double EXACT = 1.0e-13;
+
 constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
     {"going_on", 0, offsetof(Extra, mark),
      [](const FixHVISPH &fix, int i) {
@@ -98,7 +102,7 @@ const double *FixHVISPH::felt_velocity(int i) const
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {"", "_trends"}), store(nullptr),
     ledger(nullptr), strength(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0},
-    stepping(0), wallbit(0), follow(0), checked(0)
+    stepping(0), wallbit(0), follow(0), checked(0), quiet(1.0e-8), relative(true)
 {
   static_assert(covers<Extra>(FIELDS), "a number of the record is missing, or there twice");
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
@@ -106,22 +110,38 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
                "Fix hvi/sph needs density, energy and velocity estimates of particles: use "
                "atom_style sph");
   for (int iarg = 3; iarg < narg; iarg += 2) {
-    if (strcmp(arg[iarg], "walls") != 0)
-      error->all(FLERR, "Unknown fix hvi/sph keyword: {}", arg[iarg]);
-    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hvi/sph walls", error);
-    const int jgroup = group->find(arg[iarg + 1]);
-    if (jgroup == -1)
-      error->all(FLERR, "Could not find fix hvi/sph walls group ID {}", arg[iarg + 1]);
-    wallbit |= group->bitmask[jgroup];
+    const std::string key = arg[iarg];
+    if (key != "walls" && key != "sleep" && key != "lists")
+      error->all(FLERR, "Unknown fix hvi/sph keyword: {}", key);
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hvi/sph " + key, error);
+    const std::string value = arg[iarg + 1];
+    if (key == "walls") {
+      const int jgroup = group->find(value);
+      if (jgroup == -1) error->all(FLERR, "Could not find fix hvi/sph walls group ID {}", value);
+      wallbit |= group->bitmask[jgroup];
+    } else if (key == "lists") {
+      if (value != "relative" && value != "displacement")
+        error->all(FLERR, "Fix hvi/sph lists must be relative or displacement, not {}", value);
+      relative = value == "relative";
+    } else if (value == "exact" || value == "no") {
+      quiet = value == "no" ? 0.0 : EXACT;
+    } else {
+      quiet = utils::numeric(FLERR, value, false, lmp);
+      if (!(quiet >= EXACT && quiet <= 0.01))
+        error->all(FLERR,
+                   "Fix hvi/sph sleep must be exact, no or a part of the speed of sound from {} to "
+                   "0.01, not {}",
+                   EXACT, value);
+    }
   }
 
   time_integrate = 1;
   comm_border = 1;
   comm_forward = 1;
-  vector_flag = 1;
+  scalar_flag = vector_flag = 1;
   size_vector = atom->ntypes;
   global_freq = 1;
-  extvector = 0;
+  extscalar = extvector = 0;
 
   begin();
   atom->add_callback(Atom::BORDER);
@@ -465,6 +485,18 @@ FixHVISPH::Extra FixHVISPH::stored(int i) const
   Extra e = extra[i];
   if (stepping) e.mark = integrates(i) ? fingerprint(i) : 0;
   return e;
+}
+
+// how many particles were asleep in the last forces
+
+double FixHVISPH::compute_scalar()
+{
+  const FixHVIStore *const now = FixHVIStore::find(lmp);
+  bigint here = 0, all;
+  if (now)
+    for (const char one : now->fields.sleepers) here += one;
+  MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
 }
 
 /* ----------------------------------------------------------------------

@@ -55,8 +55,11 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   int unpack_border(int, int, double *) override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
+  double compute_scalar() override;
   double compute_vector(int) override;
 
+  double sleep() const { return quiet; }    // differences that count as none; 0: nothing sleeps
+  bool relative_lists() const { return relative; }
   bool is_new(int i) const { return extra[i].hscale == 0.0; }    // in no run before
   double hscale(int i) const { return extra[i].hscale; }         // owned and ghost particles
 
@@ -78,6 +81,8 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   int wallbit;       // groups of particles that are meant to be integrated by nobody
   int follow;        // particles outside the group are moved by fixes that do not know vest
   int checked;       // warned of what may be wrong: once per run, not again with pre no
+  double quiet;      // parts of the speed of sound
+  bool relative;     // lists are made anew by relative motion
 
   bool integrates(int) const;
   bool has_material(int) const;

@@ -176,6 +176,12 @@ void SolidModel::first_half(SolidState &s, double dt, bool trends) const
   show(s, ahead);
 }
 
+void SolidModel::rest(SolidState &s)
+{
+  s.carried = s.trend = Deviator();
+  s.rate = 0.0;
+}
+
 int SolidModel::second_half(int n, SolidState *const *state, const SolidInput *in, double dt) const
 {
   Conditions c[LANES] = {};

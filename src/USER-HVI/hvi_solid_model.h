@@ -111,6 +111,10 @@ class SolidModel {
 
   void first_half(SolidState &, double dt, bool trends) const;
 
+  // in place of the second half, where nothing changes
+
+  static void rest(SolidState &);
+
   // of n, not more than LANES, that have not failed.  Returns the first whose stress is not a number;
   // -1: all is well.
 

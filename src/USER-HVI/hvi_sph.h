@@ -61,6 +61,7 @@ struct alignas(64) SphNear {
   double fx[SIZE], fy[SIZE], fz[SIZE];    // all of it, with SPH_STRENGTH only
   int j[SIZE];
   SphPairs pairs[SIZE / LANES];
+  Vec fastest;    // see sph_signal(), of all pairs there have been
 };
 
 // whole vectors: fill up with particles out of reach, to which nothing happens
@@ -73,6 +74,24 @@ template <class Kernel> inline int sph_fill_up(int i, const SphPlace &pi, int n,
     near.d[m] = Vec4{2.0 * Kernel::support * pi.h};
   }
   return nlanes;
+}
+
+/* ----------------------------------------------------------------------
+   For the time step, of pairs that approach: (c + approach + viscosity)/h, Monaghan 1992 eq 4.5 with
+   the speed at which the pair approaches in place of |v|, which depends on the frame.  soft is r^2 +
+   0.01 h^2, rdotv is r times the speed.
+------------------------------------------------------------------------- */
+
+HVI_INLINE Vec sph_signal(const Vec &h, const Vec &r, const Vec &soft, const Vec &rdotv,
+                          const Vec &c, const Vec &a, const Vec &b)
+{
+  const Vec all = c * (1.0 + 0.6 * a) * r * soft - rdotv * (soft + 0.6 * b * h * r);
+  return rdotv < 0.0 ? all / (h * r * soft) : Vec{};
+}
+
+HVI_INLINE void keep_fastest(const Vec &rate, Vec &fastest)
+{
+  fastest = rate > fastest ? rate : fastest;
 }
 
 // grad W = F (dx,dy,dz)
@@ -236,6 +255,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
 
   const Vec zero = {}, one = zero + 1.0;
   Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, overlaps = zero;
+  Vec fastest = near.fastest;
 
   for (int m = 0; m < nlanes; m += LANES) {
     static constexpr int in_turn[4] = {0, 1, 2, 3};
@@ -287,6 +307,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
     const Vec soft = rsq + 0.01 * h * h;
     const Vec Pi = hv * (2.0 * b * hv - a * (c_i + c_j) * soft) / (soft * soft * (rho_i + rho_j));
     const Vec visc = w_i * rhow_i * w_j * rhow_j * Pi;
+    keep_fastest(sph_signal(h, r, soft, rdotv, c_i > c_j ? zero + c_i : c_j, a, b), fastest);
 
     const Vec ww = acts * w_i * w_j;
     const Vec press_i = ww * P_i, press_j = ww * P_j;
@@ -337,6 +358,7 @@ inline bool sph_interact(int i, const SphPlace &pi, const SphState *state, int n
   if (SCENE & SPH_STRENGTH)
     sph_strength<SCENE>(i, nlanes, w_i, near, rates, total, stress, gradv, art);
 
+  near.fastest = fastest;
   total.fx += sum(fx);
   total.fy += sum(fy);
   total.fz += sum(fz);

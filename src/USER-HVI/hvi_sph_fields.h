@@ -90,6 +90,8 @@ class SphFields {
 
   double pressure(int i) const;
   VelocityGradient velocity_gradient(int i) const;
+  bool asleep(int i) const { return !sleepers.empty() && sleepers[i]; }
+  std::vector<char> sleepers;    // owned particles that nothing happens to; empty: there are none
   double viscous_power = 0.0;    // heat of viscosity, of particles that fix hvi/sph integrates
   double plane_force[3] = {0, 0, 0};    // of mirror planes on the particles
   bool along[3] = {true, true,

@@ -166,6 +166,7 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
 
   const Vec zero = {}, one = zero + 1.0;
   Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, overlaps = zero;
+  Vec fastest = near.fastest;
 
   for (int m = 0; m < nlanes; m += LANES) {
     static constexpr int in_turn[4] = {0, 1, 2, 3};
@@ -184,9 +185,14 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     Vec F_i, F_j;
     kernels.F(r, d[3], F_i, F_j);
 
+    const Vec h = SCENE & SPH_OWN_H ? pi.h - 0.5 * d[3] : zero + laws.h;
+
     // velocities along d times r: u = r (U_i - U_j); and the differences beyond i and beyond j
 
     const Vec u = dx * (si.vx - first[0]) + dy * (si.vy - first[1]) + dz * (si.vz - first[2]);
+    keep_fastest(sph_signal(h, r, rsq + 0.01 * h * h, u, c_i > c_j ? zero + c_i : c_j,
+                            zero + laws.a, zero + laws.b),
+                 fastest);
     const Vec p = p_i - p_j;
     const Vec xx = 2.0 * dx * dx, yy = 2.0 * dy * dy, zz = 2.0 * dz * dz;
     const Vec xy = 4.0 * dx * dy, xz = 4.0 * dx * dz, yz = 4.0 * dy * dz;
@@ -263,6 +269,7 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     add_columns(rates, j, 1, second);
   }
 
+  near.fastest = fastest;
   total.fx += sum(fx);
   total.fy += sum(fy);
   total.fz += sum(fz);

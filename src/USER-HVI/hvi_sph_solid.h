@@ -164,6 +164,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
 
   const Vec zero = {}, one = zero + 1.0;
   Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, overlaps = zero;
+  Vec fastest = near.fastest;
 
   for (int m = 0; m < nlanes; m += LANES) {
     static constexpr int in_turn[4] = {0, 1, 2, 3};
@@ -206,6 +207,9 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
                 wF_i * (T_i.zx * d[0] + T_i.zy * d[1] + T_i.zz * d[2]) +
                     wF_j * (T[6] * d[0] + T[7] * d[1] + T[8] * d[2])};
 
+    const Vec h = pi.h - 0.5 * d[3], soft = rsq + 0.01 * h * h;
+    keep_fastest(sph_signal(h, r, soft, rdotv, c_i > c_j ? zero + c_i : c_j, a, b), fastest);
+
     // dissipation: a pressure between the two, on the area 2 V_i V_j |grad W|
 
     Vec q;
@@ -241,9 +245,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
       const Vec jump = known > u ? known - u : zero;    // what comes apart is not held
       q = z_i * z_j * inverse * steep * jump;
     } else {
-      const Vec h = pi.h - 0.5 * d[3];
       const Vec hv = h * (rdotv < 0.0 ? rdotv : zero);
-      const Vec soft = rsq + 0.01 * h * h;
       const Vec Pi = hv * (2.0 * b * hv - a * (c_i + c_j) * soft) / (soft * soft * (rho_i + rho_j));
       q = 0.5 * rho_i * rho_j * Pi;
     }
@@ -294,7 +296,6 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
     if (SCENE & SPH_ARTSTRESS) {
       Vec R[8];
       for (int k = 0; k < 2; k++) read_columns(records.art, j, k, R + 4 * k);
-      const Vec h = pi.h - 0.5 * d[3];
       const Vec factor = bonded * V_i * V_j * F * pow(Kernel::template w<Vec>(r / h), laws.art_n);
       const Vec t_i[3] = {factor * (R_i.xx * d[0] + R_i.xy * d[1] + R_i.xz * d[2]),
                           factor * (R_i.xy * d[0] + R_i.yy * d[1] + R_i.yz * d[2]),
@@ -323,6 +324,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
     add_columns(records.rates, j, 1, more);
   }
 
+  near.fastest = fastest;
   total.fx += sum(fx);
   total.fy += sum(fy);
   total.fz += sum(fz);

@@ -118,6 +118,7 @@ namespace {
     SphKept &kept = *work.kept;
     SphLaws laws = work.laws;
     SphNear near;
+    near.fastest = Vec{} + work.fastest;
     std::size_t nkept = 0;
 
     if (pass == FIRST) {
@@ -165,6 +166,7 @@ namespace {
       for (int k = 0; k < (int) (sizeof(Record) / sizeof(Vec4)); k++)
         part(&records[i], k) += part(&sum, k);
     }
+    for (int k = 0; k < LANES; k++) work.fastest = std::max(work.fastest, near.fastest[k]);
   }
 
   /* ---------------------------------------------------------------------- */

@@ -56,6 +56,7 @@ struct SphWork {
   SphKept *kept;
   SphWatcher *watcher;
   bool tally;
+  double fastest;    // of the speeds of signals over h: that of particles, and then of pairs
 };
 
 /* ----------------------------------------------------------------------

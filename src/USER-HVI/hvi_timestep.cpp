@@ -22,11 +22,6 @@
 
 using namespace LAMMPS_NS;
 
-// no two particles come closer by more than this part of the reach of pairs in one step, so
-// that a pair is seen on its approach before it is deep in contact
-
-static constexpr double TRAVEL = 0.1;
-
 /* ---------------------------------------------------------------------- */
 
 double HVI::shortest_cutoff(const LAMMPS *lmp)
@@ -42,20 +37,29 @@ double HVI::shortest_cutoff(const LAMMPS *lmp)
 
 /* ---------------------------------------------------------------------- */
 
+bool HVI::at_hand(const std::vector<TimeStepSource *> &sources)
+{
+  return std::all_of(sources.begin(), sources.end(), [](const TimeStepSource *source) {
+    return source->at_hand();
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
 HVI::StableSteps HVI::stable_steps(const LAMMPS *lmp, const std::vector<TimeStepSource *> &sources,
                                    double factor)
 {
   const Atom *const atom = lmp->atom;
-  lmp->comm->forward_comm_array(3, atom->v);
+  if (!at_hand(sources)) lmp->comm->forward_comm_array(3, atom->v);
 
   TimeStepBounds bounds;
   for (auto *source : sources) source->tighten(bounds);
 
   // the extremes of velocity too: min v and min -v in each direction
 
-  enum { CONTACT, SPRING, APPROACH, SIGNAL, GROWTH, REACH, V, MINUS_V = V + 3, N = MINUS_V + 3 };
+  enum { CONTACT, SPRING, APPROACH, SIGNAL, GROWTH, TRAVEL, V, MINUS_V = V + 3, N = MINUS_V + 3 };
   double here[N] = {bounds.contact, bounds.spring, bounds.approach, bounds.signal,
-                    bounds.growth,  bounds.reach,  NO_BOUND,        NO_BOUND,
+                    bounds.growth,  bounds.travel, NO_BOUND,        NO_BOUND,
                     NO_BOUND,       NO_BOUND,      NO_BOUND,        NO_BOUND};
   double sum = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
@@ -79,7 +83,7 @@ HVI::StableSteps HVI::stable_steps(const LAMMPS *lmp, const std::vector<TimeStep
       const double range = lowest[k] + lowest[k + 3];
       spread += range * range;
     }
-  if (lowest[REACH] < NO_BOUND && spread > 0.0) travel = TRAVEL * lowest[REACH] / std::sqrt(spread);
+  if (lowest[TRAVEL] < NO_BOUND && spread > 0.0) travel = lowest[TRAVEL] / std::sqrt(spread);
 
   return {factor * lowest[CONTACT], factor * lowest[SPRING],
           std::min(factor * lowest[APPROACH], travel), factor * lowest[SIGNAL], lowest[GROWTH]};

@@ -35,32 +35,38 @@ struct TimeStepBounds {
 
   double growth = 1.01;
 
-  // in one step no two particles come closer by more than a part of this distance
+  // in one step no two particles come closer by more than this
 
-  double reach = NO_BOUND;
+  double travel = NO_BOUND;
 
   /* for pairs or bonds with a stiffness, where particles act on each other within a distance:
      velocity Verlet keeps their energy only while its step changes slowly.  Where a whole plate
      is struck at once and rebounds, 0.2 % in place of 0.05 % costs 40 times the drift
      (examples/dem-scaling, 6 layers at 2 km/s). */
 
+  void come_closer(double distance)
+  {
+    if (travel > distance) travel = distance;
+  }
   void conserve_energy(double distance)
   {
     if (growth > 1.0005) growth = 1.0005;
-    if (reach > distance) reach = distance;
+    come_closer(0.1 * distance);    // a pair is seen on its approach before it is deep in contact
   }
 };
 
 /* ----------------------------------------------------------------------
    A pair style, bond style or fix that limits the time step: whoever
-   implements this is found and asked.  Velocities of ghost particles are up
-   to date when tighten() is called, from Fix::setup() on.
+   implements this is found and asked, from Fix::setup() on.  Velocities of ghost particles are up
+   to date when tighten() is called, unless all have at hand what they say: then they are asked in
+   every step.
 ------------------------------------------------------------------------- */
 
 class TimeStepSource {
  public:
   virtual ~TimeStepSource() noexcept(false) {}
   virtual void tighten(TimeStepBounds &bounds) = 0;
+  virtual bool at_hand() const { return false; }    // it is left over from the last forces
 };
 
 // shortest distance over which the pair style acts, NO_BOUND without one
@@ -78,6 +84,8 @@ struct StableSteps {
   double contact, spring, approach, signal;
   double growth;
 };
+
+bool at_hand(const std::vector<TimeStepSource *> &);
 
 StableSteps stable_steps(const LAMMPS_NS::LAMMPS *, const std::vector<TimeStepSource *> &,
                          double factor);

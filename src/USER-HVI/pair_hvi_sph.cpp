@@ -17,6 +17,7 @@
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_ledger.h"
+#include "fix_hvi_lists.h"
 #include "fix_hvi_sph.h"
 #include "force.h"
 #include "hvi_sph_report.h"
@@ -35,7 +36,7 @@ using namespace LAMMPS_NS;
 
 PairHVISPH::PairHVISPH(LAMMPS *lmp) :
     Pair(lmp), visc_a(nullptr), visc_b(nullptr), tension(nullptr), store(nullptr),
-    integrator(nullptr), strength(nullptr), halo()
+    integrator(nullptr), lists(nullptr), strength(nullptr), fastest(0.0), halo()
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
@@ -71,15 +72,17 @@ void PairHVISPH::compute(int eflag, int vflag)
 
   if (strength) gather_stress();
   gather();
+  find_sleepers();
   if (records.art) artificial_stress();
   if (mirrored) images.fill(set.mirror, records);
 
-  HVI::SphWork work = {records,    {list->inum, list->ilist, list->numneigh, list->firstneigh},
-                       set.laws,   visc_a,
-                       visc_b,     tension,
-                       atom->type, mirrored ? &images : nullptr,
-                       &kept,      this,
-                       evflag != 0};
+  HVI::SphWork work = {
+      records,     {(int) rows.size(), rows.data(), list->numneigh, list->firstneigh},
+      set.laws,    visc_a,
+      visc_b,      tension,
+      atom->type,  mirrored ? &images : nullptr,
+      &kept,       this,
+      evflag != 0, fastest};
   if (sweeps->has_first()) {
     sweeps->first(work);
     if (mirrored) images.fold_sums(records);
@@ -90,6 +93,8 @@ void PairHVISPH::compute(int eflag, int vflag)
     if (mirrored) images.fill_sums(records);
   }
   sweeps->forces(work);
+  fastest = work.fastest /
+      (0.5 * set.support);    // half of the reach stands for h, for all kernels alike
 
   if (mirrored) images.fold(records, force->newton_pair);
   scatter();
@@ -165,6 +170,7 @@ void PairHVISPH::init_style()
   FixHVILedger::instance(lmp);    // fix hvi/sph cannot make it: a fix must not add fixes
   const auto integrators = modify->get_fix_by_style("^hvi/sph$");
   integrator = integrators.empty() ? nullptr : dynamic_cast<FixHVISPH *>(integrators[0]);
+  lists = FixHVILists::make(lmp, !integrator || integrator->relative_lists());
   strength = FixHVIJohnsonCook::find(lmp);
 
   const int ntypes = atom->ntypes;
@@ -180,6 +186,7 @@ void PairHVISPH::init_style()
   store->fields.choose(set.riemann && !set.whole, strength != nullptr, set.laws.art_eps > 0.0,
                        set.whole, sweeps->scene() & HVI::SPH_BODIES);
   kept = HVI::SphKept();
+  find_quiet();
 
   // pair_style hybrid looks at these in settings() only, and sizes the buffers
 

@@ -18,6 +18,7 @@ PairStyle(hvi/sph,PairHVISPH);
 #include "fix_hvi_store.h"
 #include "hvi_energy_carrier.h"
 #include "hvi_mirror.h"
+#include "hvi_sleep.h"
 #include "hvi_sph_sweep.h"
 #include "hvi_timestep.h"
 #include "pair.h"
@@ -54,6 +55,7 @@ class PairHVISPH :
   int pack_reverse_comm(int, int, double *) override;
   void unpack_reverse_comm(int, int *, double *) override;
   void tighten(HVI::TimeStepBounds &) override;
+  bool at_hand() const override { return true; }
   double memory_usage() override;
 
  private:
@@ -67,11 +69,18 @@ class PairHVISPH :
 
   class FixHVIStore *store;             // of materials and records
   class FixHVISPH *integrator;          // null: another fix integrates
+  class FixHVILists *lists;             // when they are made anew, and who is near
   class FixHVIJohnsonCook *strength;    // keeps the stress of solids; null: there are none
   std::unique_ptr<HVI::SphSweeps> sweeps;
   std::vector<char> is_ours;    // by type: has a material of this pair style
   HVI::Images images;           // of mirror planes
   HVI::SphKept kept;
+  HVI::Sleep sleep;
+  std::vector<double> rho_quiet, e_quiet;    // by type: undisturbed; 0: never
+  double rho_far, v_quiet;                   // differences that count as none
+  std::vector<int> rows;                     // of the list, of those that are awake
+  double
+      fastest;    // of the last forces: 1/time in which signals pass half of what a kernel reaches
 
   // records that are being communicated: the first numbers of each, as many as are sent
 
@@ -101,6 +110,8 @@ class PairHVISPH :
   void gather();
   void gather_stress();
   void artificial_stress();
+  void find_quiet();
+  void find_sleepers();
   void finish_slopes();
   void finish_gradients();
   void scatter();

@@ -19,6 +19,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
+#include "fix_hvi_lists.h"
 #include "fix_hvi_sph.h"
 #include "force.h"
 #include "hvi_artstress.h"
@@ -50,6 +51,7 @@ void PairHVISPH::gather()
   const int nall = atom->nlocal + atom->nghost;
   const HVI::SphView &records = store->fields.view();
   const HVI::SphLaws &laws = set.laws;
+  fastest = 0.0;
 
   for (int i = 0; i < nall; i++) {
     const int itype = type[i];
@@ -103,6 +105,7 @@ void PairHVISPH::gather()
     }
     s.p = laws.symmetric ? p / (rho[i] * rho[i]) : p;
     s.c = std::sqrt(csq);
+    if (!(s.c <= fastest * place.h)) fastest = s.c / place.h;
     s.type = itype;
     if (records.traction && records.stress[i].p_min == 0.0 && records.stress[i].shear == 0.0)
       s.type += HVI::RUBBLE;
@@ -127,6 +130,76 @@ void PairHVISPH::gather_stress()
 
   for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) stress[i] = {};
   forward(stress, HVI::SphStress::LIMITS, HVI::SphStress::FIRST_LIMIT);
+}
+
+/* ----------------------------------------------------------------------
+   What counts as undisturbed, in parts of the speed of sound c: differences of velocity; of density;
+   of energy the root, for that of a stress goes with its square, so that it need not be asked for.
+------------------------------------------------------------------------- */
+
+void PairHVISPH::find_quiet()
+{
+  // forces of dissipation riemann without solids use the number of neighbors at undisturbed particles
+
+  const double eps = integrator && !(set.riemann && !set.whole) ? integrator->sleep() : 0.0;
+  rho_quiet.assign(atom->ntypes + 1, 0.0);
+  e_quiet = rho_quiet;
+  v_quiet = HVI::NO_BOUND;
+  for (int itype = 1; itype <= atom->ntypes; itype++) {
+    if (!is_ours[itype] || eps == 0.0) continue;
+    const HVI::Eos &eos = *store->materials.of(itype)->eos;
+    const double rho0 = eos.rho0();
+    double p, csq;
+    if (!(rho0 > 0.0) || !eos.evaluate(rho0, 0.0, p, csq) || !(csq > 0.0) ||
+        std::fabs(p) > 1.0e-12 * rho0 * csq)
+      continue;
+    rho_quiet[itype] = rho0;
+    e_quiet[itype] = eps * eps * csq;
+    v_quiet = MIN(v_quiet, eps * std::sqrt(csq));
+  }
+  rho_far = eps;
+}
+
+/* ----------------------------------------------------------------------
+   whose rows of the list need not be gone through
+------------------------------------------------------------------------- */
+
+void PairHVISPH::find_sleepers()
+{
+  const HVI::RelativeMotion &cells = lists->cells();
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  std::vector<char> &sleepers = store->fields.sleepers;
+  sleepers.clear();
+  rows.assign(list->ilist, list->ilist + list->inum);
+  if (v_quiet == HVI::NO_BOUND || cells.points() != nall) return;
+
+  const HVI::SphView &records = store->fields.view();
+  sleep.start(cells);
+  for (int i = 0; i < nall; i++) {
+    const int itype = atom->type[i];
+    if (!is_ours[itype]) continue;
+    const double m = atom->rmass ? atom->rmass[i] : atom->mass[itype];
+    bool quiet = std::fabs(atom->rho[i] - rho_quiet[itype]) <= rho_far * rho_quiet[itype] &&
+        std::fabs(atom->esph[i]) <= m * e_quiet[itype] && rho_quiet[itype] > 0.0;
+    for (int k = 0; k < 3; k++)
+      if (set.mirror.has(k) && std::fabs(atom->vest[i][k]) > v_quiet) quiet = false;
+    sleep.add(cells.cell_of(i), atom->vest[i], !quiet);
+  }
+  sleep.settle(cells, v_quiet);
+
+  sleepers.resize(nlocal);
+  for (int i = 0; i < nlocal; i++) sleepers[i] = sleep.asleep(cells.cell_of(i));
+  rows.clear();
+  for (int ii = 0; ii < list->inum; ii++)
+    if (!sleepers[list->ilist[ii]]) rows.push_back(list->ilist[ii]);
+  if (records.traction)
+    for (int i = 0; i < nlocal; i++)
+      if (sleepers[i]) {
+        const double V = records.traction[i].volume;
+        records.traction[i] = {};
+        records.traction[i].volume = V;
+        if (records.push) records.push[i] = {};
+      }
 }
 
 /* ----------------------------------------------------------------------
@@ -289,56 +362,14 @@ void PairHVISPH::find_images()
 }
 
 /* ----------------------------------------------------------------------
-   shortest h/(c + approach + viscosity): Monaghan 1992 eq 4.5 with the speed at
-   which the pair approaches in place of |v|, which depends on the frame.  h is
-   taken as half of what the kernel reaches, for all kernels alike.
+   shortest h/(c + approach + viscosity), from the last forces.  A pair that is not yet within reach is
+   not seen: it comes no deeper in a step than forces rise slowly.
 ------------------------------------------------------------------------- */
 
 void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
 {
-  const HVI::SphPlace *const place = store->fields.view().place;
-  const HVI::SphState *const state = store->fields.view().state;
-  const double scale = 0.5 * set.support;
-  double shortest = bounds.signal;
-
-  for (int i = 0; i < atom->nlocal; i++)
-    if (is_ours[atom->type[i]] && !(scale * place[i].h >= shortest * state[i].c))
-      shortest = scale * place[i].h / state[i].c;
-
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    const HVI::SphPlace &pi = place[i];
-    const HVI::SphState &si = state[i];
-    const double *const row_a = visc_a[atom->type[i]];
-    const double *const row_b = visc_b[atom->type[i]];
-    const int *const jlist = list->firstneigh[i];
-    const int jnum = list->numneigh[i];
-    const std::vector<int> *const nearby = set.mirror.planes ? &images.near(i, jlist, jnum)
-                                                             : nullptr;
-    const int nimages = nearby ? nearby->size() : 0;
-
-    for (int jj = 0; jj < jnum + nimages; jj++) {
-      const int j = jj < jnum ? jlist[jj] & NEIGHMASK : (*nearby)[jj - jnum];
-      const HVI::SphPlace &pj = place[j];
-      const HVI::SphState &sj = state[j];
-      const double dx = pi.x - pj.x;
-      const double dy = pi.y - pj.y;
-      const double dz = pi.z - pj.z;
-      const double rdotv = dx * (si.vx - sj.vx) + dy * (si.vy - sj.vy) + dz * (si.vz - sj.vz);
-      if (rdotv >= 0.0) continue;
-
-      // also pairs that are not yet within reach: they will be soon
-
-      const double rsq = dx * dx + dy * dy + dz * dz;
-      if (jj >= jnum && rsq > images.reachsq()) continue;
-      const double h = 0.5 * (pi.h + pj.h);
-      const double c = MAX(si.c, sj.c);
-      const double mu = -h * rdotv / (rsq + 0.01 * h * h);
-      const int jtype = static_cast<int>(sj.type);
-      const double signal =
-          c - rdotv / std::sqrt(rsq) + 0.6 * (row_a[jtype] * c + row_b[jtype] * mu);
-      if (scale * h < shortest * signal || std::isnan(signal)) shortest = scale * h / signal;
-    }
-  }
-  bounds.signal = shortest;
+  if (fastest * bounds.signal > 1.0 || std::isnan(fastest)) bounds.signal = 1.0 / fastest;
+  for (int i = 1; i <= atom->ntypes; i++)
+    if (is_ours[i])
+      bounds.come_closer(0.25 * set.support * (set.variable ? set.hmin : 1.0) * set.h[i]);
 }

@@ -73,7 +73,7 @@ void PairHVISPH::finish_gradients()
 
   for (int i = 0; i < atom->nlocal; i++) {
     const int itype = atom->type[i];
-    if (!is_ours[itype]) continue;
+    if (!is_ours[itype] || store->fields.asleep(i)) continue;
     const HVI::SphState &s = records.state[i];
     SphGradV &own = records.gradv[i];
     own.nu += s.w * sweeps->w(0.0) * set.laws.norm /

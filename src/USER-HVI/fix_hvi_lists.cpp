@@ -1,0 +1,166 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "fix_hvi_lists.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "memory.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+static constexpr char LISTS_ID[] = "HVI_LISTS";
+static constexpr int NEVER = MAXSMALLINT;    // neigh_modify delay, while this fix is in charge
+
+/* ---------------------------------------------------------------------- */
+
+FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), moved(nullptr), nmax(0), farthest(0.0), delay(0), relative(true)
+{
+  bool wrong = strcmp(id, LISTS_ID) != 0;
+  for (int k = 0; k < modify->nfix; k++) wrong = wrong || !modify->fix[k];
+  if (wrong)
+    error->all(FLERR, "Fix hvi/lists is made by pair styles and cannot be given in an input");
+  force_reneighbor = 1;
+  next_reneighbor = -1;
+  comm_forward = 3;
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixHVILists::~FixHVILists()
+{
+  memory->destroy(moved);
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixHVILists *FixHVILists::make(LAMMPS *lmp, bool relative)
+{
+  if (lmp->modify->get_fix_by_id(LISTS_ID)) lmp->modify->delete_fix(LISTS_ID);
+  auto *const made =
+      dynamic_cast<FixHVILists *>(lmp->modify->add_fix(fmt::format("{} all hvi/lists", LISTS_ID)));
+  made->relative = relative;
+  return made;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixHVILists::setmask()
+{
+  return POST_INTEGRATE | PRE_NEIGHBOR;
+}
+
+/* ----------------------------------------------------------------------
+   who gives neigh_modify another delay, every or check wants LAMMPS to decide; so does a box that
+   changes
+------------------------------------------------------------------------- */
+
+bool FixHVILists::in_charge() const
+{
+  if (!relative) return false;
+  for (const auto &ifix : modify->get_fix_list())
+    if (ifix->box_change & (BOX_CHANGE_SIZE | BOX_CHANGE_SHAPE)) return false;
+  return (neighbor->delay == 0 || neighbor->delay == NEVER) && neighbor->every == 1 &&
+      neighbor->dist_check && !neighbor->build_once && !neighbor->includegroup &&
+      !domain->triclinic;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVILists::setup_pre_neighbor()
+{
+  pre_neighbor();
+}
+
+void FixHVILists::pre_neighbor()
+{
+  const int nlocal = atom->nlocal;
+  if (nlocal) hold.assign(atom->x[0], atom->x[0] + 3 * (size_t) nlocal);
+  const double cut = neighbor->cutneighmax - neighbor->skin;
+  motion.start(nlocal + atom->nghost, atom->x, cut, neighbor->skin);
+
+  // exchange reaches the ranks next door; a particle beyond a fixed face is to be lost
+
+  double width = domain->prd[0] + domain->prd[1] + domain->prd[2];
+  farthest = width;
+  for (int k = 0; k < 3; k++) {
+    const double sub = domain->subhi[k] - domain->sublo[k];
+    if (domain->periodicity[k] || sub < 0.999 * domain->prd[k]) width = MIN(width, sub);
+    for (int side = 0; side < 2; side++)
+      if (domain->boundary[k][side] == 1) farthest = MIN(farthest, cut);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &width, 1, MPI_DOUBLE, MPI_MIN, world);
+  farthest = MIN(farthest, 0.5 * width);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVILists::setup(int /*vflag*/)
+{
+  if (!in_charge()) return;
+  if (neighbor->delay != NEVER) delay = neighbor->delay;
+  neighbor->delay = NEVER;
+}
+
+void FixHVILists::post_run()
+{
+  if (neighbor->delay == NEVER) neighbor->delay = delay;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVILists::post_integrate()
+{
+  if (neighbor->delay != NEVER) return;
+  if (atom->nmax > nmax) {
+    nmax = atom->nmax;
+    memory->destroy(moved);
+    memory->create(moved, nmax, 3, "hvi/lists:moved");
+  }
+  const double *const *const x = atom->x;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++) moved[i][k] = x[i][k] - hold[3 * i + k];
+  comm->forward_comm(this);
+
+  int renew = motion.exceeded(moved) || motion.farthest() > farthest;
+  MPI_Allreduce(MPI_IN_PLACE, &renew, 1, MPI_INT, MPI_MAX, world);
+  if (renew) next_reneighbor = update->ntimestep;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixHVILists::pack_forward_comm(int n, int *sent, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+{
+  for (int m = 0; m < n; m++) memcpy(buf + 3 * m, moved[sent[m]], 3 * sizeof(double));
+  return 3 * n;
+}
+
+void FixHVILists::unpack_forward_comm(int n, int first, double *buf)
+{
+  if (n) memcpy(moved[first], buf, 3 * (size_t) n * sizeof(double));
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixHVILists::memory_usage()
+{
+  return motion.bytes() + (hold.capacity() + 3.0 * nmax) * sizeof(double);
+}

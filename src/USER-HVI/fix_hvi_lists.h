@@ -1,0 +1,64 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(hvi/lists,FixHVILists);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_HVI_LISTS_H
+#define LMP_FIX_HVI_LISTS_H
+
+#include "fix.h"
+#include "hvi_motion.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+// asks for new lists of neighbors when particles have moved against those around them
+
+class FixHVILists : public Fix {
+ public:
+  FixHVILists(class LAMMPS *, int, char **);
+  ~FixHVILists() override;
+
+  int setmask() override;
+  void setup_pre_neighbor() override;
+  void pre_neighbor() override;
+  void setup(int) override;
+  void post_integrate() override;
+  void post_run() override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  double memory_usage() override;
+
+  // for init_style() of pair styles, where it becomes the last fix of all: it must see where others
+  // have put the particles
+
+  static FixHVILists *make(class LAMMPS *, bool relative);
+
+  const HVI::RelativeMotion &cells() const { return motion; }
+
+ private:
+  HVI::RelativeMotion motion;
+  std::vector<double> hold;    // positions of owned particles when lists were made
+  double **moved;              // of owned particles and ghosts, since then
+  int nmax;
+  double farthest;    // that any particle may go: to rank next to its own, and not far beyond faces
+  int delay;          // of neigh_modify
+  bool relative;      // else LAMMPS decides
+
+  bool in_charge() const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

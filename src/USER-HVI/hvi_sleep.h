@@ -1,0 +1,68 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_HVI_SLEEP_H
+#define LMP_HVI_SLEEP_H
+
+#include "hvi_motion.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace HVI {
+
+/* ----------------------------------------------------------------------
+   Where nothing happens: cells of RelativeMotion whose particles, and those of all adjacent cells, are
+   undisturbed and have one velocity.  All that can act on a particle is in its own cell and the
+   adjacent ones, so nothing does, and wherever something comes near it wakes before that acts.
+------------------------------------------------------------------------- */
+
+class Sleep {
+ public:
+  void start(const RelativeMotion &motion) { cells.assign(motion.cells(), Cell()); }
+
+  void add(int cell, const double *v, bool disturbed)
+  {
+    Cell &c = cells[cell];
+    c.disturbed = c.disturbed || disturbed;
+    for (int k = 0; k < 3; k++) {
+      c.lo[k] = std::min(c.lo[k], v[k]);
+      c.hi[k] = std::max(c.hi[k], v[k]);
+    }
+  }
+
+  // alike: velocities that differ by no more count as one
+
+  void settle(const RelativeMotion &motion, double alike)
+  {
+    const auto one = [alike](const Cell &a, const Cell &b) {
+      for (int k = 0; k < 3; k++)
+        if (!(std::max(a.hi[k], b.hi[k]) - std::min(a.lo[k], b.lo[k]) <= alike)) return false;
+      return !a.disturbed && !b.disturbed;
+    };
+    for (Cell &c : cells) c.asleep = one(c, c);
+    motion.each_adjacent([&](int a, int b) {
+      if (!one(cells[a], cells[b])) cells[a].asleep = cells[b].asleep = false;
+    });
+  }
+
+  bool asleep(int cell) const { return cells[cell].asleep; }
+
+ private:
+  static constexpr double INF = std::numeric_limits<double>::infinity();
+  struct Cell {
+    double lo[3] = {INF, INF, INF}, hi[3] = {-INF, -INF, -INF};    // of velocities
+    bool disturbed = false, asleep = false;
+  };
+  std::vector<Cell> cells;
+};
+
+}    // namespace HVI
+
+#endif
