@@ -72,8 +72,8 @@ def strength(r):
 
 
 def viscosity(words):
-    """the linear coefficient"""
-    return float(words.split("viscosity")[1].split()[0])
+    """the linear coefficient; riemann has none"""
+    return float(words.split("viscosity")[1].split()[0]) if "viscosity" in words else 0.0
 
 
 def stop(nu, r=8.0, R=10.0, u=0.0619787, rho=1.845, Y=0.0033):

@@ -12,6 +12,7 @@
 #include "hvi_motion.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -41,16 +42,28 @@ class Sleep {
 
   void settle(const RelativeMotion &motion, double alike)
   {
-    const auto one = [alike](const Cell &a, const Cell &b) {
-      for (int k = 0; k < 3; k++)
-        if (!(std::max(a.hi[k], b.hi[k]) - std::min(a.lo[k], b.lo[k]) <= alike)) return false;
-      return !a.disturbed && !b.disturbed;
+    double most = 0.0;
+    const auto one = [alike, &most](const Cell &a, const Cell &b) {
+      double square = 0.0, widest = 0.0;
+      for (int k = 0; k < 3; k++) {
+        const double range = std::max(a.hi[k], b.hi[k]) - std::min(a.lo[k], b.lo[k]);
+        if (!(range > 0.0)) continue;    // of an empty cell
+        square += range * range;
+        widest = std::max(widest, range);
+      }
+      most = std::max(most, square);
+      return widest <= alike && !a.disturbed && !b.disturbed;
     };
     for (Cell &c : cells) c.asleep = one(c, c);
     motion.each_adjacent([&](int a, int b) {
       if (!one(cells[a], cells[b])) cells[a].asleep = cells[b].asleep = false;
     });
+    speed = std::sqrt(most);
   }
+
+  // no two particles in one cell or in adjacent ones have velocities that differ by more
+
+  double fastest() const { return speed; }
 
   bool asleep(int cell) const { return cells[cell].asleep; }
 
@@ -61,6 +74,7 @@ class Sleep {
     bool disturbed = false, asleep = false;
   };
   std::vector<Cell> cells;
+  double speed = 0.0;
 };
 
 }    // namespace HVI

@@ -57,10 +57,21 @@ HVI::StableSteps HVI::stable_steps(const LAMMPS *lmp, const std::vector<TimeStep
 
   // the extremes of velocity too: min v and min -v in each direction
 
-  enum { CONTACT, SPRING, APPROACH, SIGNAL, GROWTH, TRAVEL, V, MINUS_V = V + 3, N = MINUS_V + 3 };
-  double here[N] = {bounds.contact, bounds.spring, bounds.approach, bounds.signal,
-                    bounds.growth,  bounds.travel, NO_BOUND,        NO_BOUND,
-                    NO_BOUND,       NO_BOUND,      NO_BOUND,        NO_BOUND};
+  enum {
+    CONTACT,
+    SPRING,
+    APPROACH,
+    SIGNAL,
+    GROWTH,
+    TRAVEL,
+    MEET,
+    V,
+    MINUS_V = V + 3,
+    N = MINUS_V + 3
+  };
+  double here[N] = {bounds.contact, bounds.spring, bounds.approach, bounds.signal, bounds.growth,
+                    bounds.travel,  bounds.meet,   NO_BOUND,        NO_BOUND,      NO_BOUND,
+                    NO_BOUND,       NO_BOUND,      NO_BOUND};
   double sum = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
     for (int k = 0; k < 3; k++) {
@@ -84,6 +95,8 @@ HVI::StableSteps HVI::stable_steps(const LAMMPS *lmp, const std::vector<TimeStep
       spread += range * range;
     }
   if (lowest[TRAVEL] < NO_BOUND && spread > 0.0) travel = lowest[TRAVEL] / std::sqrt(spread);
+
+  travel = std::min(travel, lowest[MEET]);
 
   return {factor * lowest[CONTACT], factor * lowest[SPRING],
           std::min(factor * lowest[APPROACH], travel), factor * lowest[SIGNAL], lowest[GROWTH]};

@@ -35,9 +35,11 @@ struct TimeStepBounds {
 
   double growth = 1.01;
 
-  // in one step no two particles come closer by more than this
+  // in one step no two particles come closer by more than this; the time of those that are near each
+  // other for what they may, from a source that knows them
 
   double travel = NO_BOUND;
+  double meet = NO_BOUND;
 
   /* for pairs or bonds with a stiffness, where particles act on each other within a distance:
      velocity Verlet keeps their energy only while its step changes slowly.  Where a whole plate

@@ -78,6 +78,7 @@ class PairHVISPH :
   HVI::Sleep sleep;
   std::vector<double> rho_quiet, e_quiet;    // by type: undisturbed; 0: never
   double rho_far, v_quiet;                   // differences that count as none
+  bool placed;                               // all are in the cells of lists
   std::vector<int> rows;                     // of the list, of those that are awake
   double
       fastest;    // of the last forces: 1/time in which signals pass half of what a kernel reaches

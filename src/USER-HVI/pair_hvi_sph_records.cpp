@@ -171,7 +171,8 @@ void PairHVISPH::find_sleepers()
   std::vector<char> &sleepers = store->fields.sleepers;
   sleepers.clear();
   rows.assign(list->ilist, list->ilist + list->inum);
-  if (v_quiet == HVI::NO_BOUND || cells.points() != nall) return;
+  placed = cells.points() == nall;
+  if (!placed) return;
 
   const HVI::SphView &records = store->fields.view();
   sleep.start(cells);
@@ -186,6 +187,7 @@ void PairHVISPH::find_sleepers()
     sleep.add(cells.cell_of(i), atom->vest[i], !quiet);
   }
   sleep.settle(cells, v_quiet);
+  if (v_quiet == HVI::NO_BOUND) return;
 
   sleepers.resize(nlocal);
   for (int i = 0; i < nlocal; i++) sleepers[i] = sleep.asleep(cells.cell_of(i));
@@ -363,13 +365,18 @@ void PairHVISPH::find_images()
 
 /* ----------------------------------------------------------------------
    shortest h/(c + approach + viscosity), from the last forces.  A pair that is not yet within reach is
-   not seen: it comes no deeper in a step than forces rise slowly.
+   not seen: it comes no deeper in a step than forces rise slowly.  Those that are not in adjacent
+   cells are farther apart by two skins.
 ------------------------------------------------------------------------- */
 
 void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
 {
   if (fastest * bounds.signal > 1.0 || std::isnan(fastest)) bounds.signal = 1.0 / fastest;
+
+  double deep = HVI::NO_BOUND;
   for (int i = 1; i <= atom->ntypes; i++)
     if (is_ours[i])
-      bounds.come_closer(0.25 * set.support * (set.variable ? set.hmin : 1.0) * set.h[i]);
+      deep = MIN(deep, 0.25 * set.support * (set.variable ? set.hmin : 1.0) * set.h[i]);
+  if (placed && sleep.fastest() * bounds.meet > deep) bounds.meet = deep / sleep.fastest();
+  bounds.come_closer(deep + (placed ? 2.0 * neighbor->skin : 0.0));
 }
