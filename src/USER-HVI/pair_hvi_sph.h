@@ -111,7 +111,9 @@ class PairHVISPH :
   void gather_stress();
   void artificial_stress();
   void find_quiet();
+  bool whole_sums() const;
   void find_sleepers();
+  void choose_rows();
   void finish_slopes();
   void finish_gradients();
   void scatter();

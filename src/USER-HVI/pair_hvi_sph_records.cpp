@@ -113,23 +113,37 @@ void PairHVISPH::gather()
 }
 
 /* ----------------------------------------------------------------------
-   stress at this step, of owned particles from the fix that integrates it
+   stress at this step, of owned particles from the fix that integrates it.  Where sums over all
+   neighbors count, other ranks must know who is awake: on the way a minus at the modulus says so.
 ------------------------------------------------------------------------- */
 
 void PairHVISPH::gather_stress()
 {
   const HVI::SphView &records = store->fields.view();
   HVI::SphStress *const stress = records.stress;
-  for (int i = 0; i < atom->nlocal; i++) stress[i] = strength->stress(i);
-  if (!records.traction || records.art) {
-    forward(stress);
-    return;
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  const bool says = whole_sums() && v_quiet < HVI::NO_BOUND;
+  for (int i = 0; i < nlocal; i++) {
+    stress[i] = strength->stress(i);
+    if (says && !store->fields.asleep(i)) stress[i].shear = -stress[i].shear;
   }
+  if (!records.traction || records.art)
+    forward(stress);
+  else {
 
-  // the stress itself goes to neighbors as traction
+    // the stress itself goes to neighbors as traction
 
-  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) stress[i] = {};
-  forward(stress, HVI::SphStress::LIMITS, HVI::SphStress::FIRST_LIMIT);
+    for (int i = nlocal; i < nall; i++) stress[i] = {};
+    forward(stress, HVI::SphStress::LIMITS, HVI::SphStress::FIRST_LIMIT);
+  }
+  if (!says) return;
+
+  const HVI::RelativeMotion &cells = lists->cells();
+  for (int i = 0; i < nall; i++) {
+    if (i >= nlocal && std::signbit(stress[i].shear) && !store->fields.sleepers.empty())
+      sleep.watch(cells.cell_of(i));
+    stress[i].shear = std::fabs(stress[i].shear);
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -161,7 +175,16 @@ void PairHVISPH::find_quiet()
 }
 
 /* ----------------------------------------------------------------------
-   whose rows of the list need not be gone through
+   whether particles have sums over all of their neighbors: M
+------------------------------------------------------------------------- */
+
+bool PairHVISPH::whole_sums() const
+{
+  return strength && set.gradient != HVI::SphSettings::PLAIN;
+}
+
+/* ----------------------------------------------------------------------
+   to whom nothing happens, of owned particles
 ------------------------------------------------------------------------- */
 
 void PairHVISPH::find_sleepers()
@@ -170,10 +193,8 @@ void PairHVISPH::find_sleepers()
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   std::vector<char> &sleepers = store->fields.sleepers;
   sleepers.clear();
-  rows.assign(list->ilist, list->ilist + list->inum);
   if (v_quiet == HVI::NO_BOUND || cells.points() != nall) return;
 
-  const HVI::SphView &records = store->fields.view();
   sleep.start(cells);
   for (int i = 0; i < nall; i++) {
     const int itype = atom->type[i];
@@ -189,9 +210,30 @@ void PairHVISPH::find_sleepers()
 
   sleepers.resize(nlocal);
   for (int i = 0; i < nlocal; i++) sleepers[i] = sleep.asleep(cells.cell_of(i));
+}
+
+/* ----------------------------------------------------------------------
+   the rows of the list that must be gone through
+------------------------------------------------------------------------- */
+
+void PairHVISPH::choose_rows()
+{
+  const int nlocal = atom->nlocal;
+  const std::vector<char> &sleepers = store->fields.sleepers;
+  if (sleepers.empty()) {
+    rows.assign(list->ilist, list->ilist + list->inum);
+    return;
+  }
+
+  const HVI::RelativeMotion &cells = lists->cells();
+  const bool sums = whole_sums();
+  if (sums) sleep.spread(cells);
   rows.clear();
-  for (int ii = 0; ii < list->inum; ii++)
-    if (!sleepers[list->ilist[ii]]) rows.push_back(list->ilist[ii]);
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    if (sums ? sleep.near_awake(cells.cell_of(i)) : !sleepers[i]) rows.push_back(i);
+  }
+  const HVI::SphView &records = store->fields.view();
   if (records.traction)
     for (int i = 0; i < nlocal; i++)
       if (sleepers[i]) {
