@@ -153,9 +153,11 @@ void PairHVISPH::gather_stress()
 
 void PairHVISPH::find_quiet()
 {
-  // forces of dissipation riemann without solids use the number of neighbors at undisturbed particles
+  // forces of dissipation riemann without solids use the number of neighbors at undisturbed particles;
+  // with energy no a stress leaves nothing in the energy
 
-  const double eps = integrator && !(set.riemann && !set.whole) ? integrator->sleep() : 0.0;
+  const bool can = integrator && !(set.riemann && !set.whole) && (set.energy || !strength);
+  const double eps = can ? integrator->sleep() : 0.0;
   rho_quiet.assign(atom->ntypes + 1, 0.0);
   e_quiet = rho_quiet;
   v_quiet = HVI::NO_BOUND;
