@@ -35,9 +35,11 @@ struct TimeStepBounds {
 
   double growth = 1.01;
 
-  // in one step no two particles come closer by more than this
+  // in one step no two particles come closer by more than this, nor one and a mirrored one: directions
+  // as bits, the same on all ranks
 
   double travel = NO_BOUND;
+  int mirrors = 0;
 
   /* for pairs or bonds with a stiffness, where particles act on each other within a distance:
      velocity Verlet keeps their energy only while its step changes slowly.  Where a whole plate

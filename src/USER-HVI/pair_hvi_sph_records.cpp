@@ -413,6 +413,7 @@ void PairHVISPH::find_images()
 void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
 {
   if (fastest * bounds.signal > 1.0 || std::isnan(fastest)) bounds.signal = 1.0 / fastest;
+  bounds.mirrors |= set.mirror.planes;
   for (int i = 1; i <= atom->ntypes; i++)
     if (is_ours[i])
       bounds.come_closer(0.25 * set.support * (set.variable ? set.hmin : 1.0) * set.h[i]);
