@@ -134,6 +134,17 @@ def test_what_is_beyond_the_reach_of_exchange(lmp, tmp_path):
     assert (t["Atoms"] == 216).all()
 
 
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_lists_of_computes_reach_as_far_as_ghosts(lmp, tmp_path, nranks):
+    """fragments over a distance beyond the reach of kernels: two bodies that come near each other are one from then on"""
+    s = bodies(((2, 2, 2), (10.4, 4, 4), (1, 0, 0)), ((2, 2, 2), (25.0, 4, 4), (-1, 0, 0)), box=(60, 30, 30), speed=0)
+    lines = scene(s, tmp_path / "s.data", WATER, skin=SKIN, fix="fix sph all hvi/sph\n") + "timestep 0.05\ncomm_modify cutoff 6.7\n"
+    lines += "compute f all hvi/fragment distance 6.0\nthermo 5\nthermo_style custom step c_f[1] nbuild\nrun 100\n"
+    t = lmp(lines, nranks=nranks).thermo
+    gap = 25.5 - 11.9 - 2 * 0.05 * t["Step"]
+    assert (t["c_f[1]"][gap > 6.0] == 2).all() and (t["c_f[1]"][gap < 6.0] == 1).all() and (gap < 6.0).sum() == 5
+
+
 def builds(lmp, tmp_path, lists, neigh, more="run 40\n", name="faces", nranks=1):
     r = lmp(text(name, tmp_path, lists=lists, neigh=neigh) + more, nranks=nranks)
     return [t["Nbuild"][-1] for t in r.runs]
