@@ -30,8 +30,8 @@ enum { MAXIMUM, CONTACT, SPRING, APPROACH, GROWING, SIGNAL, NLIMITER };
 /* ---------------------------------------------------------------------- */
 
 FixHVIDt::FixHVIDt(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtmin(0.0), dtmax(HVI::NO_BOUND), every(0), limiter(MAXIMUM), restored(0),
-    chosen(0), laststep(0)
+    Fix(lmp, narg, arg), dtmin(0.0), dtmax(HVI::NO_BOUND), asked(0), every(1), limiter(MAXIMUM),
+    restored(0), chosen(0), laststep(0)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix hvi/dt", error);
 
@@ -61,8 +61,8 @@ FixHVIDt::FixHVIDt(LAMMPS *lmp, int narg, char **arg) :
       if (!(dtmax > 0.0) || !std::isfinite(dtmax))
         error->all(FLERR, "Fix hvi/dt max must be > 0, not {}", arg[iarg + 1]);
     } else if (strcmp(arg[iarg], "every") == 0) {
-      every = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
-      if (every <= 0) error->all(FLERR, "Fix hvi/dt every must be > 0, not {}", arg[iarg + 1]);
+      asked = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+      if (asked <= 0) error->all(FLERR, "Fix hvi/dt every must be > 0, not {}", arg[iarg + 1]);
     } else
       error->all(FLERR, "Unknown fix hvi/dt keyword: {}", arg[iarg]);
     iarg += 2;
@@ -89,7 +89,7 @@ void FixHVIDt::init()
   sources = HVI::find_interface<HVI::TimeStepSource>(lmp);
   if (sources.empty())
     error->all(FLERR, "Fix hvi/dt needs a pair style, bond style or fix that limits the time step");
-  if (every == 0) every = HVI::at_hand(sources) ? 1 : 10;
+  every = asked ? asked : (HVI::at_hand(sources) ? 1 : 10);
 }
 
 /* ----------------------------------------------------------------------

@@ -36,7 +36,7 @@ class FixHVIDt : public Fix {
 
  private:
   double factor, dtmin, dtmax;
-  int every;
+  int asked, every;    // asked 0: every is what suits the sources
   int limiter;
   int restored, chosen;    // dt is from a restart file, from an earlier run
   bigint laststep;         // that chose dt

@@ -361,8 +361,11 @@ void FixHVIJohnsonCook::first_half(double dt)
   for (int i = 0; i < atom->nlocal; i++) {
     const HVI::SolidModel *const model = of(i);
     if (!model) continue;
-    if (fresh || !model->ready(extra[i]))
+    if (fresh || !model->ready(extra[i])) {
       model->prepare(extra[i], input(i, fresh ? GRADIENT : FORCES), fresh);
+      if (fresh && store->fields.asleep(i))
+        HVI::SolidModel::rest(extra[i]);    // as in second_half()
+    }
     model->first_half(extra[i], dt, trends);
   }
   fresh = false;

@@ -95,7 +95,11 @@ void FixHVILists::pre_neighbor()
   const int nlocal = atom->nlocal;
   if (nlocal) hold.assign(atom->x[0], atom->x[0] + 3 * (size_t) nlocal);
   const double cut = neighbor->cutneighmax - neighbor->skin;
-  motion.start(nlocal + atom->nghost, atom->x, cut, neighbor->skin);
+
+  // lists of computes may reach as far as ghosts do
+
+  const double reach = MAX(cut, comm->cutghostuser - neighbor->skin);
+  motion.start(nlocal + atom->nghost, atom->x, reach, neighbor->skin);
 
   // exchange reaches the ranks next door; a particle beyond a fixed face is to be lost
 

@@ -22,6 +22,9 @@ namespace HVI {
    Where nothing happens: cells of RelativeMotion whose particles, and those of all adjacent cells, are
    undisturbed and have one velocity.  All that can act on a particle is in its own cell and the
    adjacent ones, so nothing does, and wherever something comes near it wakes before that acts.
+
+   Who is awake may need those who sleep: sums over all neighbors, such as M of gradient corrected,
+   lack none of them only if all cells next to one with somebody awake are gone through.
 ------------------------------------------------------------------------- */
 
 class Sleep {
@@ -59,6 +62,7 @@ class Sleep {
       if (!one(cells[a], cells[b])) cells[a].asleep = cells[b].asleep = false;
     });
     speed = std::sqrt(most);
+    for (Cell &c : cells) c.watched = !c.asleep;
   }
 
   // no two particles in one cell or in adjacent ones have velocities that differ by more
@@ -67,11 +71,28 @@ class Sleep {
 
   bool asleep(int cell) const { return cells[cell].asleep; }
 
+  // another rank says that a particle in it is awake
+
+  void watch(int cell) { cells[cell].watched = true; }
+
+  // next to somebody who is awake; after spread()
+
+  void spread(const RelativeMotion &motion)
+  {
+    for (Cell &c : cells) c.near = c.watched;
+    motion.each_adjacent([this](int a, int b) {
+      if (cells[a].watched) cells[b].near = true;
+      if (cells[b].watched) cells[a].near = true;
+    });
+  }
+
+  bool near_awake(int cell) const { return cells[cell].near; }
+
  private:
   static constexpr double INF = std::numeric_limits<double>::infinity();
   struct Cell {
     double lo[3] = {INF, INF, INF}, hi[3] = {-INF, -INF, -INF};    // of velocities
-    bool disturbed = false, asleep = false;
+    bool disturbed = false, asleep = false, watched = false, near = false;
   };
   std::vector<Cell> cells;
   double speed = 0.0;

@@ -90,8 +90,8 @@ HVI::StableSteps HVI::stable_steps(const LAMMPS *lmp, const std::vector<TimeStep
 
   double spread = 0.0, travel = NO_BOUND;
   if (atom->natoms > 0)
-    for (int k = V; k < V + 3; k++) {
-      const double range = lowest[k] + lowest[k + 3];
+    for (int k = 0; k < 3; k++) {
+      const double range = lowest[V + k] + lowest[MINUS_V + k];
       spread += range * range;
     }
   if (lowest[TRAVEL] < NO_BOUND && spread > 0.0) travel = lowest[TRAVEL] / std::sqrt(spread);

@@ -70,9 +70,10 @@ void PairHVISPH::compute(int eflag, int vflag)
   fields.grow(nrecords, mirrored ? nrecords / 16 : 0);
   const HVI::SphView &records = fields.view();
 
+  find_sleepers();
   if (strength) gather_stress();
   gather();
-  find_sleepers();
+  choose_rows();
   if (records.art) artificial_stress();
   if (mirrored) images.fill(set.mirror, records);
 

@@ -112,7 +112,10 @@ class PairHVISPH :
   void gather_stress();
   void artificial_stress();
   void find_quiet();
+  bool whole_sums() const;
   void find_sleepers();
+  void choose_rows();
+  double fastest_to_images(double far) const;
   void finish_slopes();
   void finish_gradients();
   void scatter();

@@ -113,23 +113,37 @@ void PairHVISPH::gather()
 }
 
 /* ----------------------------------------------------------------------
-   stress at this step, of owned particles from the fix that integrates it
+   stress at this step, of owned particles from the fix that integrates it.  Where sums over all
+   neighbors count, other ranks must know who is awake: on the way a minus at the modulus says so.
 ------------------------------------------------------------------------- */
 
 void PairHVISPH::gather_stress()
 {
   const HVI::SphView &records = store->fields.view();
   HVI::SphStress *const stress = records.stress;
-  for (int i = 0; i < atom->nlocal; i++) stress[i] = strength->stress(i);
-  if (!records.traction || records.art) {
-    forward(stress);
-    return;
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  const bool says = whole_sums() && v_quiet < HVI::NO_BOUND;
+  for (int i = 0; i < nlocal; i++) {
+    stress[i] = strength->stress(i);
+    if (says && !store->fields.asleep(i)) stress[i].shear = -stress[i].shear;
   }
+  if (!records.traction || records.art)
+    forward(stress);
+  else {
 
-  // the stress itself goes to neighbors as traction
+    // the stress itself goes to neighbors as traction
 
-  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) stress[i] = {};
-  forward(stress, HVI::SphStress::LIMITS, HVI::SphStress::FIRST_LIMIT);
+    for (int i = nlocal; i < nall; i++) stress[i] = {};
+    forward(stress, HVI::SphStress::LIMITS, HVI::SphStress::FIRST_LIMIT);
+  }
+  if (!says) return;
+
+  const HVI::RelativeMotion &cells = lists->cells();
+  for (int i = 0; i < nall; i++) {
+    if (i >= nlocal && std::signbit(stress[i].shear) && !store->fields.sleepers.empty())
+      sleep.watch(cells.cell_of(i));
+    stress[i].shear = std::fabs(stress[i].shear);
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -139,9 +153,11 @@ void PairHVISPH::gather_stress()
 
 void PairHVISPH::find_quiet()
 {
-  // forces of dissipation riemann without solids use the number of neighbors at undisturbed particles
+  // forces of dissipation riemann without solids use the number of neighbors at undisturbed particles;
+  // with energy no a stress leaves nothing in the energy
 
-  const double eps = integrator && !(set.riemann && !set.whole) ? integrator->sleep() : 0.0;
+  const bool can = integrator && !(set.riemann && !set.whole) && (set.energy || !strength);
+  const double eps = can ? integrator->sleep() : 0.0;
   rho_quiet.assign(atom->ntypes + 1, 0.0);
   e_quiet = rho_quiet;
   v_quiet = HVI::NO_BOUND;
@@ -161,7 +177,16 @@ void PairHVISPH::find_quiet()
 }
 
 /* ----------------------------------------------------------------------
-   whose rows of the list need not be gone through
+   whether particles have sums over all of their neighbors: M
+------------------------------------------------------------------------- */
+
+bool PairHVISPH::whole_sums() const
+{
+  return strength && set.gradient != HVI::SphSettings::PLAIN;
+}
+
+/* ----------------------------------------------------------------------
+   to whom nothing happens, of owned particles
 ------------------------------------------------------------------------- */
 
 void PairHVISPH::find_sleepers()
@@ -170,11 +195,9 @@ void PairHVISPH::find_sleepers()
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   std::vector<char> &sleepers = store->fields.sleepers;
   sleepers.clear();
-  rows.assign(list->ilist, list->ilist + list->inum);
   placed = cells.points() == nall;
   if (!placed) return;
 
-  const HVI::SphView &records = store->fields.view();
   sleep.start(cells);
   for (int i = 0; i < nall; i++) {
     const int itype = atom->type[i];
@@ -191,9 +214,30 @@ void PairHVISPH::find_sleepers()
 
   sleepers.resize(nlocal);
   for (int i = 0; i < nlocal; i++) sleepers[i] = sleep.asleep(cells.cell_of(i));
+}
+
+/* ----------------------------------------------------------------------
+   the rows of the list that must be gone through
+------------------------------------------------------------------------- */
+
+void PairHVISPH::choose_rows()
+{
+  const int nlocal = atom->nlocal;
+  const std::vector<char> &sleepers = store->fields.sleepers;
+  if (sleepers.empty()) {
+    rows.assign(list->ilist, list->ilist + list->inum);
+    return;
+  }
+
+  const HVI::RelativeMotion &cells = lists->cells();
+  const bool sums = whole_sums();
+  if (sums) sleep.spread(cells);
   rows.clear();
-  for (int ii = 0; ii < list->inum; ii++)
-    if (!sleepers[list->ilist[ii]]) rows.push_back(list->ilist[ii]);
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    if (sums ? sleep.near_awake(cells.cell_of(i)) : !sleepers[i]) rows.push_back(i);
+  }
+  const HVI::SphView &records = store->fields.view();
   if (records.traction)
     for (int i = 0; i < nlocal; i++)
       if (sleepers[i]) {
@@ -364,7 +408,7 @@ void PairHVISPH::find_images()
 }
 
 /* ----------------------------------------------------------------------
-   shortest h/(c + approach + viscosity), from the last forces.  A pair that is not yet within reach is
+   Shortest h/(c + approach + viscosity), from the last forces.  A pair that is not yet within reach is
    not seen: it comes no deeper in a step than forces rise slowly.  Those that are not in adjacent
    cells are farther apart by two skins.
 ------------------------------------------------------------------------- */
@@ -377,6 +421,30 @@ void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
   for (int i = 1; i <= atom->ntypes; i++)
     if (is_ours[i])
       deep = MIN(deep, 0.25 * set.support * (set.variable ? set.hmin : 1.0) * set.h[i]);
-  if (placed && sleep.fastest() * bounds.meet > deep) bounds.meet = deep / sleep.fastest();
-  bounds.come_closer(deep + (placed ? 2.0 * neighbor->skin : 0.0));
+  const double apart = deep + 2.0 * neighbor->skin;
+  double speed = placed ? sleep.fastest() : 0.0;
+  if (set.mirror.planes) speed = MAX(speed, fastest_to_images(deep / apart));
+  if (speed * bounds.meet > deep) bounds.meet = deep / speed;
+  bounds.come_closer(placed ? apart : deep);
+}
+
+// of particles and their images, less by a factor where these are far
+
+double PairHVISPH::fastest_to_images(double far) const
+{
+  const HVI::MirrorPlanes &mirror = set.mirror;
+  const double near = neighbor->cutneighmax + neighbor->skin;    // as cells are wide
+  double most = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_ours[atom->type[i]]) continue;
+    double square = 0.0, factor = far;
+    for (int k = 0; k < 3; k++) {
+      if (!mirror.has(k)) continue;
+      const double toward = -2.0 * mirror.side[k] * atom->v[i][k];
+      if (toward > 0.0) square += toward * toward;
+      if (2.0 * mirror.depth(k, atom->x[i]) < near) factor = 1.0;
+    }
+    most = MAX(most, square * factor * factor);
+  }
+  return std::sqrt(most);
 }

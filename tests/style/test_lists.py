@@ -1,0 +1,206 @@
+"""Lists of neighbors made anew by relative motion: forces are those of a fresh list, and flight costs none."""
+
+import numpy as np
+import pytest
+from sph_scenes import Fluid, scene
+from test_solid_forces import MATERIAL
+
+REACH, SKIN = 2.5, 0.3  # cubic, h 1.25
+WATER = "pair_style hvi/sph cubic\npair_coeff * * eos tait 1.0 4.0 7 h 1.25\n"
+METAL = "pair_style hvi/sph cubic\npair_coeff * * file {} h 1.25\n"
+LAYOUTS = [(1, "brick"), (2, "brick"), (4, "brick"), (2, "tiled"), (4, "tiled")]
+WRITE = "write_dump all custom {} id type x y z fx fy fz c_R[*] modify format float %.17g sort id\n"
+THERMO = "thermo 1\nthermo_style custom step atoms nbuild ndanger\n"
+
+
+def bodies(*blocks, box, periodic=True, speed=0.02, seed=1):
+    """blocks: (counts, corner, velocity), of spacing 1; with a speed jittered, at random density and velocity; c is 4"""
+    rng = np.random.default_rng(seed)
+    x, v = [], []
+    for counts, corner, velocity in blocks:
+        x.append(np.stack(np.meshgrid(*map(np.arange, counts), indexing="ij"), -1).reshape(-1, 3) + 0.5 + np.array(corner))
+        v.append(np.zeros_like(x[-1]) + velocity)
+    kind = np.repeat(np.arange(len(blocks)) + 1, [len(a) for a in x])
+    x, v = np.vstack(x), np.vstack(v)
+    rho = np.ones(len(x))
+    if speed:
+        x += rng.uniform(-0.05, 0.05, x.shape)
+        v += rng.normal(0, speed, x.shape)
+        rho = rng.uniform(0.98, 1.03, len(x))
+    types = range(1, len(blocks) + 1)
+    return Fluid(x, v, rho, np.zeros(len(x)), kind, dict.fromkeys(types, 1.0), dict.fromkeys(types, 1.25),
+                 np.array(box, float), (periodic,) * 3)
+
+
+N = (6, 6, 6)
+SCENES = {
+    # two blocks strike each other at the speed of sound; as solids
+    "impact": (bodies((N, (12, 5.5, 9), (0, 2, 0)), (N, (12, 11.8, 9), (0, -2, 0)), box=(30, 24, 24)), 0.01, (30, 25, 45)),
+    # they pass at four times that, 20 km/s in metals, where kernels reach over the gap, and once more around the box
+    "passing": (bodies((N, (8, 5, 9), (8, 0, 0)), (N, (17, 11.8, 9), (-8, 0, 0)), box=(30, 24, 24)), 0.01, (30, 25, 120)),
+    # one flies through three faces and strikes what rests beyond
+    "faces": (bodies((N, (16, 13, 10), (3, 3, 3)), ((8, 8, 8), (2.2, 0.5, -2), (0, 0, 0)), box=(26, 24, 22)), 0.02, (40, 30, 60)),
+}
+
+
+def text(name, tmp_path, comm="brick", lists="relative", neigh="", solid=None):
+    s, dt, _ = SCENES[name]
+    pair = WATER
+    if name == "impact":
+        (tmp_path / "m.hvi").write_text(MATERIAL.format(sigma_p=3.0))
+        pair = METAL.format(tmp_path / "m.hvi")
+    out = scene(s, tmp_path / "s.data", pair, comm=comm, skin=SKIN, fix=f"fix sph all hvi/sph sleep no lists {lists}\n")
+    if comm == "tiled":
+        out += "balance 1.0 rcb\nfix even all balance 10 1.0 rcb\n"
+    out += "fix jc all hvi/johnson-cook\n" if name == "impact" else ""
+    return out + f"{neigh}timestep {dt}\n{THERMO}compute R all property/atom drho desph\n"
+
+
+def columns(path):
+    lines = path.read_text().splitlines()
+    start = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
+    return np.array([line.split() for line in lines[start:]], dtype=float)
+
+
+def error(tmp_path, k):
+    """forces, drho, desph at the end of run k, against those of a list made there; in parts of the largest"""
+    late, fresh = columns(tmp_path / f"late{k}"), columns(tmp_path / f"fresh{k}")
+    assert (late[:, 0] == fresh[:, 0]).all()
+    scale = [np.abs(fresh[:, c]).max() for c in (slice(5, 8), slice(8, 9), slice(9, 10))]
+    return max(np.abs(late - fresh)[:, c].max() / a for c, a in zip((slice(5, 8), slice(8, 9), slice(9, 10)), scale))
+
+
+def runs(name):
+    return "".join(f"run {n}\n{WRITE.format(f'late{k}')}run 0\n{WRITE.format(f'fresh{k}')}" for k, n in enumerate(SCENES[name][2]))
+
+
+@pytest.mark.parametrize("nranks, comm", LAYOUTS)
+@pytest.mark.parametrize("name", SCENES)
+def test_forces_are_those_of_a_fresh_list(lmp, tmp_path, name, nranks, comm):
+    """at the ends of three runs, with the list as old as it may be"""
+    r = lmp(text(name, tmp_path, comm) + runs(name), nranks=nranks)
+    for k in range(3):
+        assert error(tmp_path, k) <= 1e-12, k
+    # a run and a run 0: fewer lists than steps, and none that LAMMPS calls dangerous
+    assert all(0 <= t["Nbuild"][-1] < 0.7 * len(t["Nbuild"]) and t["Ndanger"][-1] == 0 for t in r.runs[::2])
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_list_that_stays_gives_others(lmp, tmp_path, name):
+    """so the test above can fail"""
+    lmp(text(name, tmp_path, neigh="neigh_modify delay 100000 check no\n") + runs(name))
+    assert max(error(tmp_path, k) for k in range(3)) > 1e-3
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_of_passing_bodies_the_way_is_the_same(lmp, tmp_path, nranks):
+    """positions after 175 steps with relative, displacement and a list in every step: but for round-off"""
+    ends = []
+    for lists, neigh in (("relative", ""), ("displacement", ""), ("relative", "neigh_modify delay 0 every 1 check no\n")):
+        t = lmp(text("passing", tmp_path, lists=lists, neigh=neigh) + "run 175\n" + WRITE.format("end"), nranks=nranks).thermo
+        ends.append((columns(tmp_path / "end"), t["Nbuild"][-1]))
+    assert ends[0][1] <= ends[1][1] < ends[2][1] == 175
+    box = SCENES["passing"][0].box
+    for end, _ in ends[:2]:
+        d = end[:, 2:5] - ends[2][0][:, 2:5]
+        assert np.abs(d - box * np.round(d / box)).max() < 1e-9
+
+
+@pytest.mark.parametrize("nranks, faces", [(1, "s"), (1, "f"), (2, "f")])
+def test_flight_costs_few_lists(lmp, tmp_path, nranks, faces):
+    """a body in flight; two that fly toward each other, far apart; debris that flies apart"""
+    flies = bodies((N, (2, 3, 2), (3, 0.5, 0.1)), box=(60, 16, 12), periodic=False, speed=0)
+    meet = bodies(((4, 4, 4), (1, 4, 4), (2, 0, 0)), ((4, 4, 4), (75, 4, 4), (-2, 0, 0)), box=(80, 12, 12), periodic=False, speed=0)
+    debris = bodies(((5, 5, 5), (0, 0, 0), (0, 0, 0)), box=(200, 200, 200), periodic=False)
+    debris.x = (debris.x - 2.5) * 8.0 + 100.0
+    debris.v = 0.1 * (debris.x - 100.0)
+    # with fixed faces there is one whenever something has come as far as kernels reach: what is beyond them is to be lost
+    for s, way, most in ((flies, 27.0, 3), (meet, 18.0, 2), (debris, 15.0, 14)):
+        count = {}
+        for lists in ("relative", "displacement"):
+            lines = scene(s, tmp_path / "s.data", WATER, fix=f"fix sph all hvi/sph lists {lists}\n", skin=SKIN)
+            lines = lines.replace("boundary f f f", f"boundary {faces} {faces} {faces}") + "timestep 0.05\nthermo_modify lost error\n"
+            count[lists] = lmp(lines + THERMO + "run 180\n", nranks=nranks).thermo["Nbuild"][-1]
+        assert count["relative"] <= max(most, 0 if faces == "s" else way / REACH) and count["displacement"] >= 90, count
+
+
+def test_what_is_beyond_the_reach_of_exchange(lmp, tmp_path):
+    """one body in periodic flight on 4 ranks: a list each time it has come half a domain, and no particle lost"""
+    s = bodies((N, (3, 3, 3), (3, 2, 1)), box=(24, 24, 12))
+    t = lmp(scene(s, tmp_path / "s.data", WATER, skin=SKIN, fix="fix sph all hvi/sph\n") + "timestep 0.05\n" + THERMO + "run 200\n",
+            nranks=4).thermo
+    width = 12.0  # of the narrowest domain
+    assert 200 * 0.05 * 3 / (0.5 * width) - 1 <= t["Nbuild"][-1] <= 12
+    assert (t["Atoms"] == 216).all()
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_lists_of_computes_reach_as_far_as_ghosts(lmp, tmp_path, nranks):
+    """fragments over a distance beyond the reach of kernels: two bodies that come near each other are one from then on"""
+    s = bodies(((2, 2, 2), (10.4, 4, 4), (1, 0, 0)), ((2, 2, 2), (25.0, 4, 4), (-1, 0, 0)), box=(60, 30, 30), speed=0)
+    lines = scene(s, tmp_path / "s.data", WATER, skin=SKIN, fix="fix sph all hvi/sph\n") + "timestep 0.05\ncomm_modify cutoff 6.7\n"
+    lines += "compute f all hvi/fragment distance 6.0\nthermo 5\nthermo_style custom step c_f[1] nbuild\nrun 100\n"
+    t = lmp(lines, nranks=nranks).thermo
+    gap = 25.5 - 11.9 - 2 * 0.05 * t["Step"]
+    assert (t["c_f[1]"][gap > 6.0] == 2).all() and (t["c_f[1]"][gap < 6.0] == 1).all() and (gap < 6.0).sum() == 5
+
+
+def builds(lmp, tmp_path, lists, neigh, more="run 40\n", name="faces", nranks=1):
+    r = lmp(text(name, tmp_path, lists=lists, neigh=neigh) + more, nranks=nranks)
+    return [t["Nbuild"][-1] for t in r.runs]
+
+
+# a block comes by more than half of the skin in two steps
+@pytest.mark.parametrize("neigh, lists", [("delay 5", 8), ("every 2", 20), ("check no", 40), ("delay 4 every 2 check no", 10), ("once yes", 0)])
+def test_other_settings_leave_lammps_in_charge(lmp, tmp_path, neigh, lists):
+    """of neigh_modify: what it says, as with lists displacement; also after a run with the defaults, and before another"""
+    neigh = f"neigh_modify {neigh}\n"
+    assert builds(lmp, tmp_path, "displacement", neigh) == [lists]
+    assert builds(lmp, tmp_path, "relative", neigh) == [lists]
+    if lists > 7:
+        back = "neigh_modify delay 0 every 1 check yes\n"
+        three = builds(lmp, tmp_path, "relative", back, f"run 40\n{neigh}run 40\n{back}run 40\n")
+        assert three[0] < 0.5 * 20 and three[1] == lists
+
+
+def test_defaults_do_not(lmp, tmp_path):
+    one, other = (builds(lmp, tmp_path, lists, "")[0] for lists in ("relative", "displacement"))
+    assert one < 0.5 * other
+
+
+def test_runs_in_turn(lmp, tmp_path):
+    """the fix given again with the other word; a run without setup, which LAMMPS's own criterion decides"""
+    more = "run 20\nrun 20 pre no\nunfix sph\nfix sph all hvi/sph sleep no lists displacement\nrun 20\n"
+    more += "unfix sph\nfix sph all hvi/sph sleep no lists relative\nrun 20\n"
+    n = builds(lmp, tmp_path, "relative", "", more)
+    assert n[0] < 0.4 * n[1] and n[3] < 0.7 * n[2], n
+    late = text("faces", tmp_path) + "run 20\nrun 20 pre no\n" + WRITE.format("late0") + "run 0\n" + WRITE.format("fresh0")
+    lmp(late)
+    assert error(tmp_path, 0) <= 1e-12
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_fixed_faces_lose_particles(lmp, tmp_path, nranks):
+    """those beyond a face by no more than the reach may still be there; all of them are in the books"""
+    s = bodies((N, (8, 3, 3), (3, 0, 0)), box=(20, 12, 12), periodic=False)
+    lines = scene(s, tmp_path / "s.data", WATER, skin=SKIN, fix="fix sph all hvi/sph\n") + "timestep 0.02\n"
+    books = "compute book all hvi/energy\nthermo 1\nthermo_style custom step atoms c_book[8] c_book[9]\nthermo_modify lost ignore norm no format float %.12g\n"
+    t = lmp(lines + books + "run 300\n", nranks=nranks).thermo
+    front, back = 14.0 + 3 * 0.02 * t["Step"], 8.0 + 3 * 0.02 * t["Step"]  # it spreads a little
+    assert (t["Atoms"][front < 19.5] == 216).all() and front[0] < 19.5
+    assert (t["Atoms"][back > 20 + REACH + 0.5] == 0).all() and back[-1] > 20 + REACH + 0.5
+    assert (t["Atoms"][(front > 21 + REACH)] < 216).all()
+    assert np.abs(t["c_book[9]"] - 1).max() < 1e-3
+    r = lmp(lines + "thermo 10\nrun 250\n", nranks=nranks, expect_fail=True)
+    assert "Lost atoms" in r.error
+
+
+def test_wrong_input(lmp, tmp_path):
+    lines = text("faces", tmp_path)
+    for wrong, says in (("lists sometimes", "Fix hvi/sph lists must be relative or displacement, not sometimes"),
+                        ("lists", "Illegal fix hvi/sph lists command: missing argument"), ("list relative", "Unknown fix hvi/sph keyword: list")):
+        assert says in lmp(lines.replace("lists relative", wrong), expect_fail=True).error
+    for late in ("", "run 0\n"):
+        r = lmp(lines + late + "fix mine all hvi/lists\n", expect_fail=True)
+        assert "Fix hvi/lists is made by pair styles and cannot be given in an input" in r.error
+    assert "cannot be given in an input" in lmp(lines + "run 0\nfix HVI_LISTS all hvi/lists\n", expect_fail=True).error
