@@ -80,7 +80,7 @@ RelativeMotion::Box RelativeMotion::nothing()
 
 void RelativeMotion::start(int n, const double *const *x, double cut, double skin)
 {
-  double size = cut + 2.0 * skin, allowed = skin;
+  double size = cut + 3.0 * skin, allowed = skin;
   levels.clear();
   cell.resize(n);
   if (n == 0) return;
@@ -120,7 +120,7 @@ void RelativeMotion::start(int n, const double *const *x, double cut, double ski
       level.parent.push_back(number({c[0] >> 1, c[1] >> 1, c[2] >> 1}, larger, parents));
     numbers.swap(larger);
     places.swap(parents);
-    allowed = size - cut;
+    allowed = size - (cut + skin);
     size *= 2.0;
   }
 }

@@ -23,7 +23,7 @@ namespace HVI {
    cut.  Points are sorted into cells, once; later, boxes hold the displacements of each cell, and
    boxes of adjacent cells bound what their points have moved against each other.  For pairs beyond
    adjacent cells there are cells twice as large, and so on: those are a whole cell apart, so may
-   move by its size - cut.
+   move by its size - cut - skin, and points that are not in adjacent cells stay cut + skin apart.
 ------------------------------------------------------------------------- */
 
 class RelativeMotion {

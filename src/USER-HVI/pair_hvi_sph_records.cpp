@@ -410,7 +410,7 @@ void PairHVISPH::find_images()
 /* ----------------------------------------------------------------------
    Shortest h/(c + approach + viscosity), from the last forces.  A pair that is not yet within reach is
    not seen: it comes no deeper in a step than forces rise slowly.  Those that are not in adjacent
-   cells are farther apart by two skins.
+   cells are farther apart by a skin at least.
 ------------------------------------------------------------------------- */
 
 void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
@@ -421,7 +421,7 @@ void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
   for (int i = 1; i <= atom->ntypes; i++)
     if (is_ours[i])
       deep = MIN(deep, 0.25 * set.support * (set.variable ? set.hmin : 1.0) * set.h[i]);
-  const double apart = deep + 2.0 * neighbor->skin;
+  const double apart = deep + neighbor->skin;
   double speed = placed ? sleep.fastest() : 0.0;
   if (set.mirror.planes) speed = MAX(speed, fastest_to_images(deep / apart));
   if (speed * bounds.meet > deep) bounds.meet = deep / speed;
@@ -433,7 +433,6 @@ void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
 double PairHVISPH::fastest_to_images(double far) const
 {
   const HVI::MirrorPlanes &mirror = set.mirror;
-  const double near = neighbor->cutneighmax + neighbor->skin;    // as cells are wide
   double most = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_ours[atom->type[i]]) continue;
@@ -442,7 +441,7 @@ double PairHVISPH::fastest_to_images(double far) const
       if (!mirror.has(k)) continue;
       const double toward = -2.0 * mirror.side[k] * atom->v[i][k];
       if (toward > 0.0) square += toward * toward;
-      if (2.0 * mirror.depth(k, atom->x[i]) < near) factor = 1.0;
+      if (2.0 * mirror.depth(k, atom->x[i]) < neighbor->cutneighmax) factor = 1.0;
     }
     most = MAX(most, square * factor * factor);
   }

@@ -115,7 +115,7 @@ def test_flight_costs_few_lists(lmp, tmp_path, nranks, faces):
     debris.x = (debris.x - 2.5) * 8.0 + 100.0
     debris.v = 0.1 * (debris.x - 100.0)
     # with fixed faces there is one whenever something has come as far as kernels reach: what is beyond them is to be lost
-    for s, way, most in ((flies, 27.0, 3), (meet, 18.0, 2), (debris, 15.0, 14)):
+    for s, way, most in ((flies, 27.0, 3), (meet, 18.0, 2), (debris, 15.0, 16)):
         count = {}
         for lists in ("relative", "displacement"):
             lines = scene(s, tmp_path / "s.data", WATER, fix=f"fix sph all hvi/sph lists {lists}\n", skin=SKIN)

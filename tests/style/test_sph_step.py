@@ -170,15 +170,15 @@ def test_travel_keeps_contacts_seen(lmp, tmp_path):
     text += "thermo_style custom step dt f_step[3] v_gap c_book[9]\nthermo_modify norm no format float %.16g\nrun 35\n"
     t = lmp(text).thermo
     gap, before = t["v_gap"], t["v_gap"] > 2.5
-    assert before.sum() > 5 and (t["f_step[3]"][before] == APPROACH).all()
-    assert np.allclose(t["Dt"][before], 0.625 / 20, rtol=1e-9)
-    assert (-np.diff(gap)).max() <= 0.625 * (1 + 1e-9)
+    assert before.sum() > 5 and (t["f_step[3]"][before] == APPROACH).any()
+    deeper = np.minimum(gap, 2.5)
+    assert (-np.diff(deeper))[before[:-1]].max() <= 0.625 * (1 + 1e-9)
     assert set(t["f_step[3]"]) >= {APPROACH, SIGNAL} and np.abs(t["c_book[9]"] - 1).max() < 0.1
 
 
-@pytest.mark.parametrize("r, u", [(1.1, 1.0), (1.6, 9.0), (1.6, 40.0), (1.6, -40.0)])
+@pytest.mark.parametrize("r, u", [(1.1, 1.0), (1.3, 9.0), (1.3, 40.0)])
 def test_mirrors(lmp, tmp_path, r, u):
-    """one that flies toward a plane, or away: the step is that of it and a second one in place of its image"""
+    """one that flies toward a plane: the step is that of it and a second one in place of its image"""
     pair = "pair_style hvi/sph cubic {}\npair_coeff * * eos tait 1.0 4.0 7 h 1.25\n"
     steps = []
     for words, x, v in (("mirror x 10.0 lo", [[10 + r, 8, 8]], [[-u, 0, 0]]), ("", [[10 + r, 8, 8], [10 - r, 8, 8]], [[-u, 0, 0], [u, 0, 0]])):
@@ -187,6 +187,15 @@ def test_mirrors(lmp, tmp_path, r, u):
         steps.append(first(lmp, scene(s, tmp_path / "s.data", pair.format(words))))
     assert steps[0] == (pytest.approx(steps[1][0], rel=1e-12), steps[1][1])
     assert steps[1][1] == (SIGNAL if r == 1.1 else APPROACH)
+
+
+@pytest.mark.parametrize("u, why", [(-40.0, SIGNAL), (40.0, APPROACH)])
+def test_mirrors_far(lmp, tmp_path, u, why):
+    """away from a plane nothing is met; beyond reach of its image a particle may come nearer by what is left to the reach, less a skin"""
+    s = Fluid(np.array([[13.0, 8, 8]]), np.array([[-u, 0, 0.0]]), np.ones(1), np.zeros(1), np.ones(1, int), {1: 1.0}, {1: 1.25}, np.full(3, 20.0), (False,) * 3)
+    dt, limiter = first(lmp, scene(s, tmp_path / "s.data", "pair_style hvi/sph cubic mirror x 10.0 lo\npair_coeff * * eos tait 1.0 4.0 7 h 1.25\n"))
+    assert limiter == why
+    assert dt == pytest.approx(C * 1.25 / 4.0, rel=1e-12) if why == SIGNAL else 0.625 / (2 * u) < dt < (6.0 - 2.5 + 0.625) / (2 * u)
 
 
 def test_every(lmp, tmp_path):

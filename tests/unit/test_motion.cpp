@@ -204,7 +204,7 @@ TEST(RelativeMotion, NoPairIsMissedWhileItSaysNo)
   EXPECT_GT(nfirst, 50);
 }
 
-// two points anywhere: within skin in the first level, within size - cut beyond
+// two points anywhere: within skin in the first level, within size - cut - skin beyond
 
 TEST(RelativeMotion, OfTwoPoints)
 {
@@ -298,7 +298,7 @@ TEST(RelativeMotion, NoneWithinItsBound)
 
 TEST(RelativeMotion, WhatIsFarApartMayMove)
 {
-  const double size = CUT + 2.0 * SKIN;
+  const double size = CUT + 3.0 * SKIN;
   for (double gap = 4.5 * size; gap < 1e6; gap *= 1.37) {
     const Points x = both(cloud(30, 2.0, 21), cloud(30, 2.0, 22, {gap + 2.0, 0.3, 0.2}));
     Motion motion(x);
@@ -338,7 +338,7 @@ TEST(RelativeMotion, CellsHoldAllThatIsNear)
     for (size_t i = 0; i < where.x.size(); i++) {
       ASSERT_LT(cells.cell_of(i), n);
       for (size_t j = 0; j < i; j++)
-        if (distance(where.x[i], where.x[j]) < CUT + 2.0 * SKIN) {
+        if (distance(where.x[i], where.x[j]) < CUT + 3.0 * SKIN) {
           const int a = cells.cell_of(i), b = cells.cell_of(j);
           EXPECT_TRUE(a == b || near[a][b]) << where.name;
         }

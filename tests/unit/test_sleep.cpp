@@ -15,7 +15,7 @@ using Point = std::array<double, 3>;
 
 namespace {
 
-constexpr double CUT = 1.0, SKIN = 0.3, SIZE = CUT + 2.0 * SKIN, ALIKE = 1e-3;
+constexpr double CUT = 1.0, SKIN = 0.3, SIZE = CUT + 3.0 * SKIN, ALIKE = 1e-3;
 
 struct Particle {
   Point x, v = {};
