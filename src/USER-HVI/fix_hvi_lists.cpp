@@ -16,6 +16,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "force.h"
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -28,15 +29,17 @@ using namespace FixConst;
 
 static constexpr char LISTS_ID[] = "HVI_LISTS";
 static constexpr int NEVER = MAXSMALLINT;    // neigh_modify delay, while this fix is in charge
+static constexpr double FAR_AWAY = 1.0e100;
+
+static bool making = false;    // else it stands in an input
 
 /* ---------------------------------------------------------------------- */
 
 FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), moved(nullptr), nmax(0), farthest(0.0), delay(0), relative(true)
+    Fix(lmp, narg, arg), moved(nullptr), nmax(0), farthest(0.0), unseen(0.0), delay(0),
+    relative(true)
 {
-  bool wrong = strcmp(id, LISTS_ID) != 0;
-  for (int k = 0; k < modify->nfix; k++) wrong = wrong || !modify->fix[k];
-  if (wrong)
+  if (!making)
     error->all(FLERR, "Fix hvi/lists is made by pair styles and cannot be given in an input");
   force_reneighbor = 1;
   next_reneighbor = -1;
@@ -47,6 +50,7 @@ FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
 
 FixHVILists::~FixHVILists()
 {
+  if (neighbor) post_run();    // also if an error has ended the run
   memory->destroy(moved);
 }
 
@@ -55,8 +59,10 @@ FixHVILists::~FixHVILists()
 FixHVILists *FixHVILists::make(LAMMPS *lmp, bool relative)
 {
   if (lmp->modify->get_fix_by_id(LISTS_ID)) lmp->modify->delete_fix(LISTS_ID);
+  making = true;
   auto *const made =
       dynamic_cast<FixHVILists *>(lmp->modify->add_fix(fmt::format("{} all hvi/lists", LISTS_ID)));
+  making = false;
   made->relative = relative;
   return made;
 }
@@ -70,17 +76,17 @@ int FixHVILists::setmask()
 
 /* ----------------------------------------------------------------------
    who gives neigh_modify another delay, every or check wants LAMMPS to decide; so does a box that
-   changes
+   changes, and another pair style; with comm_modify mode multi ghosts of a type may reach less far
 ------------------------------------------------------------------------- */
 
 bool FixHVILists::in_charge() const
 {
-  if (!relative) return false;
+  if (!relative || !force->pair_match("^hvi/sph$", 0)) return false;
   for (const auto &ifix : modify->get_fix_list())
     if (ifix->box_change & (BOX_CHANGE_SIZE | BOX_CHANGE_SHAPE)) return false;
   return (neighbor->delay == 0 || neighbor->delay == NEVER) && neighbor->every == 1 &&
       neighbor->dist_check && !neighbor->build_once && !neighbor->includegroup &&
-      !domain->triclinic;
+      !domain->triclinic && comm->mode == Comm::SINGLE;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -113,13 +119,24 @@ void FixHVILists::pre_neighbor()
   }
   MPI_Allreduce(MPI_IN_PLACE, &width, 1, MPI_DOUBLE, MPI_MIN, world);
   farthest = MIN(farthest, 0.5 * width);
+
+  // who owns the place half-way between two has both, as owned or ghosts, unless they are more than
+  // two cutoffs of ghosts apart in some direction
+
+  const bool all_seen = comm->nprocs == 1 && domain->nonperiodic && !domain->periodicity[0] &&
+      !domain->periodicity[1] && !domain->periodicity[2];
+  const double ghosts = MAX(neighbor->cutneighmax, comm->cutghostuser);
+  unseen = all_seen ? FAR_AWAY : 2.0 * ghosts - (reach + neighbor->skin);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixHVILists::setup(int /*vflag*/)
 {
-  if (!in_charge()) return;
+  if (!in_charge()) {
+    post_run();
+    return;
+  }
   if (neighbor->delay != NEVER) delay = neighbor->delay;
   neighbor->delay = NEVER;
 }
@@ -140,12 +157,22 @@ void FixHVILists::post_integrate()
     memory->create(moved, nmax, 3, "hvi/lists:moved");
   }
   const double *const *const x = atom->x;
+  const bool known = motion.points() == atom->nlocal + atom->nghost;    // none came in between
+  enum { LOWEST, HIGHEST = LOWEST + 3, RENEW = HIGHEST + 3, N };        // less the highest
+  double ends[N] = {FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, 0.0};
   for (int i = 0; i < atom->nlocal; i++)
-    for (int k = 0; k < 3; k++) moved[i][k] = x[i][k] - hold[3 * i + k];
+    for (int k = 0; k < 3; k++) {
+      moved[i][k] = known ? x[i][k] - hold[3 * i + k] : 0.0;
+      ends[LOWEST + k] = MIN(ends[LOWEST + k], moved[i][k]);
+      ends[HIGHEST + k] = MIN(ends[HIGHEST + k], -moved[i][k]);
+    }
   comm->forward_comm(this);
 
-  int renew = motion.exceeded(moved) || motion.farthest() > farthest;
-  MPI_Allreduce(MPI_IN_PLACE, &renew, 1, MPI_INT, MPI_MAX, world);
+  if (!known || motion.exceeded(moved) || motion.farthest() > farthest) ends[RENEW] = -1.0;
+  MPI_Allreduce(MPI_IN_PLACE, ends, N, MPI_DOUBLE, MPI_MIN, world);
+  bool renew = ends[RENEW] < 0.0;
+  for (int k = 0; k < 3; k++)
+    if (-(ends[LOWEST + k] + ends[HIGHEST + k]) > unseen) renew = true;
   if (renew) next_reneighbor = update->ntimestep;
 }
 

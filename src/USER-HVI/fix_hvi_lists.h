@@ -52,6 +52,7 @@ class FixHVILists : public Fix {
   double **moved;              // of owned particles and ghosts, since then
   int nmax;
   double farthest;    // that any particle may go: to rank next to its own, and not far beyond faces
+  double unseen;      // relative motion, in any direction, of two that no rank has both of
   int delay;          // of neigh_modify
   bool relative;      // else LAMMPS decides
 

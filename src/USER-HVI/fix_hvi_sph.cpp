@@ -127,10 +127,10 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
       quiet = value == "no" ? 0.0 : EXACT;
     } else {
       quiet = utils::numeric(FLERR, value, false, lmp);
-      if (!(quiet >= EXACT && quiet <= 0.01))
+      if (!(quiet >= EXACT && quiet <= 1.0e-4))
         error->all(FLERR,
                    "Fix hvi/sph sleep must be exact, no or a part of the speed of sound from {} to "
-                   "0.01, not {}",
+                   "1e-4, not {}",
                    EXACT, value);
     }
   }

@@ -249,6 +249,7 @@ double PairHVISPH::init_one(int i, int j)
 
 void PairHVISPH::setup()
 {
+  check_places();
   check_sides();
   check_extent();
   warn();

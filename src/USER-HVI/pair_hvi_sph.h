@@ -100,6 +100,7 @@ class PairHVISPH :
   void check_fixes() const;
   void check_materials() const;
   void check_mirror() const;
+  void check_places();
   void check_sides() const;
   void check_extent();
   void warn() const;

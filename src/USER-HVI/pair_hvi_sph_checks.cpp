@@ -22,6 +22,7 @@
 #include "fix_hvi_sph.h"
 #include "force.h"
 #include "modify.h"
+#include "neigh_list.h"
 #include "update.h"
 
 #include <cmath>
@@ -118,6 +119,22 @@ void PairHVISPH::check_mirror() const
     error->all(FLERR,
                "Pair style hvi/sph: mirror needs fix hvi/sph, which keeps particles on "
                "their side");
+}
+
+/* ----------------------------------------------------------------------
+   forces do not look at pairs of particles that sleep
+------------------------------------------------------------------------- */
+
+void PairHVISPH::check_places()
+{
+  const double *const *const x = atom->x;
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    for (int jj = 0; jj < list->numneigh[i]; jj++) {
+      const int j = list->firstneigh[i][jj] & NEIGHMASK;
+      if (x[i][0] == x[j][0] && x[i][1] == x[j][1] && x[i][2] == x[j][2]) overlap(i, j);
+    }
+  }
 }
 
 /* ----------------------------------------------------------------------

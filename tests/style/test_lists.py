@@ -204,3 +204,57 @@ def test_wrong_input(lmp, tmp_path):
         r = lmp(lines + late + "fix mine all hvi/lists\n", expect_fail=True)
         assert "Fix hvi/lists is made by pair styles and cannot be given in an input" in r.error
     assert "cannot be given in an input" in lmp(lines + "run 0\nfix HVI_LISTS all hvi/lists\n", expect_fail=True).error
+
+
+MEET = """units si
+atom_style sph
+boundary {faces}
+{processors}
+region box block {box}
+create_box 1 box
+lattice sc 1.0 origin 0.5 0.5 0.5
+region a block {a} 6 10 6 10
+region b block {b} 6 10 6 10
+create_atoms 1 region a
+create_atoms 1 region b
+{corners}
+mass 1 1.0
+set group all sph/rho 1.0
+region flies block {a} 0 16 0 16
+group fly region flies
+velocity fly set {speed} 0 0
+neighbor 0.3 bin
+pair_style hvi/sph cubic
+pair_coeff * * eos tait 1.0 4.0 7 h 1.25
+fix sph all hvi/sph lists {lists}
+timestep 0.02
+thermo 25
+thermo_style custom step nbuild f_sph ke
+thermo_modify norm no
+run {steps}
+"""
+
+
+@pytest.mark.parametrize("scene", ["cut", "face"])
+@pytest.mark.parametrize("nranks", [1, 2, 4])
+def test_meeting_deep_inside_ranks(lmp, scene, nranks):
+    """two bodies that no rank has both of, or that meet across a periodic face, farther from it than ghosts reach: as with displacement, with less lists"""
+    if scene == "cut":
+        corners = "create_atoms 1 single -58.5 6.5 6.5 units box\ncreate_atoms 1 single 58.5 6.5 6.5 units box"
+        how = dict(faces="s s s", processors="processors * 1 1", box="-60 60 0 16 0 16", a="-12 -6", b="6 10", corners=corners, speed=2, steps=450)
+    else:
+        how = dict(faces="p s s", processors="processors * 1 1", box="0 60 0 16 0 16", a="6 10", b="48 52", corners="", speed=-2, steps=450)
+    ends, counts = [], []
+    for lists in ("displacement", "relative"):
+        t = lmp(MEET.format(lists=lists, **how), nranks=nranks).thermo
+        ends.append(t["KinEng"][-1])
+        counts.append(t["Nbuild"][-1])
+        assert t["KinEng"][0] == 128 if scene == "face" else True
+    assert ends[0] < 0.9 * t["KinEng"][0]  # they have met
+    assert ends[1] == pytest.approx(ends[0], rel=1e-9) and counts[1] < counts[0]
+
+
+def test_same_place_asleep(lmp):
+    """two particles at one place stop the run at its start, also where all is at rest"""
+    text = MEET.format(faces="s s s", processors="", box="0 60 0 16 0 16", a="6 10", b="20 24", corners="create_atoms 1 single 7.5 7.5 7.5 units box", speed=0, lists="relative", steps=0)
+    assert "at the same place at step 0" in lmp(text, expect_fail=True).stdout
