@@ -206,7 +206,9 @@ void PairHVISPH::find_sleepers()
     bool quiet = std::fabs(atom->rho[i] - rho_quiet[itype]) <= rho_far * rho_quiet[itype] &&
         std::fabs(atom->esph[i]) <= m * e_quiet[itype] && rho_quiet[itype] > 0.0;
     for (int k = 0; k < 3; k++)
-      if (set.mirror.has(k) && std::fabs(atom->vest[i][k]) > v_quiet) quiet = false;
+      if (!std::isfinite(atom->vest[i][k]) ||
+          (set.mirror.has(k) && std::fabs(atom->vest[i][k]) > v_quiet))
+        quiet = false;
     sleep.add(cells.cell_of(i), atom->vest[i], !quiet);
   }
   sleep.settle(cells, v_quiet);

@@ -90,11 +90,11 @@ def test_larger_differences_count_as_less(lmp, tmp_path):
     s, run = impact(), "run 12\n" + WRITE
     lmp(text(s, tmp_path, "no", "gradient plain") + run.format("all"))
     asleep, error = [], []
-    for sleep in ("exact", "1e-8", "1e-5", "1e-2"):
+    for sleep in ("exact", "1e-8", "1e-6", "1e-4"):
         asleep.append(lmp(text(s, tmp_path, sleep, "gradient plain") + run.format("some")).thermo["f_sph"][-1])
         error.append(apart(columns(tmp_path / "some"), columns(tmp_path / "all"))["f"])
     assert (np.diff(asleep) > 0).all() and (np.diff(error) > 0).all(), (asleep, error)
-    assert error[-1] > 1e-6  # so the bounds above mean something
+    assert error[-1] > 1e-7  # so the bounds above mean something
 
 
 @pytest.mark.parametrize("words, solid", [("", True), ("", False)])
@@ -112,11 +112,11 @@ def test_asleep_in_flight_awake_when_it_strikes(lmp, tmp_path, words, solid):
 
 def test_velocities_that_differ_do_not_sleep(lmp, tmp_path):
     """two bodies side by side, near each other, out of reach: where they are near both are awake; with one velocity nobody"""
-    for velocity, some in (((0.0, 0.0, 0.0), False), ((1e-4, 0.0, 0.0), True), ((0.3e-8 * 4, 0.0, 0.0), False)):
+    for velocity, some in (((0.0, 0.0, 0.0), False), ((1e-4, 0.0, 0.0), True), ((0.3e-10 * 4, 0.0, 0.0), False)):
         s = bodies(lattice((12, 12, 6), (4, 4, 4)), lattice((12, 12, 6), (4, 18, 4), velocity), box=(20, 34, 14))
         t = lmp(text(s, tmp_path, "") + "run 1\n" + WRITE.format("a")).thermo
         awake = len(s.x) - t["f_sph"][-1]
-        assert 0.2 * len(s.x) <= awake <= 0.8 * len(s.x) if some else awake == 0, velocity
+        assert 0.1 * len(s.x) <= awake < len(s.x) if some else awake == 0, (velocity, awake)
         assert np.abs(columns(tmp_path / "a")["f"]).max() < 1e-6
 
 
@@ -147,7 +147,7 @@ def test_who_never_sleeps(lmp, tmp_path):
     for change in ("set atom 100 sph/rho 1.0001\n", "set atom 100 sph/e 1e-5\n", "velocity all set 1e-5 0 0\nvelocity all ramp vx 0 1e-5 x 2 8 units box\n"):
         r = lmp(text(s, tmp_path, "", solid=False) + change + "run 0\n")
         assert r.thermo["f_sph"][0] < 216, change
-    for change in ("set atom 100 sph/rho 1.000000001\n", "set atom 100 sph/e 1e-17\n", "velocity all set 1e5 0 0\n"):
+    for change in ("set atom 100 sph/rho 1.00000000001\n", "set atom 100 sph/e 1e-21\n", "velocity all set 1e5 0 0\n"):
         r = lmp(text(s, tmp_path, "", solid=False) + change + "run 0\n")
         assert r.thermo["f_sph"][0] == 216, change
 
