@@ -462,21 +462,7 @@ void FixHVISPH::unpack_forward_comm(int n, int first, double *buf)
 
 /* ---------------------------------------------------------------------- */
 
-/* ----------------------------------------------------------------------
-   For the restart file: the settings of the pair style, and the checksums of the numbers of
-   materials, which a run that goes on must not change unnoticed
-------------------------------------------------------------------------- */
-
-std::string FixHVISPH::settings() const
-{
-  const FixHVIStore *const now = store ? FixHVIStore::find(lmp) : nullptr;
-  if (!now) return restored;
-  std::string text = now->fields.settings.text + "\n";
-  for (int itype = 1; itype <= atom->ntypes; itype++)
-    if (const HVI::Material *const material = now->materials.of(itype))
-      text += fmt::format("{}:{} ", itype, material->checksum);
-  return text;
-}
+/* ---------------------------------------------------------------------- */
 
 // a restart file in the middle of a run is like one at its end
 

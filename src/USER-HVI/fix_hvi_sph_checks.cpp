@@ -95,3 +95,19 @@ void FixHVISPH::check_step() const
         "or a third of that",
         update->dt, stable);
 }
+
+/* ----------------------------------------------------------------------
+   For the restart file: the settings of the pair style, and the checksums of the numbers of
+   materials, which a run that goes on must not change unnoticed
+------------------------------------------------------------------------- */
+
+std::string FixHVISPH::settings() const
+{
+  const FixHVIStore *const now = store ? FixHVIStore::find(lmp) : nullptr;
+  if (!now) return restored;
+  std::string text = now->fields.settings.text + "\n";
+  for (int itype = 1; itype <= atom->ntypes; itype++)
+    if (const HVI::Material *const material = now->materials.of(itype))
+      text += fmt::format("{}:{} ", itype, material->checksum);
+  return text;
+}
