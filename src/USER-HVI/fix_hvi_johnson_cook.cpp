@@ -30,13 +30,13 @@
 using namespace LAMMPS_NS;
 
 /* ----------------------------------------------------------------------
-   Three sections of data files: the state; the stress in the last forces with what the next step
-   needs beside it; changes of its rate.  Data files have no infinity: it is DBL_MAX.
+   Two sections of data files: the state; the stress in the last forces with what the next step
+   needs beside it.  Data files have no infinity: it is DBL_MAX.
 ------------------------------------------------------------------------- */
 
 namespace {
 using Solid = HVI::SolidState;
-enum { STATE, FORCES, TRENDS };
+enum { STATE, FORCES };
 }    // namespace
 
 constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
@@ -67,12 +67,6 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"shear_then", FORCES, offsetof(Solid, seen.shear)},
     {"shear", FORCES, offsetof(Solid, shear)},
     {"rate", FORCES, offsetof(Solid, rate)},
-    {"Sxx", TRENDS, offsetof(Solid, trend.xx)},
-    {"Syy", TRENDS, offsetof(Solid, trend.yy)},
-    {"Szz", TRENDS, offsetof(Solid, trend.zz)},
-    {"Sxy", TRENDS, offsetof(Solid, trend.xy)},
-    {"Sxz", TRENDS, offsetof(Solid, trend.xz)},
-    {"Syz", TRENDS, offsetof(Solid, trend.yz)},
 
     // made anew when a run begins
     {nullptr, 0, offsetof(Solid, yield)},
@@ -87,7 +81,7 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
 /* ---------------------------------------------------------------------- */
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
-    FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces", "_trends"}),
+    FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces"}),
     spall_name("principal"), store(nullptr), fresh(true), checked(false)
 {
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
@@ -357,28 +351,65 @@ void FixHVIJohnsonCook::start(int i, bool anew)
 
 void FixHVIJohnsonCook::first_half(double dt)
 {
-  const bool trends = store->fields.settings.whole;
+  const bool whole = store->fields.settings.whole;
   for (int i = 0; i < atom->nlocal; i++) {
     const HVI::SolidModel *const model = of(i);
     if (!model) continue;
+    if (whole) {
+      model->present(extra[i]);
+      continue;
+    }
     if (fresh || !model->ready(extra[i])) {
       model->prepare(extra[i], input(i, fresh ? GRADIENT : FORCES), fresh);
       if (fresh && store->fields.asleep(i))
         HVI::SolidModel::rest(extra[i]);    // as in second_half()
     }
-    model->first_half(extra[i], dt, trends);
+    model->first_half(extra[i], dt);
   }
   fresh = false;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVIJohnsonCook::second_half(double dt)
+{
+  each_solid([this, dt](int n, const int *who, Solid *const *states) {
+    HVI::SolidInput in[HVI::LANES];
+    for (int k = 0; k < n; k++) in[k] = input(who[k], GRADIENT);
+    return of(who[0])->second_half(n, states, in, dt);
+  });
+}
+
+void FixHVIJohnsonCook::whole_step(double dt)
+{
+  each_solid([this, dt](int n, const int *who, Solid *const *states) {
+    HVI::SolidInput in[HVI::LANES];
+    for (int k = 0; k < n; k++) {
+      in[k] = input(who[k], GRADIENT);
+      in[k].rho = store->fields.density(who[k]);
+      in[k].L = HVI::at_middle(in[k].L, dt);
+    }
+    return of(who[0])->whole_step(n, states, in, dt);
+  });
 }
 
 /* ----------------------------------------------------------------------
    particles of one type after another, as many at a time as vectors have lanes
 ------------------------------------------------------------------------- */
 
-void FixHVIJohnsonCook::second_half(double dt)
+template <class Step> void FixHVIJohnsonCook::each_solid(const Step &step)
 {
   int who[HVI::LANES], n = 0;
+  Solid *states[HVI::LANES];
   const HVI::SolidModel *now = nullptr;    // of those in who
+  const auto go = [&]() {
+    if (!n) return;
+    const int wrong = step(n, who, states);
+    if (wrong >= 0)
+      error->one(FLERR, "Fix hvi/johnson-cook: stress of particle {} is not a number",
+                 atom->tag[who[wrong]]);
+    n = 0;
+  };
   for (int i = 0; i < atom->nlocal; i++) {
     const HVI::SolidModel *const model = of(i);
     if (!model || failed(i)) continue;
@@ -386,28 +417,24 @@ void FixHVIJohnsonCook::second_half(double dt)
       HVI::SolidModel::rest(extra[i]);
       continue;
     }
-    if (n == HVI::LANES || model != now) {
-      if (n) second_half(n, who, dt);
-      n = 0;
-      now = model;
-    }
+    if (n == HVI::LANES || model != now) go();
+    now = model;
+    states[n] = &extra[i];
     who[n++] = i;
   }
-  if (n) second_half(n, who, dt);
+  go();
 }
 
-void FixHVIJohnsonCook::second_half(int n, const int *who, double dt)
+/* ----------------------------------------------------------------------
+   what forces come of, after whole_step()
+------------------------------------------------------------------------- */
+
+HVI::SphStress FixHVIJohnsonCook::settled(int i) const
 {
-  Solid *states[HVI::LANES];
-  HVI::SolidInput in[HVI::LANES];
-  for (int k = 0; k < n; k++) {
-    states[k] = &extra[who[k]];
-    in[k] = input(who[k], GRADIENT);
-  }
-  const int wrong = of(who[0])->second_half(n, states, in, dt);
-  if (wrong >= 0)
-    error->one(FLERR, "Fix hvi/johnson-cook: stress of particle {} is not a number",
-               atom->tag[who[wrong]]);
+  const Solid &s = extra[i];
+  const HVI::SolidModel *const model = of(i);
+  return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, model ? model->p_min(s) : -HVI::NO_LIMIT,
+          s.shear};
 }
 
 /* ----------------------------------------------------------------------

@@ -42,6 +42,7 @@ class FixHVIJohnsonCook :
   void start(int, bool);
   void first_half(double);
   void second_half(double);
+  void whole_step(double);    // in place of that, before forces: gradient corrected
   void reflect(int, int);
 
   static FixHVIJohnsonCook *find(class LAMMPS *);    // of this simulation, nullptr: none
@@ -53,6 +54,7 @@ class FixHVIJohnsonCook :
     const Solid::Seen &s = extra[i].seen;
     return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, s.p_min, s.shear > 0.0 ? s.shear : 0.0};
   }
+  HVI::SphStress settled(int i) const;
   const Solid &state(int i) const { return extra[i]; }
   double pressure(int i, double p) const    // what is left of that of the equation of state
   {
@@ -83,7 +85,7 @@ class FixHVIJohnsonCook :
   const HVI::SolidModel *of(int) const;      // null: no solid
   enum Needs { STATE, FORCES, GRADIENT };    // each with those before it
   HVI::SolidInput input(int, Needs) const;
-  void second_half(int, const int *, double);
+  template <class Step> void each_solid(const Step &);
 };
 
 }    // namespace LAMMPS_NS

@@ -24,6 +24,7 @@
 #include "modify.h"
 #include "update.h"
 
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -84,10 +85,16 @@ constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
     {"vx", TRENDS, offsetof(Extra, trend_v[0])},
     {"vy", TRENDS, offsetof(Extra, trend_v[1])},
     {"vz", TRENDS, offsetof(Extra, trend_v[2])},
+    {"working_vx", TRENDS, offsetof(Extra, working[0])},
+    {"working_vy", TRENDS, offsetof(Extra, working[1])},
+    {"working_vz", TRENDS, offsetof(Extra, working[2])},
+    {"settled", TRENDS, offsetof(Extra, settled)},
+    {"kicked", TRENDS, offsetof(Extra, kicked)},
 
     // 0 between steps
     {nullptr, 0, offsetof(Extra, drho)},
     {nullptr, 0, offsetof(Extra, de)},
+    {nullptr, 0, offsetof(Extra, stretch)},
 };
 
 // the velocity that the last rates belong to
@@ -102,7 +109,7 @@ const double *FixHVISPH::felt_velocity(int i) const
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {"", "_trends"}), store(nullptr),
     ledger(nullptr), strength(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0},
-    stepping(0), wallbit(0), follow(0), checked(0), quiet(1.0e-10), relative(true)
+    due(false), stepping(0), wallbit(0), follow(0), checked(0), quiet(1.0e-10), relative(true)
 {
   static_assert(covers<Extra>(FIELDS), "a number of the record is missing, or there twice");
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
@@ -255,7 +262,12 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
       e.rho = atom->rho[i];
       e.esph = atom->esph[i];
       e.trend_rho = e.trend_e = 0.0;
-      for (double &trend : e.trend_v) trend = 0.0;
+      for (int k = 0; k < 3; k++) {
+        e.trend_v[k] = 0.0;
+        e.working[k] = atom->v[i][k];
+      }
+      e.settled = atom->rho[i];
+      e.kicked = 0.0;
     }
     std::swap(e.rho, atom->rho[i]);
     std::swap(e.esph, atom->esph[i]);
@@ -297,10 +309,13 @@ void FixHVISPH::setup(int /*vflag*/)
    of the step, where rates are evaluated (Zisis et al. eq 18).  The package SPH
    evaluates them with density and energy of the middle of the step.
 
-   Extrapolation with the rate alone makes oscillations grow that nothing damps, by (omega dt)^4/8
-   and more in a step: a wall of two layers rings in its thickness.  For solids with gradient corrected
-   rates are extrapolated too, from their change in the last step: then they die down, up to omega dt
-   = 0.7.  A sixth of the change of acceleration makes the work of forces on vest that on v.
+   So oscillations that nothing damps grow by (omega dt)^4/8 and more in a step: a wall of two layers
+   rings in its thickness.  Solids with gradient corrected go by the leapfrog, which keeps them up to
+   omega dt = 2: vest is the velocity of the middle of the step, which brings density and stress to
+   its end, before forces, in settle_density() and settle_solids().  What is extrapolated with rho and
+   esph, by their rates and the change of these in the last step, are weights and heat.  Forces do
+   work on the velocity of the end of the step, with a sixth of the change of acceleration extrapolated
+   to third order; when that is known, see missed_work().
 ------------------------------------------------------------------------- */
 
 void FixHVISPH::initial_integrate(int /*vflag*/)
@@ -313,34 +328,91 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
   double *const rho = atom->rho;
   double *const esph = atom->esph;
   const double ahead = store->fields.settings.is_stock() ? 0.0 : 1.0;
-  const bool trends = store->fields.settings.whole;
+  const bool whole = store->fields.settings.whole;
   if (strength) strength->first_half(dtv);
+  due = whole;
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     Extra &e = extra[i];
+    const double power_e = atom->desph[i] - (whole ? missed_work(i) : 0.0);
     for (int k = 0; k < 3; k++) {
       vest[i][k] = v[i][k] + 2.0 * dtfm * f[i][k];
-      if (trends) {
-        vest[i][k] += dtf / 3.0 * e.trend_v[k];
-        e.trend_v[k] = dtfm / dtf * f[i][k];
-      }
       v[i][k] += dtfm * f[i][k];
       x[i][k] += dtv * v[i][k];
+      if (!whole) continue;
+      e.working[k] = vest[i][k] + dtf / 3.0 * e.trend_v[k];
+      e.trend_v[k] = dtfm / dtf * f[i][k];
+      vest[i][k] = v[i][k];
     }
-    const double drho = dtf * atom->drho[i], de = dtf * atom->desph[i];
+    const double drho = dtf * atom->drho[i], de = dtf * power_e;
     e.drho = ahead * drho;
     e.de = ahead * de;
-    if (trends) {
+    if (whole) {
+      esph[i] -= kick(i) - e.kicked;
+      e.settled = rho[i];
+      e.stretch = 0.0;
       e.drho += dtf * e.trend_rho;
       e.de += dtf * e.trend_e;
       e.trend_rho = atom->drho[i];
-      e.trend_e = atom->desph[i];
+      e.trend_e = power_e;
     }
     rho[i] += drho + e.drho;
     esph[i] += de + e.de;
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+const double *FixHVISPH::working_velocity(int i) const
+{
+  return integrates(i) ? extra[i].working : atom->vest[i];
+}
+
+/* ----------------------------------------------------------------------
+   What forces work on the velocity of the end of the step beyond what they did on the extrapolated
+   one.  Over all particles that is the same of pairs, so it can be taken from a particle's own energy.
+   A half kick gives dt/2 F.v and, at the end of a step less, at the beginning more, dt^2/8 F^2/m,
+   which only cancels if the step is the same: what is left is taken, too.  Then the total energy is
+   kept to round-off, but for dt^2/8 F^2/m of the moment.
+------------------------------------------------------------------------- */
+
+double FixHVISPH::missed_work(int i) const
+{
+  const double *const v = atom->v[i], *const f = atom->f[i], *const w = extra[i].working;
+  return f[0] * (v[0] - w[0]) + f[1] * (v[1] - w[1]) + f[2] * (v[2] - w[2]);
+}
+
+double FixHVISPH::kick(int i) const
+{
+  const double *const f = atom->f[i];
+  return 0.5 * dtf * dtf * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) /
+      (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
+}
+
+/* ----------------------------------------------------------------------
+   L belongs to places at the end of the step: of a field that is linear at its middle L/(1 - dt L/2)
+   is that at the middle.  So what turns as a whole keeps its density.
+------------------------------------------------------------------------- */
+
+double FixHVISPH::settle_density(int i, const HVI::VelocityGradient &L)
+{
+  if (!integrates(i)) return atom->rho[i];
+  Extra &e = extra[i];
+  const double rate = L.xx + L.yy + L.zz;
+  if (due) {
+    const HVI::VelocityGradient mid = HVI::at_middle(L, dtv);
+    e.settled *= std::exp(-dtv * (mid.xx + mid.yy + mid.zz));
+  }
+  e.stretch = -e.settled * rate;
+  return e.settled;
+}
+
+void FixHVISPH::settle_solids()
+{
+  if (due && strength) strength->whole_step(dtv);
+  due = false;
 }
 
 /* ----------------------------------------------------------------------
@@ -377,6 +449,7 @@ void FixHVISPH::reflect()
       atom->v[i][k] = -atom->v[i][k];
       atom->vest[i][k] = -atom->vest[i][k];
       extra[i].trend_v[k] = -extra[i].trend_v[k];
+      extra[i].working[k] = -extra[i].working[k];
     }
     if (op && strength) strength->reflect(i, op);
   }
@@ -387,7 +460,7 @@ void FixHVISPH::reflect()
 
 void FixHVISPH::final_integrate()
 {
-  const bool trends = store->fields.settings.whole;
+  const bool whole = store->fields.settings.whole;
   double *const *const v = atom->v;
   const double *const *const f = atom->f;
   double *const rho = atom->rho;
@@ -398,20 +471,25 @@ void FixHVISPH::final_integrate()
     const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     for (int k = 0; k < 3; k++) v[i][k] += dtfm * f[i][k];
     Extra &e = extra[i];
+    const double power_e = atom->desph[i] - (whole ? missed_work(i) : 0.0);
     e.rho = rho[i];
     e.esph = esph[i];
-    rho[i] += dtf * atom->drho[i] - e.drho;
-    esph[i] += dtf * atom->desph[i] - e.de;
-    if (trends) {
+    if (whole)
+      rho[i] = e.settled + dtv * (atom->drho[i] - e.stretch);    // interface density dissipation
+    else
+      rho[i] += dtf * atom->drho[i] - e.drho;
+    esph[i] += dtf * power_e - e.de;
+    if (whole) {
+      e.kicked = kick(i);
       const bool was_there = e.drho != 0.0 || e.de != 0.0;    // in the first half
       e.trend_rho = was_there ? atom->drho[i] - e.trend_rho : 0.0;
-      e.trend_e = was_there ? atom->desph[i] - e.trend_e : 0.0;
+      e.trend_e = was_there ? power_e - e.trend_e : 0.0;
       for (int k = 0; k < 3; k++)
         e.trend_v[k] = was_there ? dtfm / dtf * f[i][k] - e.trend_v[k] : 0.0;
     }
-    e.drho = e.de = 0.0;
+    e.drho = e.de = e.stretch = 0.0;
   }
-  if (strength) strength->second_half(dtv);
+  if (strength && !whole) strength->second_half(dtv);
 
   const double now = store->fields.viscous_power;
   ledger->book_viscous(dtf * (power + now));

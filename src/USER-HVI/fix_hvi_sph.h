@@ -17,6 +17,7 @@ FixStyle(hvi/sph,FixHVISPH);
 
 #include "fix_hvi_records.h"
 #include "hvi_energy_carrier.h"
+#include "hvi_stress.h"
 
 #include <cstdint>
 #include <string>
@@ -35,6 +36,12 @@ struct HVISPHExtra {
   // before it
 
   double trend_rho, trend_e, trend_v[3];
+
+  // of solids with gradient corrected: velocity with which the last forces did work, density they
+  // belong to, and what L has in its rate (0 between steps)
+
+  double working[3], settled, stretch;
+  double kicked;    // see missed_work()
 };
 
 class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::EnergyCarrier {
@@ -58,6 +65,13 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   double compute_scalar() override;
   double compute_vector(int) override;
 
+  // for pair hvi/sph, solids with gradient corrected: the velocity of the end of the step, as
+  // extrapolated; density at its end with L of its middle; then the same of stress
+
+  const double *working_velocity(int i) const;
+  double settle_density(int i, const HVI::VelocityGradient &L);
+  void settle_solids();
+
   double sleep() const { return quiet; }    // differences that count as none; 0: nothing sleeps
   bool relative_lists() const { return relative; }
   bool is_new(int i) const { return extra[i].hscale == 0.0; }    // in no run before
@@ -77,6 +91,7 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   double dtv, dtf;
   double power;      // viscous, of the last force evaluation
   double push[3];    // of mirror planes, likewise
+  bool due;          // density and stress of solids are those of the begin of the step
   int stepping;      // in a run, so that the state is the one the last step left
   int wallbit;       // groups of particles that are meant to be integrated by nobody
   int follow;        // particles outside the group are moved by fixes that do not know vest
@@ -90,6 +105,8 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   void check_left_out() const;
   void check_step() const;
   void reflect();
+  double missed_work(int) const;
+  double kick(int) const;
   uint64_t fingerprint(int) const;
   const double *felt_velocity(int) const;
   bool goes_on(int i) const { return extra[i].mark == fingerprint(i); }

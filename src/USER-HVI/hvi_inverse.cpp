@@ -35,11 +35,11 @@ static Eigen::Matrix3d matrix(const Symmetric &s)
   return m;
 }
 
-double stress_along_largest(const Symmetric &M, const Symmetric &S)
+Symmetric along_largest(const Symmetric &M)
 {
   const Eigen::Matrix3d m = matrix(M) / (M.xx + M.yy + M.zz), square = m * m,
-                        fourth = square * square;
-  return fourth.cwiseProduct(matrix(S)).sum() / fourth.trace();
+                        fourth = square * square, part = fourth / fourth.trace();
+  return {part(0, 0), part(1, 1), part(2, 2), part(0, 1), part(0, 2), part(1, 2)};
 }
 
 /* ---------------------------------------------------------------------- */

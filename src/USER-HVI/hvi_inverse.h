@@ -23,10 +23,10 @@ struct Symmetric {
 
 Symmetric limited_inverse(const Symmetric &N);
 
-// M^4 : S / tr M^4: n.S.n with n the axis of M's largest eigenvalue, where that stands out; a mean where
+// M^4 / tr M^4: n (x) n with n the axis of M's largest eigenvalue, where that stands out; a mean where
 // several are alike, so that it does not jump
 
-double stress_along_largest(const Symmetric &M, const Symmetric &S);
+Symmetric along_largest(const Symmetric &M);
 
 }    // namespace HVI
 

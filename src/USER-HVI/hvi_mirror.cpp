@@ -50,7 +50,7 @@ void Images::fill(const MirrorPlanes &mirror, const SphView &records) const
     for (int k = 0; k < 3; k++)
       if (image.op >> k & 1) x[k] = 2.0 * mirror.at[k] - x[k];
     records.state[a] = records.state[image.owner];
-    reflect.state(records.state[a]);
+    reflect.velocity(records.state[a]);
     records.rates[a] = {};
     if (records.stress) {
       records.stress[a] = records.stress[image.owner];
@@ -141,6 +141,7 @@ void Images::fill_sums(const SphView &records) const
     if (records.traction) {
       records.traction[a] = records.traction[i];
       reflect.tensor(records.traction[a]);
+      reflect.velocity(records.traction[a]);
       records.gradv[a] = records.gradv[i];
       reflect.gradient(records.gradv[a]);
     }

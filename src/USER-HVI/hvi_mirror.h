@@ -61,7 +61,7 @@ struct Reflection {
     t.xz *= s[0] * s[2];
     t.yz *= s[1] * s[2];
   }
-  void state(SphState &a) const
+  template <class Record> void velocity(Record &a) const
   {
     a.vx *= s[0];
     a.vy *= s[1];

@@ -38,7 +38,7 @@ namespace {
 
   void crush(SolidState &s)
   {
-    s.S = s.trend = Deviator();
+    s.S = Deviator();
     s.shear = s.rate = 0.0;
   }
 
@@ -134,7 +134,6 @@ SolidState SolidModel::blank()
 void SolidModel::liquefy(SolidState &s)
 {
   s.yield = UNKNOWN;
-  s.trend = Deviator();
   s.seen = {s.S, -NO_LIMIT, s.shear};
 }
 
@@ -146,7 +145,6 @@ void SolidModel::start(SolidState &s, SolidInput in, bool anew) const
   in.p = 0.0;    // there is no pressure yet
   if (s.shear == 0.0 && !s.failed()) s.shear = law->shear_modulus(conditions(s, in));
   s.yield = UNKNOWN;
-  s.trend = Deviator();
   show(s, s.S);
 }
 
@@ -160,7 +158,7 @@ void SolidModel::prepare(SolidState &s, const SolidInput &in, bool begin) const
     s.yield = s.rate > 0.0 ? von_mises(s.S) : law->yield(s.eps, 0.0, conditions(s, in));
 }
 
-void SolidModel::first_half(SolidState &s, double dt, bool trends) const
+void SolidModel::first_half(SolidState &s, double dt) const
 {
   Deviator ahead = s.S;
   if (!s.failed()) {
@@ -168,21 +166,49 @@ void SolidModel::first_half(SolidState &s, double dt, bool trends) const
     s.carried = s.S;
     add(s.carried, 0.5 * dt, dS);
     add(ahead, dt, dS);
-    if (trends) add(ahead, 0.5 * dt, s.trend);
-    s.trend = dS;
     const double stress = von_mises(ahead);
     if (stress > s.yield) ahead = scaled(ahead, s.yield / stress);
   }
   show(s, ahead);
 }
 
+void SolidModel::present(SolidState &s) const
+{
+  show(s, s.S);
+}
+
 void SolidModel::rest(SolidState &s)
 {
-  s.carried = s.trend = Deviator();
+  s.carried = Deviator();
   s.rate = 0.0;
 }
 
 int SolidModel::second_half(int n, SolidState *const *state, const SolidInput *in, double dt) const
+{
+  return settle(n, state, in, dt, [dt](SolidState &s, const SolidInput &input) {
+    Deviator trial = s.carried;
+    s.carried = elastic_rate(s, input);
+    add(trial, 0.5 * dt, s.carried);
+    return trial;
+  });
+}
+
+// S turns with that of the middle of the step: so it keeps its size to fourth order
+
+int SolidModel::whole_step(int n, SolidState *const *state, const SolidInput *in, double dt) const
+{
+  return settle(n, state, in, dt, [dt](SolidState &s, const SolidInput &input) {
+    Deviator middle = s.S, trial = s.S;
+    add(middle, 0.5 * dt, jaumann_rate(input.L, s.shear, s.S));
+    s.carried = jaumann_rate(input.L, s.shear, middle);
+    add(trial, dt, s.carried);
+    return trial;
+  });
+}
+
+template <class Trial>
+int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, double dt,
+                       const Trial &try_out) const
 {
   Conditions c[LANES] = {};
   Deviator trial[LANES] = {};
@@ -193,15 +219,7 @@ int SolidModel::second_half(int n, SolidState *const *state, const SolidInput *i
     c[k] = conditions(s, in[k]);
     shear[k] = s.shear = law->shear_modulus(c[k]);
     eps[k] = s.eps;
-    trial[k] = s.carried;
-    s.carried = elastic_rate(s, in[k]);
-    add(trial[k], 0.5 * dt, s.carried);
-    const Deviator before = s.trend;
-    s.trend = Deviator();
-    if (s.yield != UNKNOWN) {    // else it was not there in the first half
-      s.trend = s.carried;
-      add(s.trend, -1.0, before);
-    }
+    trial[k] = try_out(s, in[k]);
   }
   law->radial_return(n, trial, dt, shear, eps, c, plastic);
 
@@ -253,7 +271,6 @@ void SolidModel::reflect(SolidState &s, int op)
   reflection.symmetric(s.S);
   reflection.symmetric(s.seen.S);
   reflection.symmetric(s.carried);
-  reflection.symmetric(s.trend);
 }
 
 }    // namespace HVI

@@ -39,9 +39,6 @@ struct SolidState {
 
   Deviator carried;
 
-  // after a step: by how much the rate of S has changed in it; in its middle: that rate before it
-
-  Deviator trend;
   double eps;        // equivalent plastic strain
   double damage;     // failed from 1 on
   double spalled;    // 1: spalled for good
@@ -77,10 +74,15 @@ struct SolidOptions {
 
      prepare()        if a run begins or the yield surface is not known
      first_half()     half of the elastic trial stress; seen = S extrapolated to the end of the
-                      step, back to the yield surface, without plastic strain.  With trends the
-                      rate is extrapolated, too (see fix hvi/sph)
+                      step, back to the yield surface, without plastic strain
      ... forces, which give the velocity gradient of the end of the step ...
      second_half()    the other half of the trial stress, radial return, damage, spall
+
+   or at once, before the forces:
+
+     present()        seen = S of the begin of the step
+     ... the velocity gradient of the middle of the step ...
+     whole_step()     S at its end, all of the above
 
    What has failed is rubble: it bears no shear and no tension, and keeps its state.
 ------------------------------------------------------------------------- */
@@ -109,9 +111,10 @@ class SolidModel {
   bool ready(const SolidState &s) const { return s.yield != UNKNOWN || s.failed(); }
   void prepare(SolidState &, const SolidInput &, bool begin) const;
 
-  void first_half(SolidState &, double dt, bool trends) const;
+  void first_half(SolidState &, double dt) const;
+  void present(SolidState &) const;
 
-  // in place of the second half, where nothing changes
+  // in place of the second half or of the whole, where nothing changes
 
   static void rest(SolidState &);
 
@@ -119,6 +122,7 @@ class SolidModel {
   // -1: all is well.
 
   int second_half(int n, SolidState *const *, const SolidInput *, double dt) const;
+  int whole_step(int n, SolidState *const *, const SolidInput *, double dt) const;
 
   double temperature(const SolidState &, const SolidInput &) const;    // NaN: unknown
 
@@ -149,6 +153,8 @@ class SolidModel {
   SolidModel() = default;
   Conditions conditions(const SolidState &, const SolidInput &) const;
   void show(SolidState &, const Deviator &) const;
+  template <class Trial>
+  int settle(int n, SolidState *const *, const SolidInput *, double dt, const Trial &) const;
 };
 
 }    // namespace HVI

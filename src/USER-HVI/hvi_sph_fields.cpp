@@ -99,6 +99,7 @@ std::string SphFields::arrays() const
 
 double SphFields::pressure(int i) const
 {
+  if (traction) return traction[i].p;
   const SphState &s = state[i];
   return settings.laws.symmetric ? s.p * s.rho * s.rho : s.p;
 }

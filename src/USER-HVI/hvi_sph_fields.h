@@ -89,6 +89,7 @@ class SphFields {
   // of the last forces, for fixes; owned particles, sums over this rank
 
   double pressure(int i) const;
+  double density(int i) const { return traction ? traction[i].rho : state[i].rho; }
   VelocityGradient velocity_gradient(int i) const;
   bool asleep(int i) const { return !sleepers.empty() && sleepers[i]; }
   std::vector<char> sleepers;    // owned particles that nothing happens to; empty: there are none

@@ -61,15 +61,21 @@ struct alignas(64) SphGradV {
   double nu;    // sum_j w_j W_ij, with gradient corrected only
 };
 
-// with gradient corrected: the force on i is w_i w_j (T_i + T_j) grad W, with M^-1 in T; and the part
-// of the pressure, which also acts between bodies
+// with gradient corrected: the force on i is w_i w_j (T_i + T_j) grad W, with M^-1 in T; and what else
+// is known at the end of the step only: see fix hvi/sph
 
-struct alignas(32) SphTraction {
-  static constexpr int SENT = 9;
+struct alignas(64) SphTraction {
+  static constexpr int SENT = 13;
   double xx, xy, xz, yx;
   double yy, yz, zx, zy;
-  double zz, volume, unused[2];
+  double zz;
+  double p;              // pressure
+  double vx, vy, vz;     // velocity at that time, with which forces do work
+  double volume, rho;    // rho: of owned particles only
+  double unused;
 };
+
+// the part of T that is a pressure, which also acts between bodies
 
 struct alignas(64) SphPush {
   static constexpr int SENT = 7;
@@ -80,7 +86,7 @@ struct alignas(64) SphPush {
 };
 
 static_assert(sizeof(SphStress) == 2 * sizeof(Vec4) && sizeof(SphGradV) == 4 * sizeof(Vec4) &&
-                  sizeof(SphTraction) == 3 * sizeof(Vec4) && sizeof(SphPush) == 2 * sizeof(Vec4),
+                  sizeof(SphTraction) == 4 * sizeof(Vec4) && sizeof(SphPush) == 2 * sizeof(Vec4),
               "records are read as vectors");
 static_assert(sizeof(SphPlace) == sizeof(Vec4) && sizeof(SphState) == 2 * sizeof(Vec4) &&
                   sizeof(SphRates) == 2 * sizeof(Vec4),

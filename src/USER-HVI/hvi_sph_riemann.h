@@ -190,9 +190,7 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     // velocities along d times r: u = r (U_i - U_j); and the differences beyond i and beyond j
 
     const Vec u = dx * (si.vx - first[0]) + dy * (si.vy - first[1]) + dz * (si.vz - first[2]);
-    keep_fastest(sph_signal(h, r, rsq + 0.01 * h * h, u, c_i > c_j ? zero + c_i : c_j,
-                            zero + laws.a, zero + laws.b),
-                 fastest);
+    keep_fastest(sph_signal(h, r, u, c_i > c_j ? zero + c_i : c_j), fastest);
     const Vec p = p_i - p_j;
     const Vec xx = 2.0 * dx * dx, yy = 2.0 * dy * dy, zz = 2.0 * dz * dz;
     const Vec xy = 4.0 * dx * dy, xz = 4.0 * dx * dz, yz = 4.0 * dy * dz;

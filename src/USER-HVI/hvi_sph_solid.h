@@ -140,8 +140,8 @@ inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int 
 /* ----------------------------------------------------------------------
    Second sweep: all pairs of particle i with its n near neighbors.  With T of SphTraction,
    f_i = w_i w_j (T_i grad W(r, h_i) + T_j grad W(r, h_j)); between bodies, while they push, with
-   the part of T that is a pressure.  Energy and density of that follow from L, without pairs.
-   Dissipation acts along the pair.
+   the part of T that is a pressure.  i gains what T_i works, j what T_j works.  Dissipation acts
+   along the pair; it goes by the velocity in the middle of the step, as L does: of the leapfrog.
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
@@ -170,15 +170,16 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
     static constexpr int in_turn[4] = {0, 1, 2, 3};
     int j[LANES];    // what is written may be near.j for all the compiler knows
     for (int k = 0; k < LANES; k++) j[k] = near.j[m + k];
-    Vec d[4], first[4], second[4], T[12];
+    Vec d[4], first[4], second[4], T[16];
     read_columns(near.d + m, in_turn, 0, d);
     read_columns(records.state, j, 0, first);
     read_columns(records.state, j, 1, second);
-    for (int k = 0; k < 3; k++) read_columns(records.traction, j, k, T + 4 * k);
+    for (int k = 0; k < 4; k++) read_columns(records.traction, j, k, T + 4 * k);
     for (int k = 0; k < LANES; k++) __builtin_prefetch(records.rates + j[k], 1);
-    const Vec c_j = second[1], rho_j = second[2], V_j = T[9];
+    const Vec c_j = second[1], rho_j = second[2], p_j = T[9], V_j = T[13];
     const Vec ww = si.w * first[3];
     const Vec dv[3] = {si.vx - first[0], si.vy - first[1], si.vz - first[2]};
+    const Vec dv_work[3] = {T_i.vx - T[10], T_i.vy - T[11], T_i.vz - T[12]};
     const Vec rsq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     const Vec r = sqrt(rsq);
     const Vec rdotv = d[0] * dv[0] + d[1] * dv[1] + d[2] * dv[2];
@@ -200,15 +201,28 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
     }
 
     const Vec wF_i = bonded * ww * F_i, wF_j = bonded * ww * F_j;
-    Vec f[3] = {wF_i * (T_i.xx * d[0] + T_i.xy * d[1] + T_i.xz * d[2]) +
-                    wF_j * (T[0] * d[0] + T[1] * d[1] + T[2] * d[2]),
-                wF_i * (T_i.yx * d[0] + T_i.yy * d[1] + T_i.yz * d[2]) +
-                    wF_j * (T[3] * d[0] + T[4] * d[1] + T[5] * d[2]),
-                wF_i * (T_i.zx * d[0] + T_i.zy * d[1] + T_i.zz * d[2]) +
-                    wF_j * (T[6] * d[0] + T[7] * d[1] + T[8] * d[2])};
+    const Vec f_i[3] = {wF_i * (T_i.xx * d[0] + T_i.xy * d[1] + T_i.xz * d[2]),
+                        wF_i * (T_i.yx * d[0] + T_i.yy * d[1] + T_i.yz * d[2]),
+                        wF_i * (T_i.zx * d[0] + T_i.zy * d[1] + T_i.zz * d[2])};
+    const Vec f_j[3] = {wF_j * (T[0] * d[0] + T[1] * d[1] + T[2] * d[2]),
+                        wF_j * (T[3] * d[0] + T[4] * d[1] + T[5] * d[2]),
+                        wF_j * (T[6] * d[0] + T[7] * d[1] + T[8] * d[2])};
+    Vec f[3], de_i = zero, de_j = zero;
+    const auto act = [&](const Vec *t_i, const Vec *t_j) {
+      for (int k = 0; k < 3; k++) {
+        f[k] += t_i[k] + t_j[k];
+        de_i -= t_i[k] * dv_work[k];
+        de_j -= t_j[k] * dv_work[k];
+      }
+    };
+    for (Vec &component : f) component = zero;
+    act(f_i, f_j);
 
     const Vec h = pi.h - 0.5 * d[3], soft = rsq + 0.01 * h * h;
-    keep_fastest(sph_signal(h, r, soft, rdotv, c_i > c_j ? zero + c_i : c_j, a, b), fastest);
+    const Vec c_most = c_i > c_j ? zero + c_i : c_j;
+    keep_fastest(SCENE & SPH_RIEMANN ? sph_signal(h, r, rdotv, c_most)
+                                     : sph_signal(h, r, soft, rdotv, c_most, a, b),
+                 fastest);
 
     // dissipation: a pressure between the two, on the area 2 V_i V_j |grad W|
 
@@ -226,7 +240,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
       const Vec ahead_i =
           along(L_i.xx, L_i.yy, L_i.zz, L_i.xy + L_i.yx, L_i.xz + L_i.zx, L_i.yz + L_i.zy);
       const Vec ahead_j = along(L[0], L[4], L[8], L[1] + L[3], L[2] + L[6], L[5] + L[7]);
-      const Vec p = si.p - second[0];
+      const Vec p = T_i.p - p_j;
       const Vec za_i = zero + rho_i * c_i, za_j = rho_j * c_j, zainv = 1.0 / (za_i + za_j);
       const Vec push_i = -zainv * (za_j * u + p * r), push_j = zainv * (p * r - za_i * u);
       const Vec closing = u < 0.0 ? -u : zero;
@@ -251,22 +265,22 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
     }
     const Vec VVF = 2.0 * V_i * V_j * F;
     const Vec visc = -q * VVF;
-    const Vec qheat = -0.5 * visc * rdotv;
-    for (int k = 0; k < 3; k++) f[k] += visc * d[k];
-    Vec de_i = qheat, de_j = qheat;
+    const Vec half[3] = {0.5 * visc * d[0], 0.5 * visc * d[1], 0.5 * visc * d[2]};
+    const Vec qheat = -(half[0] * dv_work[0] + half[1] * dv_work[1] + half[2] * dv_work[2]);
+    act(half, half);
 
     // interface density dissipation as in sph_interact()
 
     Vec drho_j = zero;
     if (SCENE & SPH_DENSITY) {
       const double z_i = rho_i * c_i;
-      const Vec z_j = rho_j * c_j, dp = si.p - second[0], size = abs(dp);
+      const Vec z_j = rho_j * c_j, dp = T_i.p - p_j, size = abs(dp);
       const Vec speed = sqrt(dv[0] * dv[0] + dv[1] * dv[1] + dv[2] * dv[2]);
       const Vec wave = tied * (z_i < z_j ? zero + z_i : z_j) * speed;
       const Vec excess = (size > wave ? size - wave : zero) / (size + 1.0e-300);
       const Vec by_states = laws.automatic * excess / (z_i + z_j);
       const Vec constant = laws.alpha / (c_i + c_j);
-      const Vec acts = si.p + second[0] > 0.0 ? one : tied;
+      const Vec acts = T_i.p + p_j > 0.0 ? one : tied;
       const Vec phi = 2.0 * acts * dp * F * r;
       drho += phi * V_j * (constant + by_states * rho_i);
       drho_j = -phi * V_i * (constant + by_states * rho_j);
@@ -286,11 +300,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
         const Vec t_j[3] = {cF_j * (P[0] * d[0] + P[3] * d[1] + P[4] * d[2]),
                             cF_j * (P[3] * d[0] + P[1] * d[1] + P[5] * d[2]),
                             cF_j * (P[4] * d[0] + P[5] * d[1] + P[2] * d[2])};
-        for (int k = 0; k < 3; k++) {
-          f[k] += t_i[k] + t_j[k];
-          de_i -= t_i[k] * dv[k];
-          de_j -= t_j[k] * dv[k];
-        }
+        act(t_i, t_j);
       }
     }
     if (SCENE & SPH_ARTSTRESS) {
@@ -303,11 +313,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
       const Vec t_j[3] = {factor * (R[0] * d[0] + R[3] * d[1] + R[4] * d[2]),
                           factor * (R[3] * d[0] + R[1] * d[1] + R[5] * d[2]),
                           factor * (R[4] * d[0] + R[5] * d[1] + R[2] * d[2])};
-      for (int k = 0; k < 3; k++) {
-        f[k] += t_i[k] + t_j[k];
-        de_i -= t_i[k] * dv[k];
-        de_j -= t_j[k] * dv[k];
-      }
+      act(t_i, t_j);
     }
 
     *(Vec *) (near.fx + m) = f[0];

@@ -119,6 +119,10 @@ class PairHVISPH :
   double fastest_to_images(double far) const;
   void finish_slopes();
   void finish_gradients();
+  void correct_gradient(int);
+  void find_traction(int);
+  bool touches(int) const;    // something that it does not hang together with
+  [[noreturn]] void no_answer(int, double) const;
   void scatter();
   template <class Record> void forward(Record *, int number = Record::SENT, int first = 0);
   template <class Record> void reverse(Record *, int number = Record::SENT);

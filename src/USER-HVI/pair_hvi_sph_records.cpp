@@ -63,11 +63,7 @@ void PairHVISPH::gather()
     const HVI::Eos &eos = *store->materials.of(itype)->eos;
     const double m = rmass ? rmass[i] : atom->mass[itype];
     double p, csq;
-    if (!std::isfinite(esph[i]) || !eos.evaluate(rho[i], esph[i] / m, p, csq))
-      error->one(FLERR,
-                 "Pair hvi/sph: equation of state {} of particle {} (type {}) has no answer at "
-                 "density {} and energy per mass {} at step {}",
-                 eos.name(), atom->tag[i], itype, rho[i], esph[i] / m, update->ntimestep);
+    if (!std::isfinite(esph[i]) || !eos.evaluate(rho[i], esph[i] / m, p, csq)) no_answer(i, rho[i]);
 
     // failed particles are not pulled; signals in solids are longitudinal
 
@@ -100,7 +96,17 @@ void PairHVISPH::gather()
     s.rho = rho[i];
     s.w = laws.symmetric ? m : m / rho[i];
     if (records.traction) {
-      records.traction[i].volume = s.w;
+      HVI::SphTraction &T = records.traction[i];
+      T = {};
+      T.volume = s.w;
+      T.rho = rho[i];
+      T.p = p;
+      if (i < atom->nlocal) {    // of ghosts all that is sent
+        const double *const felt = integrator->working_velocity(i);
+        T.vx = felt[0];
+        T.vy = felt[1];
+        T.vz = felt[2];
+      }
       if (eos.rho0() > 0.0) s.w *= std::cbrt(rho[i] / eos.rho0());
     }
     s.p = laws.symmetric ? p / (rho[i] * rho[i]) : p;
@@ -110,6 +116,17 @@ void PairHVISPH::gather()
     if (records.traction && records.stress[i].p_min == 0.0 && records.stress[i].shear == 0.0)
       s.type += HVI::RUBBLE;
   }
+}
+
+void PairHVISPH::no_answer(int i, double rho) const
+{
+  const int itype = atom->type[i];
+  const double m = atom->rmass ? atom->rmass[i] : atom->mass[itype];
+  error->one(FLERR,
+             "Pair hvi/sph: equation of state {} of particle {} (type {}) has no answer at "
+             "density {} and energy per mass {} at step {}",
+             store->materials.of(itype)->eos->name(), atom->tag[i], itype, rho, atom->esph[i] / m,
+             update->ntimestep);
 }
 
 /* ----------------------------------------------------------------------
@@ -240,14 +257,9 @@ void PairHVISPH::choose_rows()
     if (sums ? sleep.near_awake(cells.cell_of(i)) : !sleepers[i]) rows.push_back(i);
   }
   const HVI::SphView &records = store->fields.view();
-  if (records.traction)
+  if (records.push)
     for (int i = 0; i < nlocal; i++)
-      if (sleepers[i]) {
-        const double V = records.traction[i].volume;
-        records.traction[i] = {};
-        records.traction[i].volume = V;
-        if (records.push) records.push[i] = {};
-      }
+      if (sleepers[i]) records.push[i] = {};
 }
 
 /* ----------------------------------------------------------------------

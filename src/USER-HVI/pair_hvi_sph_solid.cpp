@@ -16,17 +16,20 @@
 
 #include "atom.h"
 #include "fix_hvi_johnson_cook.h"
+#include "fix_hvi_sph.h"
 #include "force.h"
 #include "hvi_inverse.h"
 #include "math_special.h"
 
 using namespace LAMMPS_NS;
 using HVI::SphGradV;
+using HVI::SphTraction;
 using HVI::Symmetric;
+using HVI::VelocityGradient;
 
 // a(3x3, rows) b(symmetric)
 
-static HVI::VelocityGradient product(const HVI::VelocityGradient &a, const Symmetric &b)
+static VelocityGradient product(const VelocityGradient &a, const Symmetric &b)
 {
   return {a.xx * b.xx + a.xy * b.xy + a.xz * b.xz, a.xx * b.xy + a.xy * b.yy + a.xz * b.yz,
           a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.xy + a.yz * b.xz,
@@ -35,112 +38,176 @@ static HVI::VelocityGradient product(const HVI::VelocityGradient &a, const Symme
           a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
 }
 
-static double trace(const HVI::VelocityGradient &L, const Symmetric &K)
-{
-  return L.xx * K.xx + L.yy * K.yy + L.zz * K.zz + (L.xy + L.yx) * K.xy + (L.xz + L.zx) * K.xz +
-      (L.yz + L.zy) * K.yz;
-}
-
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Between the sweeps.  L is that of the velocity in the middle of the step, in the places of its end:
+   density and, by the fix that integrates it, stress are brought to its end with that, and make
+   tractions.
+------------------------------------------------------------------------- */
 
 void PairHVISPH::finish_gradients()
 {
   const HVI::SphView &records = store->fields.view();
-  const bool *const along = store->fields.along;
   if (force->newton_pair) {
     reverse(records.gradv, SphGradV::SENT);
     if (records.contact) reverse(records.contact, SphGradV::SENT);
   }
+  for (int i = 0; i < atom->nlocal; i++)
+    if (is_ours[atom->type[i]] && !store->fields.asleep(i)) correct_gradient(i);
+  integrator->settle_solids();
+  for (int i = 0; i < atom->nlocal; i++)
+    if (is_ours[atom->type[i]] && !store->fields.asleep(i)) find_traction(i);
 
-  // of what is nearly alone M says little: then the weights stay as they are.  full: the part of its
-  // volume that the neighborhood has, 0.15 of two particles, 0.4 at the corner of a cube, 0.5 in a sheet
-
-  const auto inverse = [along](const SphGradV &M, double full) {
-    static constexpr double ALONE = 0.2, ENOUGH = 0.35;
-    Symmetric N = {along[0] ? M.mxx / M.nu : 1.0,
-                   along[1] ? M.myy / M.nu : 1.0,
-                   along[2] ? M.mzz / M.nu : 1.0,
-                   M.mxy / M.nu,
-                   M.mxz / M.nu,
-                   M.myz / M.nu};
-    Symmetric inverse = HVI::limited_inverse(N);
-    const double part = MAX(0.0, MIN(1.0, (full - ALONE) / (ENOUGH - ALONE)));
-    const double counts = part * part * (3.0 - 2.0 * part);
-    double *const c = &inverse.xx;
-    for (int k = 0; k < 6; k++) c[k] = counts * c[k] / M.nu + (k < 3 ? 1.0 - counts : 0.0);
-    return inverse;
-  };
-
-  for (int i = 0; i < atom->nlocal; i++) {
-    const int itype = atom->type[i];
-    if (!is_ours[itype] || store->fields.asleep(i)) continue;
-    const HVI::SphState &s = records.state[i];
-    SphGradV &own = records.gradv[i];
-    own.nu += s.w * sweeps->w(0.0) * set.laws.norm /
-        MathSpecial::powint(records.place[i].h, set.laws.dim);
-    const double V = records.traction[i].volume, scale = V / s.w;
-    const Symmetric by_own = inverse(own, scale * own.nu);
-    const HVI::VelocityGradient L = {own.xx, own.xy, own.xz, own.yx, own.yy,
-                                     own.yz, own.zx, own.zy, own.zz};
-    const HVI::VelocityGradient exact = product(L, by_own);
-
-    // what bodies push each other with is a pressure: of the stress the part normal to the contact
-
-    const HVI::SphStress &S = records.stress[i];
-    SphGradV all = own;
-    Symmetric by_all = by_own;
-    double push = s.p;
-    if (records.contact && records.contact[i].nu > 0.0) {
-      const SphGradV &c = records.contact[i];
-      for (int k = 0; k < SphGradV::SENT; k++) (&all.xx)[k] += (&c.xx)[k];
-      by_all = inverse(all, scale * all.nu);
-      if (S.shear > 0.0 && c.mxx + c.myy + c.mzz > 0.0)
-        push -= MIN(1.0, 4.0 * c.nu / all.nu) *
-            HVI::stress_along_largest({c.mxx, c.myy, c.mzz, c.mxy, c.mxz, c.myz},
-                                      {S.xx, S.yy, S.zz, S.xy, S.xz, S.yz});
-    }
-
-    const double rest = push - s.p, p = scale * push;
-    const HVI::VelocityGradient B = product(
-        {S.xx + rest, S.xy, S.xz, S.xy, S.yy + rest, S.yz, S.xz, S.yz, S.zz + rest}, by_own);
-    HVI::SphTraction &T = records.traction[i];
-    T.xx = scale * B.xx - p * by_all.xx;
-    T.xy = scale * B.xy - p * by_all.xy;
-    T.xz = scale * B.xz - p * by_all.xz;
-    T.yx = scale * B.yx - p * by_all.xy;
-    T.yy = scale * B.yy - p * by_all.yy;
-    T.yz = scale * B.yz - p * by_all.yz;
-    T.zx = scale * B.zx - p * by_all.xz;
-    T.zy = scale * B.zy - p * by_all.yz;
-    T.zz = scale * B.zz - p * by_all.zz;
-    if (records.push)
-      records.push[i] = {-p * by_all.xx, -p * by_all.yy, -p * by_all.zz, -p * by_all.xy,
-                         -p * by_all.xz, -p * by_all.yz, push,           0.0};
-
-    const HVI::VelocityGradient L_all = {all.xx, all.xy, all.xz, all.yx, all.yy,
-                                         all.yz, all.zx, all.zy, all.zz};
-    HVI::SphRates &rates = records.rates[i];
-    rates.drho -= s.rho * trace(L_all, by_all);
-    rates.de += V *
-        (S.xx * exact.xx + S.yy * exact.yy + S.zz * exact.zz + S.xy * (exact.xy + exact.yx) +
-         S.xz * (exact.xz + exact.zx) + S.yz * (exact.yz + exact.zy) +
-         rest * (exact.xx + exact.yy + exact.zz) - push * trace(L, by_all));
-
-    // the law of the solid sees what hangs together; rubble as forces see it: it may have failed since
-
-    const bool rubble = s.type != itype;
-    const HVI::VelocityGradient seen = rubble ? product(L_all, by_all) : exact;
-    own.xx = seen.xx;
-    own.xy = seen.xy;
-    own.xz = seen.xz;
-    own.yx = seen.yx;
-    own.yy = seen.yy;
-    own.yz = seen.yz;
-    own.zx = seen.zx;
-    own.zy = seen.zy;
-    own.zz = seen.zz;
-  }
-  forward(records.traction, HVI::SphTraction::SENT);
+  forward(records.traction, SphTraction::SENT);
   if (records.push) forward(records.push, HVI::SphPush::SENT);
   if (set.riemann) forward(records.gradv, SphGradV::SENT_L);
+}
+
+/* ----------------------------------------------------------------------
+   Of what is nearly alone M says little: then the weights stay as they are.  full: the part of its
+   volume that the neighborhood has, 0.15 of two particles, 0.4 at the corner of a cube, 0.5 in a sheet
+------------------------------------------------------------------------- */
+
+static Symmetric inverse(const SphGradV &M, double full, const bool *along)
+{
+  static constexpr double ALONE = 0.2, ENOUGH = 0.35;
+  const Symmetric N = {along[0] ? M.mxx / M.nu : 1.0,
+                       along[1] ? M.myy / M.nu : 1.0,
+                       along[2] ? M.mzz / M.nu : 1.0,
+                       M.mxy / M.nu,
+                       M.mxz / M.nu,
+                       M.myz / M.nu};
+  Symmetric inverse = HVI::limited_inverse(N);
+  const double part = MAX(0.0, MIN(1.0, (full - ALONE) / (ENOUGH - ALONE)));
+  const double counts = part * part * (3.0 - 2.0 * part);
+  double *const c = &inverse.xx;
+  for (int k = 0; k < 6; k++) c[k] = counts * c[k] / M.nu + (k < 3 ? 1.0 - counts : 0.0);
+  return inverse;
+}
+
+static VelocityGradient gradient(const SphGradV &L)
+{
+  return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
+}
+
+// in place of M
+
+static void put_inverse(const Symmetric &s, SphGradV &g)
+{
+  g.mxx = s.xx;
+  g.myy = s.yy;
+  g.mzz = s.zz;
+  g.mxy = s.xy;
+  g.mxz = s.xz;
+  g.myz = s.yz;
+}
+
+static Symmetric get_inverse(const SphGradV &g)
+{
+  return {g.mxx, g.myy, g.mzz, g.mxy, g.mxz, g.myz};
+}
+
+/* ----------------------------------------------------------------------
+   In gradv L M^-1 of what hangs together, and M^-1 in place of M.  Where something else touches, in
+   contact the M^-1 of all, and in place of L what of the stress is normal to the contact.  Density
+   and pressure.
+------------------------------------------------------------------------- */
+
+void PairHVISPH::correct_gradient(int i)
+{
+  const HVI::SphView &records = store->fields.view();
+  const int itype = atom->type[i];
+  const HVI::SphState &s = records.state[i];
+  HVI::SphTraction &T = records.traction[i];
+  SphGradV &own = records.gradv[i];
+  own.nu +=
+      s.w * sweeps->w(0.0) * set.laws.norm / MathSpecial::powint(records.place[i].h, set.laws.dim);
+  const double scale = T.volume / s.w;
+  const Symmetric by_own = inverse(own, scale * own.nu, store->fields.along);
+  const VelocityGradient L = product(gradient(own), by_own);
+  VelocityGradient L_all = L;
+
+  if (touches(i)) {
+    SphGradV &contact = records.contact[i];
+    SphGradV all = own;
+    for (int k = 0; k < SphGradV::SENT; k++) (&all.xx)[k] += (&contact.xx)[k];
+    const Symmetric by_all = inverse(all, scale * all.nu, store->fields.along);
+    L_all = product(gradient(all), by_all);
+    Symmetric normal = {};
+    if (contact.mxx + contact.myy + contact.mzz > 0.0)
+      normal = HVI::along_largest(
+          {contact.mxx, contact.myy, contact.mzz, contact.mxy, contact.mxz, contact.myz});
+    const double share = MIN(1.0, 4.0 * contact.nu / all.nu);
+    contact.xx = share * normal.xx;
+    contact.yy = share * normal.yy;
+    contact.zz = share * normal.zz;
+    contact.xy = share * normal.xy;
+    contact.xz = share * normal.xz;
+    contact.yz = share * normal.yz;
+    put_inverse(by_all, contact);
+  }
+
+  T.rho = integrator->settle_density(i, L_all);
+  records.rates[i].drho -= T.rho * (L_all.xx + L_all.yy + L_all.zz);
+  const double m = atom->rmass ? atom->rmass[i] : atom->mass[itype];
+  double csq;
+  if (!store->materials.of(itype)->eos->evaluate(T.rho, atom->esph[i] / m, T.p, csq))
+    no_answer(i, T.rho);
+
+  // the law of the solid sees what hangs together; rubble as forces see it: it may have failed since
+
+  const VelocityGradient &seen = s.type != itype ? L_all : L;
+  own.xx = seen.xx;
+  own.xy = seen.xy;
+  own.xz = seen.xz;
+  own.yx = seen.yx;
+  own.yy = seen.yy;
+  own.yz = seen.yz;
+  own.zx = seen.zx;
+  own.zy = seen.zy;
+  own.zz = seen.zz;
+  put_inverse(by_own, own);
+}
+
+bool PairHVISPH::touches(int i) const
+{
+  const SphGradV *const contact = store->fields.view().contact;
+  return contact && contact[i].nu > 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   B = S M^-1 of what hangs together, less the pressure times M^-1 of all that touches
+------------------------------------------------------------------------- */
+
+void PairHVISPH::find_traction(int i)
+{
+  const HVI::SphView &records = store->fields.view();
+  const HVI::SphStress S = strength->settled(i);
+  HVI::SphTraction &T = records.traction[i];
+  T.p = HVI::clip_tension(T.p, S.p_min);
+
+  const Symmetric by_own = get_inverse(records.gradv[i]);
+  Symmetric by_all = by_own;
+  double rest = 0.0;
+  if (touches(i)) {
+    const SphGradV &contact = records.contact[i];
+    by_all = get_inverse(contact);
+    if (S.shear > 0.0)
+      rest = -(contact.xx * S.xx + contact.yy * S.yy + contact.zz * S.zz +
+               2.0 * (contact.xy * S.xy + contact.xz * S.xz + contact.yz * S.yz));
+  }
+  const double scale = T.volume / records.state[i].w, push = T.p + rest, p = scale * push;
+  const VelocityGradient B =
+      product({S.xx + rest, S.xy, S.xz, S.xy, S.yy + rest, S.yz, S.xz, S.yz, S.zz + rest}, by_own);
+  T.xx = scale * B.xx - p * by_all.xx;
+  T.xy = scale * B.xy - p * by_all.xy;
+  T.xz = scale * B.xz - p * by_all.xz;
+  T.yx = scale * B.yx - p * by_all.xy;
+  T.yy = scale * B.yy - p * by_all.yy;
+  T.yz = scale * B.yz - p * by_all.yz;
+  T.zx = scale * B.zx - p * by_all.xz;
+  T.zy = scale * B.zy - p * by_all.yz;
+  T.zz = scale * B.zz - p * by_all.zz;
+  if (records.push)
+    records.push[i] = {-p * by_all.xx, -p * by_all.yy, -p * by_all.zz, -p * by_all.xy,
+                       -p * by_all.xz, -p * by_all.yz, push,           0.0};
 }

@@ -16,7 +16,7 @@ atom_modify map {map} sort 0 0
 region box block 0 1 0 1 0 1
 create_box 2 box
 {fixes}
-read_data half.data add merge fix sph NULL NULL fix sph NULL sph_trends fix jc NULL NULL fix jc NULL jc_forces fix jc NULL jc_trends
+read_data half.data add merge fix sph NULL NULL fix sph NULL sph_trends fix jc NULL NULL fix jc NULL jc_forces
 """
 
 
@@ -49,8 +49,8 @@ def test_data_file_for_another_fix(lmp, tmp_path, material):  # noqa: F811
     """sections of fixes with other IDs, given by name"""
     s = state(seed=23)
     lmp(start(s, tmp_path, material, steps=30) + "write_data half.data\n" + OUT.format("half"))
-    text = reader(material).replace("fix jc all", "fix solids all").replace("fix jc NULL NULL fix jc NULL jc_forces fix jc NULL jc_trends",
-                                                                           "fix solids NULL jc fix solids NULL jc_forces fix solids NULL jc_trends")
+    text = reader(material).replace("fix jc all", "fix solids all").replace("fix jc NULL NULL fix jc NULL jc_forces",
+                                                                           "fix solids NULL jc fix solids NULL jc_forces")
     lmp(text + OUT.format("read"))
     compare(read(tmp_path / "half"), read(tmp_path / "read"), 1e-13)
 

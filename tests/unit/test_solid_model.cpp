@@ -87,7 +87,7 @@ SolidState begun(const SolidModel &model, const SolidInput &in)
 void step(const SolidModel &model, SolidState &s, const SolidInput &in, double dt, bool begin)
 {
   if (begin || !model.ready(s)) model.prepare(s, in, begin);
-  model.first_half(s, dt, false);
+  model.first_half(s, dt);
   SolidState *const list[] = {&s};
   if (!s.failed()) { EXPECT_EQ(model.second_half(1, list, &in, dt), -1); }
 }
@@ -96,6 +96,20 @@ SolidState walked(const SolidModel &model, const SolidInput &in, double end, int
 {
   SolidState s = begun(model, in);
   for (int i = 0; i < n; i++) step(model, s, in, end / n, i == 0);
+  return s;
+}
+
+// the same with whole steps
+
+SolidState leapt(const SolidModel &model, const SolidInput &in, double end, int n)
+{
+  SolidState s = begun(model, in), *const list[] = {&s};
+  for (int i = 0; i < n; i++) {
+    model.present(s);
+    const Deviator before = s.S;
+    if (!s.failed()) { EXPECT_EQ(model.whole_step(1, list, &in, end / n), -1); }
+    EXPECT_EQ(memcmp(&s.seen.S, &before, sizeof(before)), 0);
+  }
   return s;
 }
 
@@ -132,14 +146,14 @@ TEST(SolidModel, UniaxialStrain)
       EXPECT_NEAR(s.heat, Y * eps, 1e-13);
       EXPECT_NEAR(s.rate, n == 1 ? eps / 0.2 : 2.0 / 3.0, 1e-12);
       // what others see is ahead by a step, but not beyond the yield surface
-      model->first_half(s, 0.01, false);
+      model->first_half(s, 0.01);
       EXPECT_NEAR(von_mises(s.seen.S), Y, 1e-14);
       EXPECT_EQ(s.seen.shear, G);
       EXPECT_EQ(s.seen.p_min, -NO_LIMIT);
       // and pulled back it sees the elastic way
       s.carried = jaumann_rate(uniaxial(-sign), G, s.S);
       const double before = s.S.xx;
-      model->first_half(s, 1e-3, false);
+      model->first_half(s, 1e-3);
       EXPECT_NEAR(s.seen.S.xx, before - sign * 4.0 / 3.0 * G * 1e-3, 1e-13);
     }
 }
@@ -405,7 +419,7 @@ TEST(SolidModel, ManyAtATime)
     for (int k = 0; k < LANES; k++) {
       step(*model, alone[k], in[k], 1e-3, i == 0);
       if (i == 0) model->prepare(together[k], in[k], true);
-      model->first_half(together[k], 1e-3, false);
+      model->first_half(together[k], 1e-3);
     }
     EXPECT_EQ(model->second_half(LANES, list, in, 1e-3), -1);
   }
@@ -433,6 +447,63 @@ TEST(SolidModel, Reflected)
   EXPECT_TRUE(same(a, twice));
 }
 
+TEST(SolidModel, WholeStep)
+{
+  // the yield surface, plastic strain and work do not depend on the step
+  const auto perfect = made(EOS + PERFECT, options("perfect"));
+  for (int n : {1, 2, 7, 100}) {
+    const SolidState s = leapt(*perfect, input(uniaxial(1.0)), 0.2, n);
+    const double eps = 2.0 / 3.0 * 0.2 - Y / (3.0 * G);
+    EXPECT_NEAR(s.S.xx, 2.0 / 3.0 * Y, 1e-14);
+    EXPECT_NEAR(s.eps, eps, 1e-13);
+    EXPECT_NEAR(s.heat, Y * eps, 1e-13);
+    EXPECT_EQ(s.seen.shear, G);
+  }
+
+  // turned by a quarter in 20 steps, S is turned by that, and keeps its size to fourth order
+  const auto elastic = made(EOS + PERFECT, options("perfect"));
+  VelocityGradient turn = {};
+  turn.xy = -1.0;
+  turn.yx = 1.0;
+  double error[2];
+  for (int k = 0; k < 2; k++) {
+    const int n = 20 << k;
+    const double dt = 0.5 * M_PI / n;
+    SolidState s = begun(*elastic, input({})), *const list[] = {&s};
+    s.S = {0.3 * Y, -0.2 * Y, -0.1 * Y, 0.1 * Y, 0.05 * Y, -0.1 * Y};
+    const Deviator S = s.S;
+    const SolidInput in = input(turn);
+    for (int i = 0; i < n; i++) EXPECT_EQ(elastic->whole_step(1, list, &in, dt), -1);
+    EXPECT_NEAR(von_mises(s.S), von_mises(S), 0.5 * n * pow(2.0 * dt, 4) / 4.0 * von_mises(S));
+    error[k] = fabs(s.S.xx - S.yy) + fabs(s.S.yy - S.xx) + fabs(s.S.xy + S.xy) +
+        fabs(s.S.xz + S.yz) + fabs(s.S.yz - S.xz);
+  }
+  EXPECT_LT(error[0], 0.02 * Y);
+  EXPECT_NEAR(error[0] / error[1], 4.0, 0.3);
+}
+
+// the gradient of a step's middle from that in the places of its end: what turns keeps its volume
+
+TEST(SolidModel, AtMiddle)
+{
+  const double angle = 0.1, dt = 0.01;
+  VelocityGradient L = {};    // (1 - R^T)/dt
+  L.xx = L.yy = (1.0 - cos(angle)) / dt;
+  L.yx = sin(angle) / dt;
+  L.xy = -L.yx;
+  const VelocityGradient mid = at_middle(L, dt);
+  EXPECT_GT(dt * (L.xx + L.yy), 0.9 * angle * angle);
+  EXPECT_LT(fabs(dt * (mid.xx + mid.yy + mid.zz)), 1.1 * pow(angle, 4) / 4.0 * 2.0);
+
+  // v = A x at the middle: at the end A (1 + A dt/2)^-1, here of a shear, whose square is 0 exactly
+  const VelocityGradient same_shear = at_middle(shear(3.0), dt);
+  EXPECT_EQ(same_shear.xy, 3.0);
+  EXPECT_EQ(same_shear.xx, 0.0);
+  VelocityGradient spread = {};
+  spread.xx = spread.yy = spread.zz = 2.0 / (1.0 + 0.5 * dt * 2.0);
+  EXPECT_NEAR(at_middle(spread, dt).yy, 2.0, 2.0 * pow(0.5 * dt * 2.0, 2) * 1.1);
+}
+
 TEST(SolidModel, NotANumber)
 {
   const auto model = made(EOS + PERFECT, options("perfect"));
@@ -441,7 +512,7 @@ TEST(SolidModel, NotANumber)
   SolidInput in[2] = {input(uniaxial(1.0)), input(uniaxial(NONE))};
   for (SolidState &s : states) {
     model->prepare(s, input({}), true);
-    model->first_half(s, 0.1, false);
+    model->first_half(s, 0.1);
   }
   EXPECT_EQ(model->second_half(2, list, in, 0.1), 1);
 }
