@@ -380,14 +380,19 @@ void FixHVIJohnsonCook::second_half(double dt)
   });
 }
 
+void FixHVIJohnsonCook::try_out(int i, const HVI::VelocityGradient &L, double dt)
+{
+  const HVI::SolidModel *const model = of(i);
+  if (model && !failed(i)) model->try_out(extra[i], L, dt);
+}
+
 void FixHVIJohnsonCook::whole_step(double dt)
 {
   each_solid([this, dt](int n, const int *who, Solid *const *states) {
     HVI::SolidInput in[HVI::LANES];
     for (int k = 0; k < n; k++) {
-      in[k] = input(who[k], GRADIENT);
+      in[k] = input(who[k], FORCES);
       in[k].rho = store->fields.density(who[k]);
-      in[k].L = HVI::at_middle(in[k].L, dt);
     }
     return of(who[0])->whole_step(n, states, in, dt);
   });

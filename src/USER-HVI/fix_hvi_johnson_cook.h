@@ -42,7 +42,12 @@ class FixHVIJohnsonCook :
   void start(int, bool);
   void first_half(double);
   void second_half(double);
-  void whole_step(double);    // in place of that, before forces: gradient corrected
+
+  // in place of that with gradient corrected, called by pair hvi/sph before forces: trial stress with L of
+  // the middle of the step; then by fix hvi/sph, when all have it
+
+  void try_out(int, const HVI::VelocityGradient &L, double);
+  void whole_step(double);
   void reflect(int, int);
 
   static FixHVIJohnsonCook *find(class LAMMPS *);    // of this simulation, nullptr: none

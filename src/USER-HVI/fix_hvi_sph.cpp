@@ -24,6 +24,7 @@
 #include "modify.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -89,7 +90,7 @@ constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
     {"working_vy", TRENDS, offsetof(Extra, working[1])},
     {"working_vz", TRENDS, offsetof(Extra, working[2])},
     {"settled", TRENDS, offsetof(Extra, settled)},
-    {"kicked", TRENDS, offsetof(Extra, kicked)},
+    {"step", TRENDS, offsetof(Extra, step)},
 
     // 0 between steps
     {nullptr, 0, offsetof(Extra, drho)},
@@ -109,7 +110,8 @@ const double *FixHVISPH::felt_velocity(int i) const
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {"", "_trends"}), store(nullptr),
     ledger(nullptr), strength(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0},
-    due(false), stepping(0), wallbit(0), follow(0), checked(0), quiet(1.0e-10), relative(true)
+    last(0.0), due(false), stepping(0), wallbit(0), follow(0), checked(0), quiet(1.0e-10),
+    relative(true)
 {
   static_assert(covers<Extra>(FIELDS), "a number of the record is missing, or there twice");
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
@@ -267,12 +269,16 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
         e.working[k] = atom->v[i][k];
       }
       e.settled = atom->rho[i];
-      e.kicked = 0.0;
+      e.step = 0.0;
     }
     std::swap(e.rho, atom->rho[i]);
     std::swap(e.esph, atom->esph[i]);
     e.drho = atom->rho[i];
   }
+  double longest = 0.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (integrates(i)) longest = std::max(longest, extra[i].step);
+  MPI_Allreduce(&longest, &last, 1, MPI_DOUBLE, MPI_MAX, world);
   comm->forward_comm();
   if (set.variable) comm->forward_comm(this);
 }
@@ -312,7 +318,7 @@ void FixHVISPH::setup(int /*vflag*/)
    So oscillations that nothing damps grow by (omega dt)^4/8 and more in a step: a wall of two layers
    rings in its thickness.  Solids with gradient corrected go by the leapfrog, which keeps them up to
    omega dt = 2: vest is the velocity of the middle of the step, which brings density and stress to
-   its end, before forces, in settle_density() and settle_solids().  What is extrapolated with rho and
+   its end, before forces: settle_density(), settle_solids().  What is extrapolated with rho and
    esph, by their rates and the change of these in the last step, are weights and heat.  Forces do
    work on the velocity of the end of the step, with a sixth of the change of acceleration extrapolated
    to third order; when that is known, see missed_work().
@@ -331,6 +337,7 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
   const bool whole = store->fields.settings.whole;
   if (strength) strength->first_half(dtv);
   due = whole;
+  last = dtv;
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
@@ -350,7 +357,7 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
     e.drho = ahead * drho;
     e.de = ahead * de;
     if (whole) {
-      esph[i] -= kick(i) - e.kicked;
+      esph[i] -= missed_kick(i);
       e.settled = rho[i];
       e.stretch = 0.0;
       e.drho += dtf * e.trend_rho;
@@ -384,28 +391,22 @@ double FixHVISPH::missed_work(int i) const
   return f[0] * (v[0] - w[0]) + f[1] * (v[1] - w[1]) + f[2] * (v[2] - w[2]);
 }
 
-double FixHVISPH::kick(int i) const
+double FixHVISPH::missed_kick(int i) const
 {
   const double *const f = atom->f[i];
-  return 0.5 * dtf * dtf * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) /
+  return 0.125 * (dtv * dtv - extra[i].step * extra[i].step) *
+      (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) /
       (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
 }
 
-/* ----------------------------------------------------------------------
-   L belongs to places at the end of the step: of a field that is linear at its middle L/(1 - dt L/2)
-   is that at the middle.  So what turns as a whole keeps its density.
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-double FixHVISPH::settle_density(int i, const HVI::VelocityGradient &L)
+double FixHVISPH::settle_density(int i, double div)
 {
   if (!integrates(i)) return atom->rho[i];
   Extra &e = extra[i];
-  const double rate = L.xx + L.yy + L.zz;
-  if (due) {
-    const HVI::VelocityGradient mid = HVI::at_middle(L, dtv);
-    e.settled *= std::exp(-dtv * (mid.xx + mid.yy + mid.zz));
-  }
-  e.stretch = -e.settled * rate;
+  if (due) e.settled *= std::exp(-dtv * div);
+  e.stretch = -e.settled * div;
   return e.settled;
 }
 
@@ -480,7 +481,7 @@ void FixHVISPH::final_integrate()
       rho[i] += dtf * atom->drho[i] - e.drho;
     esph[i] += dtf * power_e - e.de;
     if (whole) {
-      e.kicked = kick(i);
+      e.step = dtv;
       const bool was_there = e.drho != 0.0 || e.de != 0.0;    // in the first half
       e.trend_rho = was_there ? atom->drho[i] - e.trend_rho : 0.0;
       e.trend_e = was_there ? power_e - e.trend_e : 0.0;

@@ -41,7 +41,7 @@ struct HVISPHExtra {
   // belong to, and what L has in its rate (0 between steps)
 
   double working[3], settled, stretch;
-  double kicked;    // see missed_work()
+  double step;    // that ended with the last forces; 0: none
 };
 
 class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::EnergyCarrier {
@@ -66,10 +66,13 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   double compute_vector(int) override;
 
   // for pair hvi/sph, solids with gradient corrected: the velocity of the end of the step, as
-  // extrapolated; density at its end with L of its middle; then the same of stress
+  // extrapolated; the step, also in the setup of a run that goes on; whether density and stress are
+  // those of its begin; density with div v of its middle; stress, when all have density and trial stress
 
   const double *working_velocity(int i) const;
-  double settle_density(int i, const HVI::VelocityGradient &L);
+  double step() const { return last; }
+  bool is_due() const { return due; }
+  double settle_density(int i, double div);
   void settle_solids();
 
   double sleep() const { return quiet; }    // differences that count as none; 0: nothing sleeps
@@ -91,6 +94,7 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   double dtv, dtf;
   double power;      // viscous, of the last force evaluation
   double push[3];    // of mirror planes, likewise
+  double last;       // step, of which forces are the end
   bool due;          // density and stress of solids are those of the begin of the step
   int stepping;      // in a run, so that the state is the one the last step left
   int wallbit;       // groups of particles that are meant to be integrated by nobody
@@ -106,7 +110,7 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   void check_step() const;
   void reflect();
   double missed_work(int) const;
-  double kick(int) const;
+  double missed_kick(int) const;
   uint64_t fingerprint(int) const;
   const double *felt_velocity(int) const;
   bool goes_on(int i) const { return extra[i].mark == fingerprint(i); }

@@ -195,20 +195,24 @@ int SolidModel::second_half(int n, SolidState *const *state, const SolidInput *i
 
 // S turns with that of the middle of the step: so it keeps its size to fourth order
 
+void SolidModel::try_out(SolidState &s, const VelocityGradient &L, double dt) const
+{
+  Deviator middle = s.S;
+  add(middle, 0.5 * dt, jaumann_rate(L, s.shear, s.S));
+  s.carried = s.S;
+  add(s.carried, dt, jaumann_rate(L, s.shear, middle));
+}
+
 int SolidModel::whole_step(int n, SolidState *const *state, const SolidInput *in, double dt) const
 {
-  return settle(n, state, in, dt, [dt](SolidState &s, const SolidInput &input) {
-    Deviator middle = s.S, trial = s.S;
-    add(middle, 0.5 * dt, jaumann_rate(input.L, s.shear, s.S));
-    s.carried = jaumann_rate(input.L, s.shear, middle);
-    add(trial, dt, s.carried);
-    return trial;
+  return settle(n, state, in, dt, [](SolidState &s, const SolidInput &) {
+    return s.carried;
   });
 }
 
 template <class Trial>
 int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, double dt,
-                       const Trial &try_out) const
+                       const Trial &trial_of) const
 {
   Conditions c[LANES] = {};
   Deviator trial[LANES] = {};
@@ -219,7 +223,7 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     c[k] = conditions(s, in[k]);
     shear[k] = s.shear = law->shear_modulus(c[k]);
     eps[k] = s.eps;
-    trial[k] = try_out(s, in[k]);
+    trial[k] = trial_of(s, in[k]);
   }
   law->radial_return(n, trial, dt, shear, eps, c, plastic);
 

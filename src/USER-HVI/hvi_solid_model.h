@@ -82,7 +82,9 @@ struct SolidOptions {
 
      present()        seen = S of the begin of the step
      ... the velocity gradient of the middle of the step ...
-     whole_step()     S at its end, all of the above
+     try_out()        the trial stress
+     ... density, energy, pressure of the end of the step ...
+     whole_step()     all of the above
 
    What has failed is rubble: it bears no shear and no tension, and keeps its state.
 ------------------------------------------------------------------------- */
@@ -113,6 +115,7 @@ class SolidModel {
 
   void first_half(SolidState &, double dt) const;
   void present(SolidState &) const;
+  void try_out(SolidState &, const VelocityGradient &L, double dt) const;
 
   // in place of the second half or of the whole, where nothing changes
 

@@ -67,9 +67,11 @@ struct SphBonds {
 /* ----------------------------------------------------------------------
    First sweep: sums over the n near neighbors of particle i, with weights w,
 
-     L_i = - sum_j w_j v_ij (x) grad W(r, h_i),  M_i = - sum_j w_j x_ij (x) grad W(r, h_i),
-     nu_i = sum_j w_j W(r, h_i)
+     L_i = - sum_j w_j v_ij (x) F (x_ij - dt/2 v_ij),  M_i = - sum_j w_j x_ij (x) F x_ij,
+     nu_i = sum_j w_j W(r, h_i),  F x_ij = grad W(r, h_i)
 
+   with v of the middle of the step, which L belongs to: r does not change where v.(x - dt/2 v) = 0, so
+   density does not in whatever turns, however few.  Sums
    of what hangs together with it to gradv; of others that are pushed or come nearer to contact,
    and of rubble in rubble.
 ------------------------------------------------------------------------- */
@@ -106,11 +108,17 @@ inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int 
 
     const auto add = [&](const Vec &part_of, SphGradV *to, Vec *sums_i) {
       static constexpr int row[15] = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 4, 5, 3, 3, 4};
-      static constexpr int column[15] = {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 1, 2, 2};
+      static constexpr int column[15] = {0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 4, 5, 5};
       const Vec w_j = part_of * first[3], w_i = part_of * si.w;
-      const Vec g_i[3] = {-w_j * F_i * d[0], -w_j * F_i * d[1], -w_j * F_i * d[2]};
-      const Vec g_j[3] = {-w_i * F_j * d[0], -w_i * F_j * d[1], -w_i * F_j * d[2]};
-      Vec on_j[16];
+      const Vec wF_i = -w_j * F_i, wF_j = -w_i * F_j;
+      Vec g_i[6], g_j[6], on_j[16];
+      for (int k = 0; k < 3; k++) {
+        const Vec middle = d[k] - laws.half * a[k];
+        g_i[k] = wF_i * middle;
+        g_j[k] = wF_j * middle;
+        g_i[k + 3] = wF_i * d[k];
+        g_j[k + 3] = wF_j * d[k];
+      }
       for (int k = 0; k < 15; k++) {
         sums_i[k] += a[row[k]] * g_i[column[k]];
         on_j[k] = a[row[k]] * g_j[column[k]];

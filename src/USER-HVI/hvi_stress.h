@@ -56,25 +56,6 @@ inline double von_mises(const Deviator &s)
 }
 
 /* ----------------------------------------------------------------------
-   L of the middle of a step, of that of its velocity in the places of its end: to second order
-   L (1 - dt L/2)^-1, exact in a linear field
-------------------------------------------------------------------------- */
-
-inline VelocityGradient at_middle(const VelocityGradient &L, double dt)
-{
-  const double h = 0.5 * dt;
-  return {L.xx + h * (L.xx * L.xx + L.xy * L.yx + L.xz * L.zx),
-          L.xy + h * (L.xx * L.xy + L.xy * L.yy + L.xz * L.zy),
-          L.xz + h * (L.xx * L.xz + L.xy * L.yz + L.xz * L.zz),
-          L.yx + h * (L.yx * L.xx + L.yy * L.yx + L.yz * L.zx),
-          L.yy + h * (L.yx * L.xy + L.yy * L.yy + L.yz * L.zy),
-          L.yz + h * (L.yx * L.xz + L.yy * L.yz + L.yz * L.zz),
-          L.zx + h * (L.zx * L.xx + L.zy * L.yx + L.zz * L.zx),
-          L.zy + h * (L.zx * L.xy + L.zy * L.yy + L.zz * L.zy),
-          L.zz + h * (L.zx * L.xz + L.zy * L.yz + L.zz * L.zz)};
-}
-
-/* ----------------------------------------------------------------------
    Elastic rate of S with Jaumann's derivative,
 
      dS/dt = 2 G (D - tr(D)/3 I) + W S - S W

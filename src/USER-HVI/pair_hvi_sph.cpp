@@ -84,6 +84,7 @@ void PairHVISPH::compute(int eflag, int vflag)
       atom->type,  mirrored ? &images : nullptr,
       &kept,       this,
       evflag != 0, fastest};
+  if (records.traction) work.laws.half = 0.5 * integrator->step();
   if (sweeps->has_first()) {
     sweeps->first(work);
     if (mirrored) images.fold_sums(records);

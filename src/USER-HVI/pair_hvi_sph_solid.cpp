@@ -39,9 +39,8 @@ static VelocityGradient product(const VelocityGradient &a, const Symmetric &b)
 }
 
 /* ----------------------------------------------------------------------
-   Between the sweeps.  L is that of the velocity in the middle of the step, in the places of its end:
-   density and, by the fix that integrates it, stress are brought to its end with that, and make
-   tractions.
+   Between the sweeps.  L is that of the middle of the step: with that density and stress are brought to its
+   end, by the fixes that integrate them, and make tractions.
 ------------------------------------------------------------------------- */
 
 void PairHVISPH::finish_gradients()
@@ -107,6 +106,23 @@ static Symmetric get_inverse(const SphGradV &g)
 }
 
 /* ----------------------------------------------------------------------
+   L M^-1 with M of the middle of the step, which L belongs to: M - dt/2 (L + L^T), but for (dt/2)^2 v (x) v.
+   So nothing expands that turns, whether its M can be inverted or not.
+------------------------------------------------------------------------- */
+
+static VelocityGradient corrected(const SphGradV &sum, double full, const bool *along, double half)
+{
+  SphGradV middle = sum;
+  middle.mxx -= half * 2.0 * sum.xx;
+  middle.myy -= half * 2.0 * sum.yy;
+  middle.mzz -= half * 2.0 * sum.zz;
+  middle.mxy -= half * (sum.xy + sum.yx);
+  middle.mxz -= half * (sum.xz + sum.zx);
+  middle.myz -= half * (sum.yz + sum.zy);
+  return product(gradient(sum), inverse(middle, full, along));
+}
+
+/* ----------------------------------------------------------------------
    In gradv L M^-1 of what hangs together, and M^-1 in place of M.  Where something else touches, in
    contact the M^-1 of all, and in place of L what of the stress is normal to the contact.  Density
    and pressure.
@@ -123,7 +139,8 @@ void PairHVISPH::correct_gradient(int i)
       s.w * sweeps->w(0.0) * set.laws.norm / MathSpecial::powint(records.place[i].h, set.laws.dim);
   const double scale = T.volume / s.w;
   const Symmetric by_own = inverse(own, scale * own.nu, store->fields.along);
-  const VelocityGradient L = product(gradient(own), by_own);
+  const double half = 0.5 * integrator->step();
+  const VelocityGradient L = corrected(own, scale * own.nu, store->fields.along, half);
   VelocityGradient L_all = L;
 
   if (touches(i)) {
@@ -131,7 +148,7 @@ void PairHVISPH::correct_gradient(int i)
     SphGradV all = own;
     for (int k = 0; k < SphGradV::SENT; k++) (&all.xx)[k] += (&contact.xx)[k];
     const Symmetric by_all = inverse(all, scale * all.nu, store->fields.along);
-    L_all = product(gradient(all), by_all);
+    L_all = corrected(all, scale * all.nu, store->fields.along, half);
     Symmetric normal = {};
     if (contact.mxx + contact.myy + contact.mzz > 0.0)
       normal = HVI::along_largest(
@@ -146,8 +163,10 @@ void PairHVISPH::correct_gradient(int i)
     put_inverse(by_all, contact);
   }
 
-  T.rho = integrator->settle_density(i, L_all);
-  records.rates[i].drho -= T.rho * (L_all.xx + L_all.yy + L_all.zz);
+  if (integrator->is_due()) strength->try_out(i, L, integrator->step());
+  const double div = L_all.xx + L_all.yy + L_all.zz;
+  T.rho = integrator->settle_density(i, div);
+  records.rates[i].drho -= T.rho * div;
   const double m = atom->rmass ? atom->rmass[i] : atom->mass[itype];
   double csq;
   if (!store->materials.of(itype)->eos->evaluate(T.rho, atom->esph[i] / m, T.p, csq))

@@ -191,46 +191,66 @@ def linear(s):
 
 @pytest.mark.parametrize("words", ["", "h variable", "dissipation riemann"])
 def test_linear_field(lmp, tmp_path, pair, words):
-    """density and the stress that the law makes of L are exact in a linear field: inside, at faces, edges, corners"""
-    s, dt = linear(lump()), 0.01
-    text = ""
-    for k, how in enumerate(("", "gradient law", "gradient plain")):
-        word = f"viscosity 0 0 {words}" if "riemann" not in words else words
-        if how and "riemann" in words:
-            continue
-        text += script(s, tmp_path, pair, f"{word} {how}", UNBROKEN, elastic=True) + OUT.format(f"a{k}") + f"timestep {dt}\nrun 1\n" + OUT.format(f"b{k}")
-    lmp(text)
-    early, late = read(tmp_path / "a0"), read(tmp_path / "b0")
+    """the rate of density is exact in a linear field: inside, at faces, edges, corners; over a step density and the stress that the law
+    makes of L are of second order"""
+    s = linear(lump())
+    riemann = "riemann" in words
+    word = words if riemann else f"viscosity 0 0 {words}"
+
+    def rate(A, S):  # Jaumann
+        D, W = 0.5 * (A + A.T), 0.5 * (A - A.T)
+        return 2 * shear * (D - np.trace(D) / 3 * np.eye(3)) + W @ S - S @ W
+
+    def one_step(how, dt):
+        """before and after; there are no forces at the start, so velocities stay: in the middle the field is A (1 + A dt/2)^-1"""
+        lmp(script(s, tmp_path, pair, f"{word} {how}", UNBROKEN, elastic=True) + OUT.format("a") + f"timestep {dt}\nrun 1\n" + OUT.format("b"))
+        middle = FIELD @ np.linalg.inv(np.eye(3) + 0.5 * dt * FIELD)
+        want = dt * rate(middle, 0.5 * dt * rate(middle, np.zeros((3, 3))))
+        early, late = read(tmp_path / "a"), read(tmp_path / "b")
+        return early, np.abs(as_tensor(late) - want).max() / np.abs(want).max(), np.abs(late["rho"] / s.rho * np.linalg.det(np.eye(3) + dt * FIELD) - 1).max()
+
+    shear = np.array([G[t] for t in s.type])[:, None, None]
+    early, *errors = one_step("", 0.01)
     assert rates(solid(s, early))["own"].min() > 0.4
     want = -s.rho * np.trace(FIELD)
     assert np.abs(early["drho"] - want).max() < 1e-13 * np.abs(want).max()
-    if "riemann" not in words:
-        # there are no forces at the start, so velocities stay: in the places of the end the field is A (1 + A dt)^-1, in the
-        # middle A (1 + A dt/2)^-1, to second order in dt; S turns with that of the middle, also of the step
-        shear = np.array([G[t] for t in s.type])[:, None, None]
+    if riemann:
+        return
+    _, *finer = one_step("", 0.0025)
+    size = 0.01 * np.abs(FIELD).sum(1).max()
+    print("errors", errors, finer, size)
+    assert errors[0] < size**2 and errors[1] < size**3
+    assert errors[0] / finer[0] == pytest.approx(16, rel=0.15) and errors[1] / finer[1] == pytest.approx(64, rel=0.15)
+    for how in ("gradient law", "gradient plain"):  # not so: density is not corrected, and at corners stress is limited or not corrected
+        early, stress, density = one_step(how, 0.01)
+        assert np.abs(early["drho"] / -s.rho / np.trace(FIELD) - 1).max() > 0.3
+        assert stress > 0.3
 
-        def rate(A, S):  # Jaumann
-            D, W = 0.5 * (A + A.T), 0.5 * (A - A.T)
-            return 2 * shear * (D - np.trace(D) / 3 * np.eye(3)) + W @ S - S @ W
 
-        late_field = FIELD @ np.linalg.inv(np.eye(3) + dt * FIELD)
-        middle = late_field + 0.5 * dt * late_field @ late_field
-        assert np.abs(middle - FIELD @ np.linalg.inv(np.eye(3) + 0.5 * dt * FIELD)).max() < 1e-4 * np.abs(FIELD).max()
-        want = dt * rate(middle, 0.5 * dt * rate(middle, np.zeros((3, 3))))
-        assert np.abs(as_tensor(late) - want).max() < 1e-12 * np.abs(want).max()
-        assert np.abs(late["rho"] / s.rho - np.exp(-dt * np.trace(middle))).max() < 1e-13
-        # which is what volumes do, to third order
-        assert np.abs(late["rho"] / s.rho * np.linalg.det(np.eye(3) + dt * FIELD) - 1).max() < 5 * (dt * np.abs(FIELD).max()) ** 3
-        for k in (1, 2):  # not so the others: their density is not corrected, and at corners their stress is limited or not corrected
-            a, b = read(tmp_path / f"a{k}"), read(tmp_path / f"b{k}")
-            assert np.abs(a["drho"] / -s.rho / np.trace(FIELD) - 1).max() > 0.3
-            assert np.abs(as_tensor(b) - want).max() > 0.3 * np.abs(want).max()
+@pytest.mark.parametrize("n", [2, 5, 13])
+def test_few_that_turn(lmp, tmp_path, pair, n):
+    """n particles in a heap, whose M can be inverted in some directions or in none, turn about one another: their density stays"""
+    s = body(seed=51, n=6)
+    rng = np.random.default_rng(n)
+    s.x, s.rho, s.esph, s.type = 5 + 0.15 * rng.normal(size=(n, 3)), np.ones(n), np.zeros(n), np.ones(n, int)
+    s.mass, s.periodic, s.box = {1: 1.0, 2: 1.0}, (False,) * 3, np.full(3, 10.0)
+    spin = np.array([[0, -1.0, 0.4], [1.0, 0, -0.3], [-0.4, 0.3, 0]])
+    # chords of a turn: that is what the velocity of a step's middle is; there is no stress yet, so they fly straight on
+    angle = 0.2 * spin
+    turn = np.linalg.solve(np.eye(3) - 0.5 * angle, np.eye(3) + 0.5 * angle)
+    dt = 1e-3
+    s.v = (s.x - s.x.mean(0)) @ (turn - np.eye(3)).T / dt
+    lmp(script(s, tmp_path, pair, "viscosity 0 0", UNBROKEN, elastic=True) + f"timestep {dt}\nrun 1\n" + OUT.format("t"))
+    change = np.abs(read(tmp_path / "t")["rho"] - 1)
+    print(n, change.max())
+    assert change.max() < (1e-12 if n == 2 else 2e-5)  # that angle to the fourth power: 3e-3
 
 
 def test_virial_of_uniform_stress(lmp, tmp_path, pair):
     """in a jittered lump under uniform stress sum f (x) x = - sum V sigma, and compute pressure has it"""
     s = linear(lump(types=1))
-    text = script(s, tmp_path, pair, "viscosity 0 0", UNBROKEN, elastic=True) + "timestep 0.01\nrun 1\nvelocity all set 0 0 0\n"
+    text = script(s, tmp_path, pair, "viscosity 0 0", UNBROKEN, elastic=True) + "timestep 1e-5\nrun 1\nvelocity all set 0 0 0\n"
+    # L is of second order in the step, the pressure of a change of density of 1e-5 round-off of 1e-11
     text += "set group all sph/e 0.0\n"  # what the first forces missed is heat of those they act on
     text += "compute W all pressure NULL virial\nthermo_style custom step vol c_W[*]\nthermo_modify norm no format float %.17g\n"
     for k, how in enumerate(("corrected", "law")):
@@ -242,9 +262,9 @@ def test_virial_of_uniform_stress(lmp, tmp_path, pair):
         error = np.abs(found - want).max() / np.abs(want).max()
         print(how, "virial", error)
         if k == 0:
-            assert np.ptp(sigma, axis=0).max() < 1e-12 * np.abs(sigma).max() and error < 1e-12
+            assert np.ptp(sigma, axis=0).max() < 1e-10 * np.abs(sigma).max() and error < 1e-10
             W = np.array([r.thermo[f"c_W[{a}]"][-1] for a in range(1, 7)]) * r.thermo["Volume"][-1]
-            assert np.abs(W - want[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]).max() < 1e-12 * np.abs(want).max()
+            assert np.abs(W - want[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]).max() < 1e-10 * np.abs(want).max()
     assert error > 0.05
 
 
