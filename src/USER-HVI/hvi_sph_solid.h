@@ -234,8 +234,10 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
 
     // dissipation: a pressure between the two, on the area 2 V_i V_j |grad W|
 
-    Vec q;
-    if (SCENE & SPH_RIEMANN) {
+    const bool nearing = sum(rdotv < 0.0 ? one : zero) > 0.0;
+    Vec q = zero;
+    if (!nearing) {
+    } else if (SCENE & SPH_RIEMANN) {
       Vec L[12];
       for (int k = 0; k < 3; k++) read_columns(records.gradv, j, k, L + 4 * k);
       const Vec &u = rdotv;

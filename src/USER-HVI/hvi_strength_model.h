@@ -132,7 +132,7 @@ template <class Law> class StrengthModel final : public Strength {
         if (!usual[k] || !(y[k] >= 0.0))
           result[k] = radial_return(trial[k], dt, G[k], eps[k], c[k]);
         else if (y[k] == stress[k])
-          result[k] = {trial[k], 0.0, 0.0, yield(eps[k], 0.0, c[k])};
+          result[k] = {trial[k], 0.0, 0.0, factor[k] * law.flow(eps[k], 0.0, c[k])};
         else
           result[k] = returned(trial[k], stress[k], G[k], y[k]);
     } else
