@@ -32,7 +32,7 @@ enum {
   KINETIC, INTERNAL, CONTACT, SPRING, BROKEN, LEFT, CLAMPS, TOTAL, RATIO,
   PX, PY, PZ, LEFT_PX, LEFT_PY, LEFT_PZ, JX, JY, JZ,
   MASS, LEFT_MASS, LEFT_COUNT, BONDS_BROKEN, BONDS_LEFT,
-  P0X, P0Y, P0Z, MASS0, VISCOUS, PLASTIC, NVALUES
+  P0X, P0Y, P0Z, MASS0, VISCOUS, PLASTIC, MISSED, NVALUES
 };
 // clang-format on
 
@@ -159,6 +159,7 @@ void ComputeHVIEnergy::compute_vector()
   vector[BONDS_BROKEN] = booked[FixHVILedger::BONDS_BROKEN];
   vector[BONDS_LEFT] = booked[FixHVILedger::BONDS_LEFT];
   vector[VISCOUS] = booked[FixHVILedger::VISCOUS];
+  vector[MISSED] = booked[FixHVILedger::MISSED];
   vector[PLASTIC] += booked[FixHVILedger::LEFT_PLASTIC];
 
   vector[TOTAL] = 0.0;

@@ -39,6 +39,7 @@ class FixHVILedger : public Fix {
     CLAMP_JX, CLAMP_JY, CLAMP_JZ,           // impulse on the particles, of clamps and mirror planes
     VISCOUS,                                // heat from viscosity, a part of internal energy
     LEFT_PLASTIC,                           // plastic work that left the box, another part
+    MISSED,                                 // work put right in internal energy, see fix hvi/sph
     NENTRY
   };
   // clang-format on
@@ -75,6 +76,7 @@ class FixHVILedger : public Fix {
   // for fix hvi/sph
 
   void book_viscous(double heat) { entry[VISCOUS] += heat; }
+  void book_missed(double work) { entry[MISSED] += work; }
   bool clamps(int mask) const { return mask & clampbit; }    // which books itself what they get
   void book_mirror(const double *impulse)
   {

@@ -225,6 +225,11 @@ void FixHVIRecords<Owner, Record>::unpack_restart(int nlocal, int nth)
   double *const stored = atom->extra[nlocal];
   int m = 0;
   for (int i = 0; i < nth; i++) m += static_cast<int>(stored[m]);
+  if (stored[m] != places.size() + 1)
+    error->one(FLERR,
+               "Fix {} {}: the restart file is of another version, with {} numbers per particle "
+               "in place of {}",
+               id, style, stored[m] - 1, places.size());
   unpack_exchange(nlocal, &stored[m + 1]);
 }
 

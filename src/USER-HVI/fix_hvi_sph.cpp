@@ -110,8 +110,8 @@ const double *FixHVISPH::felt_velocity(int i) const
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {"", "_trends"}), store(nullptr),
     ledger(nullptr), strength(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0},
-    last(0.0), due(false), stepping(0), wallbit(0), follow(0), checked(0), quiet(1.0e-10),
-    relative(true)
+    last(0.0), alone(false), due(false), stepping(0), wallbit(0), follow(0), checked(0),
+    quiet(1.0e-10), relative(true)
 {
   static_assert(covers<Extra>(FIELDS), "a number of the record is missing, or there twice");
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
@@ -196,6 +196,7 @@ void FixHVISPH::init()
   strength = FixHVIJohnsonCook::find(lmp);
 
   ledger = FixHVILedger::instance(lmp);
+  alone = utils::strmatch(force->pair_style, "^hvi/sph$") && !force->bond && !force->kspace;
   follow = igroup != 0 && !set.is_stock() && modify->get_fix_by_style("^sph$").empty();
   reset_dt();
   checked = 0;
@@ -238,9 +239,17 @@ bool FixHVISPH::integrates(int i) const
   return (atom->mask[i] & groupbit) && has_material(i);
 }
 
+// what others move must be remembered, too, where forces go by the velocity of the middle of a step
+
+bool FixHVISPH::remembers(int i) const
+{
+  return integrates(i) || (store->fields.settings.whole && has_material(i));
+}
+
 void FixHVISPH::setup_pre_force(int /*vflag*/)
 {
   const HVI::SphSettings &set = store->fields.settings;
+  double longest = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     const int itype = atom->type[i];
     if (!has_material(i)) continue;
@@ -255,11 +264,17 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
                    atom->tag[i], atom->rho[i]);
       e.hscale = set.hscale(itype, atom->rho[i]);
     }
-    const bool anew = set.is_stock() || !integrates(i) || e.mark != fingerprint(i);
+    const bool anew = set.is_stock() || !remembers(i) || e.mark != fingerprint(i) ||
+        set.whole != (e.settled != 0.0);
     if (anew && (integrates(i) || follow))
       for (int k = 0; k < 3; k++) atom->vest[i][k] = atom->v[i][k];
     if (strength) strength->start(i, anew);
+    if (anew) {
+      e.settled = set.whole ? atom->rho[i] : 0.0;
+      if (!set.whole) e.step = 0.0;    // else the last half kick was one of that step
+    }
     if (!integrates(i)) continue;
+    if (!anew) longest = std::max(longest, e.step);
     if (anew) {
       e.rho = atom->rho[i];
       e.esph = atom->esph[i];
@@ -268,16 +283,11 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
         e.trend_v[k] = 0.0;
         e.working[k] = atom->v[i][k];
       }
-      e.settled = atom->rho[i];
-      e.step = 0.0;
     }
     std::swap(e.rho, atom->rho[i]);
     std::swap(e.esph, atom->esph[i]);
     e.drho = atom->rho[i];
   }
-  double longest = 0.0;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (integrates(i)) longest = std::max(longest, extra[i].step);
   MPI_Allreduce(&longest, &last, 1, MPI_DOUBLE, MPI_MAX, world);
   comm->forward_comm();
   if (set.variable) comm->forward_comm(this);
@@ -305,7 +315,9 @@ void FixHVISPH::setup(int /*vflag*/)
       e.rho = atom->rho[i];
     e.drho = 0.0;
     std::swap(e.esph, atom->esph[i]);
+    e.stretch = 0.0;
   }
+  keep_places();
   power = store->fields.viscous_power;
   for (int k = 0; k < 3; k++) push[k] = store->fields.plane_force[k];
 }
@@ -338,17 +350,19 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
   if (strength) strength->first_half(dtv);
   due = whole;
   last = dtv;
+  double missed = 0.0;
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     Extra &e = extra[i];
-    const double power_e = atom->desph[i] - (whole ? missed_work(i) : 0.0);
+    const bool solid = whole && has_material(i);
+    const double beyond = solid ? missed_work(i) : 0.0, power_e = atom->desph[i] - beyond;
     for (int k = 0; k < 3; k++) {
       vest[i][k] = v[i][k] + 2.0 * dtfm * f[i][k];
       v[i][k] += dtfm * f[i][k];
       x[i][k] += dtv * v[i][k];
-      if (!whole) continue;
+      if (!solid) continue;
       e.working[k] = vest[i][k] + dtf / 3.0 * e.trend_v[k];
       e.trend_v[k] = dtfm / dtf * f[i][k];
       vest[i][k] = v[i][k];
@@ -356,11 +370,13 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
     const double drho = dtf * atom->drho[i], de = dtf * power_e;
     e.drho = ahead * drho;
     e.de = ahead * de;
-    if (whole) {
-      esph[i] -= missed_kick(i);
+    if (solid) {
+      const double kick = missed_kick(i);
+      missed += kick + dtf * beyond;
+      esph[i] -= kick;
       e.settled = rho[i];
       e.stretch = 0.0;
-      e.drho += dtf * e.trend_rho;
+      e.drho += dtv * e.trend_rho;    // the rate is that of the middle of the last step
       e.de += dtf * e.trend_e;
       e.trend_rho = atom->drho[i];
       e.trend_e = power_e;
@@ -368,93 +384,7 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
     rho[i] += drho + e.drho;
     esph[i] += de + e.de;
   }
-}
-
-/* ---------------------------------------------------------------------- */
-
-const double *FixHVISPH::working_velocity(int i) const
-{
-  return integrates(i) ? extra[i].working : atom->vest[i];
-}
-
-/* ----------------------------------------------------------------------
-   What forces work on the velocity of the end of the step beyond what they did on the extrapolated
-   one.  Over all particles that is the same of pairs, so it can be taken from a particle's own energy.
-   A half kick gives dt/2 F.v and, at the end of a step less, at the beginning more, dt^2/8 F^2/m,
-   which only cancels if the step is the same: what is left is taken, too.  Then the total energy is
-   kept to round-off, but for dt^2/8 F^2/m of the moment.
-------------------------------------------------------------------------- */
-
-double FixHVISPH::missed_work(int i) const
-{
-  const double *const v = atom->v[i], *const f = atom->f[i], *const w = extra[i].working;
-  return f[0] * (v[0] - w[0]) + f[1] * (v[1] - w[1]) + f[2] * (v[2] - w[2]);
-}
-
-double FixHVISPH::missed_kick(int i) const
-{
-  const double *const f = atom->f[i];
-  return 0.125 * (dtv * dtv - extra[i].step * extra[i].step) *
-      (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) /
-      (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
-}
-
-/* ---------------------------------------------------------------------- */
-
-double FixHVISPH::settle_density(int i, double div)
-{
-  if (!integrates(i)) return atom->rho[i];
-  Extra &e = extra[i];
-  if (due) e.settled *= std::exp(-dtv * div);
-  e.stretch = -e.settled * div;
-  return e.settled;
-}
-
-void FixHVISPH::settle_solids()
-{
-  if (due && strength) strength->whole_step(dtv);
-  due = false;
-}
-
-/* ----------------------------------------------------------------------
-   a piston, say, is moved by a fix that does not know vest, which is what forces see
-------------------------------------------------------------------------- */
-
-void FixHVISPH::post_integrate()
-{
-  if (store->fields.settings.mirror.planes) reflect();
-  if (!follow) return;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (!(atom->mask[i] & groupbit) && has_material(i))
-      for (int k = 0; k < 3; k++) atom->vest[i][k] = atom->v[i][k];
-}
-
-/* ----------------------------------------------------------------------
-   what has crossed a mirror plane is where its image was
-------------------------------------------------------------------------- */
-
-void FixHVISPH::reflect()
-{
-  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
-  double impulse[3] = {0.0, 0.0, 0.0};
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!integrates(i)) continue;
-    int op = 0;
-    for (int k = 0; k < 3; k++) {
-      if (!mirror.has(k) || mirror.depth(k, atom->x[i]) >= 0.0) continue;
-      op |= 1 << k;
-      atom->x[i][k] = 2.0 * mirror.at[k] - atom->x[i][k];
-      if (!ledger->clamps(atom->mask[i]))
-        impulse[k] -=
-            2.0 * (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * atom->v[i][k];
-      atom->v[i][k] = -atom->v[i][k];
-      atom->vest[i][k] = -atom->vest[i][k];
-      extra[i].trend_v[k] = -extra[i].trend_v[k];
-      extra[i].working[k] = -extra[i].working[k];
-    }
-    if (op && strength) strength->reflect(i, op);
-  }
-  ledger->book_mirror(impulse);
+  ledger->book_missed(missed);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -466,22 +396,25 @@ void FixHVISPH::final_integrate()
   const double *const *const f = atom->f;
   double *const rho = atom->rho;
   double *const esph = atom->esph;
+  double missed = 0.0;
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     for (int k = 0; k < 3; k++) v[i][k] += dtfm * f[i][k];
     Extra &e = extra[i];
-    const double power_e = atom->desph[i] - (whole ? missed_work(i) : 0.0);
+    const bool solid = whole && has_material(i);
+    const double beyond = solid ? missed_work(i) : 0.0, power_e = atom->desph[i] - beyond;
     e.rho = rho[i];
     e.esph = esph[i];
-    if (whole)
+    if (solid)
       rho[i] = e.settled + dtv * (atom->drho[i] - e.stretch);    // interface density dissipation
     else
       rho[i] += dtf * atom->drho[i] - e.drho;
     esph[i] += dtf * power_e - e.de;
-    if (whole) {
+    if (solid) {
       e.step = dtv;
+      missed += dtf * beyond;
       const bool was_there = e.drho != 0.0 || e.de != 0.0;    // in the first half
       e.trend_rho = was_there ? atom->drho[i] - e.trend_rho : 0.0;
       e.trend_e = was_there ? power_e - e.trend_e : 0.0;
@@ -490,6 +423,8 @@ void FixHVISPH::final_integrate()
     }
     e.drho = e.de = e.stretch = 0.0;
   }
+  ledger->book_missed(missed);
+  keep_places();
   if (strength && !whole) strength->second_half(dtv);
 
   const double now = store->fields.viscous_power;
@@ -509,37 +444,9 @@ void FixHVISPH::final_integrate()
 
 void FixHVISPH::post_run()
 {
-  for (int i = 0; i < atom->nlocal; i++) extra[i].mark = integrates(i) ? fingerprint(i) : 0;
+  for (int i = 0; i < atom->nlocal; i++) extra[i].mark = remembers(i) ? fingerprint(i) : 0;
   stepping = 0;
 }
-
-/* ----------------------------------------------------------------------
-   the constant of variable h goes to new ghosts
-------------------------------------------------------------------------- */
-
-int FixHVISPH::pack_border(int n, int *list, double *buf)
-{
-  for (int i = 0; i < n; i++) buf[i] = extra[list[i]].hscale;
-  return n;
-}
-
-int FixHVISPH::unpack_border(int n, int first, double *buf)
-{
-  for (int i = 0; i < n; i++) extra[first + i].hscale = buf[i];
-  return n;
-}
-
-int FixHVISPH::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
-{
-  return pack_border(n, list, buf);
-}
-
-void FixHVISPH::unpack_forward_comm(int n, int first, double *buf)
-{
-  unpack_border(n, first, buf);
-}
-
-/* ---------------------------------------------------------------------- */
 
 /* ---------------------------------------------------------------------- */
 
@@ -548,7 +455,7 @@ void FixHVISPH::unpack_forward_comm(int n, int first, double *buf)
 FixHVISPH::Extra FixHVISPH::stored(int i) const
 {
   Extra e = extra[i];
-  if (stepping) e.mark = integrates(i) ? fingerprint(i) : 0;
+  if (stepping) e.mark = remembers(i) ? fingerprint(i) : 0;
   return e;
 }
 

@@ -17,7 +17,6 @@ FixStyle(hvi/sph,FixHVISPH);
 
 #include "fix_hvi_records.h"
 #include "hvi_energy_carrier.h"
-#include "hvi_stress.h"
 
 #include <cstdint>
 #include <string>
@@ -37,8 +36,8 @@ struct HVISPHExtra {
 
   double trend_rho, trend_e, trend_v[3];
 
-  // of solids with gradient corrected: velocity with which the last forces did work, density they
-  // belong to, and what L has in its rate (0 between steps)
+  // of solids with gradient corrected: velocity with which the last forces did work (of what others move
+  // where it was then), density they belong to (else 0), and what L has in its rate (0 between steps)
 
   double working[3], settled, stretch;
   double step;    // that ended with the last forces; 0: none
@@ -95,6 +94,7 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   double power;      // viscous, of the last force evaluation
   double push[3];    // of mirror planes, likewise
   double last;       // step, of which forces are the end
+  bool alone;        // no forces but those of pair hvi/sph
   bool due;          // density and stress of solids are those of the begin of the step
   int stepping;      // in a run, so that the state is the one the last step left
   int wallbit;       // groups of particles that are meant to be integrated by nobody
@@ -109,6 +109,8 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   void check_left_out() const;
   void check_step() const;
   void reflect();
+  bool remembers(int) const;
+  void keep_places();
   double missed_work(int) const;
   double missed_kick(int) const;
   uint64_t fingerprint(int) const;

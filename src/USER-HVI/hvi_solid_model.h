@@ -27,7 +27,8 @@ namespace HVI {
 struct SolidState {
   Deviator S;    // deviatoric stress, of the time of velocity, density and energy
 
-  // what others see, in the forces: extrapolated to the end of the step, changes before forces only
+  // what others see, in the forces: extrapolated to the end of the step, or, with whole steps, of its
+  // begin; changes before forces only
 
   struct Seen {
     Deviator S;
@@ -35,7 +36,7 @@ struct SolidState {
   } seen;
 
   // what one half of a step leaves to the other: after the first half S of the middle of the step,
-  // the trial stress so far; after the second half the rate of S
+  // the trial stress so far; after the second half the rate of S.  Of a whole step the trial stress
 
   Deviator carried;
 

@@ -39,7 +39,7 @@ struct SphLaws {
   int symmetric;                                // form of the equations
   int stock;                                    // energy split as in the package SPH
   double art_eps, art_n;                        // artificial stress
-  double half;                                  // the step, with SPH_CORRECTED only
+  double half;                                  // of the time step, with SPH_CORRECTED only
   const double *row_a, *row_b, *row_tension;    // by type of the neighbor; tension: 0 or 1
 };
 

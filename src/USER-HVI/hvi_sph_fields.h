@@ -59,10 +59,12 @@ struct SphSettings {
 
    Solids with gradient corrected (records there are for them only):
    gradv      owned, ghosts, images     first sweep; folded, reverse; then L M^-1      second sweep (riemann),
-   contact    (the same of other bodies, and of rubble)                                velocity_gradient()
-   traction,  owned                     pair, between the sweeps, from M^-1            second sweep
-   push       ghosts, images            forward communication; reflected
-   rates      drho and de of stress are written between the sweeps, without pairs
+              owned                     and M^-1 in place of M                         velocity_gradient()
+   contact    (the same of other bodies, and of rubble; then see correct_gradient())   find_traction()
+   traction,  owned                     pair: p, rho and v before, T from M^-1         second sweep, pressure(),
+   push                                 between the sweeps                             density()
+              ghosts, images            forward communication; reflected
+   rates      drho is written between the sweeps, without pairs
 
    They hold from a force evaluation to the next exchange of particles, that is: through
    final_integrate and end_of_step, and through the initial_integrate that follows, unless a
