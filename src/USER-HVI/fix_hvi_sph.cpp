@@ -110,8 +110,8 @@ const double *FixHVISPH::felt_velocity(int i) const
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {"", "_trends"}), store(nullptr),
     ledger(nullptr), strength(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0},
-    last(0.0), alone(false), due(false), stepping(0), wallbit(0), follow(0), checked(0),
-    quiet(1.0e-10), relative(true)
+    last(0.0), due(false), stepping(0), wallbit(0), follow(0), checked(0), quiet(1.0e-10),
+    relative(true)
 {
   static_assert(covers<Extra>(FIELDS), "a number of the record is missing, or there twice");
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
@@ -196,7 +196,6 @@ void FixHVISPH::init()
   strength = FixHVIJohnsonCook::find(lmp);
 
   ledger = FixHVILedger::instance(lmp);
-  alone = utils::strmatch(force->pair_style, "^hvi/sph$") && !force->bond && !force->kspace;
   follow = igroup != 0 && !set.is_stock() && modify->get_fix_by_style("^sph$").empty();
   reset_dt();
   checked = 0;

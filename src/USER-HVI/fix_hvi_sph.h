@@ -94,7 +94,6 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   double power;      // viscous, of the last force evaluation
   double push[3];    // of mirror planes, likewise
   double last;       // step, of which forces are the end
-  bool alone;        // no forces but those of pair hvi/sph
   bool due;          // density and stress of solids are those of the begin of the step
   int stepping;      // in a run, so that the state is the one the last step left
   int wallbit;       // groups of particles that are meant to be integrated by nobody

@@ -38,14 +38,15 @@ const double *FixHVISPH::working_velocity(int i) const
    one.  Over all particles that is the same of pairs, so it can be taken from a particle's own energy.
    A half kick gives dt/2 F.v and, at the end of a step less, at the beginning more, dt^2/8 F^2/m,
    which only cancels if the step is the same: what is left is taken, too.  Then the total energy is
-   kept to round-off, but for dt^2/8 F^2/m of the moment.  F is all of the force: beside other pair
-   styles and bonds, which do work on v itself, only the second is taken.
+   kept to round-off, but for dt^2/8 F^2/m of the moment.  The first is of SPH forces only, for others
+   work on v itself; F in the second is all of the force.
 ------------------------------------------------------------------------- */
 
 double FixHVISPH::missed_work(int i) const
 {
-  if (!alone || !store->fields.settings.energy) return 0.0;
-  const double *const v = atom->v[i], *const f = atom->f[i], *const w = extra[i].working;
+  if (!store->fields.settings.energy) return 0.0;
+  const double *const v = atom->v[i], *const w = extra[i].working;
+  const double *const f = store->fields.own_force(i);
   return f[0] * (v[0] - w[0]) + f[1] * (v[1] - w[1]) + f[2] * (v[2] - w[2]);
 }
 

@@ -33,8 +33,9 @@ struct alignas(64) SphState {
 };
 
 struct alignas(64) SphRates {
-  double fx, fy, fz;    // force
-  double de;            // of the internal energy of the particle
+  static constexpr int FORCE = 3;    // its numbers
+  double fx, fy, fz;                 // force
+  double de;                         // of the internal energy of the particle
   double drho;
   double heat;    // viscous part of de
   double unused[2];

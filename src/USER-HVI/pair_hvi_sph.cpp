@@ -100,8 +100,12 @@ void PairHVISPH::compute(int eflag, int vflag)
 
   if (mirrored) images.fold(records, force->newton_pair);
   scatter();
-  if (records.gradv && !records.traction && force->newton_pair)
-    reverse(records.gradv, HVI::SphGradV::SENT_PLAIN);
+  if (records.gradv && force->newton_pair) {
+    if (records.traction)
+      reverse(records.rates, HVI::SphRates::FORCE);
+    else
+      reverse(records.gradv, HVI::SphGradV::SENT_PLAIN);
+  }
 
   if (vflag_fdotr) virial_fdotr_compute();
 }
@@ -264,6 +268,7 @@ void PairHVISPH::setup()
     if (bodies) report.forward += HVI::SphPush::SENT;
     if (set.riemann) report.forward += HVI::SphGradV::SENT_L;
     if (bodies) report.reverse *= 2;
+    if (force->newton_pair) report.reverse += HVI::SphRates::FORCE;
   }
   if (integrator) {
     report.border = 1;

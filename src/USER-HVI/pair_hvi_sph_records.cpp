@@ -331,11 +331,12 @@ template <class Record> void PairHVISPH::forward(Record *records, int number, in
 
 template <class Record> void PairHVISPH::reverse(Record *records, int number)
 {
-  halo = {&records->xx, (int) (sizeof(Record) / sizeof(double)), number};
+  halo = {(double *) records, (int) (sizeof(Record) / sizeof(double)), number};
   comm->reverse_comm(this, number);
 }
 
 template void PairHVISPH::reverse(HVI::SphGradV *, int);
+template void PairHVISPH::reverse(HVI::SphRates *, int);
 template void PairHVISPH::forward(HVI::SphGradV *, int, int);
 template void PairHVISPH::forward(HVI::SphTraction *, int, int);
 template void PairHVISPH::forward(HVI::SphPush *, int, int);

@@ -6,7 +6,7 @@ import pytest
 import yaml
 
 KEYS = """hole1_diameter_mm hole2_diameter_mm perforated front_velocity_m_s cloud_length_mm cloud_diameter_mm length_ratio
-    axial_velocity_ratio particles steps time_us wall_s ranks particle_steps_per_s energy_ratio momentum_error mass_error
+    axial_velocity_ratio particles steps time_us wall_s ranks particle_steps_per_s energy_ratio energy_missed_ratio momentum_error mass_error
     lammps_version package_version""".split()
 PER_WALL = """reached perforated detached_spall spall_mass_mg fragments largest_fragment_mm largest_fragment_mass_fraction
     largest_fragment_velocity_m_s momentum_N_s momentum_ratio energy_J energy_ratio passed_mass_mg cloud_velocity_ratio
