@@ -28,7 +28,7 @@ SCENES = [
      {"T": "0.5", "every": "5", "check": "yes"}),
     ("sphere on plate, 6.7 km/s", "dem/in.cloud", ["hvi", "bpm"], {}),
     ("stirred liquid, SPH without strength", "sph/in.tait", ["hvi", "parity", "stock"], {}),
-    ("stirred solid: strength, damage, spall", "sph/in.solid", ["hvi", "ulsph"], {"dir": os.path.join(HERE, "sph")}),
+    ("stirred solid: strength, damage, spall", "sph/in.solid", ["hvi", "riemann", "law", "plain", "ulsph"], {"dir": os.path.join(HERE, "sph")}),
 ]
 FULL = {"dem/in.lattice": {"steps": "1000"}, "dem/in.cloud": {"N": "240000", "steps": "12000", "dt": "1.25e-10"},
         "sph/in.tait": {"steps": "400"}}
