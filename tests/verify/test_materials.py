@@ -170,8 +170,7 @@ pair_style hvi/sph cubic viscosity 0 0
 pair_coeff 1 1 file {file} h {h:.17g}
 neighbor {skin:.17g} bin
 variable vx atom {rate}*y+0.3*{rate}*z
-variable vz atom -0.2*{rate}*x
-velocity all set v_vx 0 v_vz
+velocity all set v_vx 0 0
 fix sph all hvi/sph
 fix jc all hvi/johnson-cook strength {law} {words}
 fix hold all setforce 0 0 0
@@ -186,7 +185,8 @@ timestep {dt}
 def sheared(lmp, file, law, v, heat, words, tmp_path):
     """a block of 6^3 is sheared for a step of 5 %; columns of the 8 inner particles afterwards
 
-    p is that of the forces, for which density and energy are extrapolated from the start: those at the start, when nothing changes them."""
+    p and T are those of the forces, before which the law is asked: density and energy are extrapolated from the start, when nothing
+    changes them."""
     dx, rate, dt = 1e-3, 5e4, 1e-6
     m = v["rho0"] * dx**3
     text = BLOCK.format(dx=dx, m=m, rho0=v["rho0"], E=m * v["cp"] * heat, file=file, h=1.2 * dx, skin=0.2 * dx, rate=rate, law=law, words=words, dt=dt)
@@ -195,7 +195,7 @@ def sheared(lmp, file, law, v, heat, words, tmp_path):
     n = int(lines[3])
     first, last = (np.array([line.split() for line in part], float) for part in (lines[9:9 + n], lines[-n:]))
     k = np.arange(n).reshape(6, 6, 6)[2:4, 2:4, 2:4].ravel()
-    return dict(zip(("rho", "p", "T", "eps", "rate", "damage", "vm"), last[k, 1:].T), p=first[k, 2])
+    return dict(zip(("rho", "p", "T", "eps", "rate", "damage", "vm"), last[k, 1:].T), p=first[k, 2], T=first[k, 3])
 
 
 def yield_stress(law, s, v, g):
