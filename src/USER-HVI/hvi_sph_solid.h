@@ -236,8 +236,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
 
     const bool nearing = sum(rdotv < 0.0 ? one : zero) > 0.0;
     Vec q = zero;
-    if (!nearing) {
-    } else if (SCENE & SPH_RIEMANN) {
+    if (nearing && (SCENE & SPH_RIEMANN)) {
       Vec L[12];
       for (int k = 0; k < 3; k++) read_columns(records.gradv, j, k, L + 4 * k);
       const Vec &u = rdotv;
@@ -268,7 +267,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
       const Vec known = u < 0.0 ? both : u;
       const Vec jump = known > u ? known - u : zero;    // what comes apart is not held
       q = z_i * z_j * inverse * steep * jump;
-    } else {
+    } else if (nearing) {
       const Vec hv = h * (rdotv < 0.0 ? rdotv : zero);
       const Vec Pi = hv * (2.0 * b * hv - a * (c_i + c_j) * soft) / (soft * soft * (rho_i + rho_j));
       q = 0.5 * rho_i * rho_j * Pi;

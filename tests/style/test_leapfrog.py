@@ -66,6 +66,20 @@ def test_wall_that_swings(lmp, tmp_path, pair):
         assert moved > 0 and 1e-5 < second / moved < 0.01 and 3.5 < first / second < 4.5, name
 
 
+@pytest.mark.parametrize("speed", [0.2, 2e-4])
+@pytest.mark.parametrize("words", ["viscosity 0 0", "viscosity 1 2"])
+def test_order_in_time(lmp, tmp_path, pair, words, speed):
+    """a free elastic block that swings: of second order in small motions, of first with viscosity and in large ones"""
+    s = block()
+    s.v = speed * body(seed=61, n=5, periodic=False, jitter=0.05).v
+    text, steps = script(s, tmp_path, pair, words, UNBROKEN, elastic=True), (20, 40, 80, 160, 640)
+    lmp("".join(text + f"timestep {1.2 / n}\nrun {n}\n" + OUT.format(f"f{n}") for n in steps))
+    *stress, finest = (read(tmp_path / f"f{n}")["S"] for n in steps)
+    error = [np.linalg.norm(S - finest) / np.linalg.norm(finest) for S in stress]
+    print(words, speed, "errors of S", error)
+    assert error[0] < 0.2 and error[2] / error[3] > (3.5 if speed < 0.1 and words == "viscosity 0 0" else 1.8)
+
+
 def test_wall_across_the_box(lmp, tmp_path, pair):
     """a bar that fix move drags through a face of a periodic box, the low one in x or the high one in y: as in a frame where it does not"""
     s = body(seed=63, n=7, jitter=0.05, speed=0.05)
