@@ -33,7 +33,7 @@ using namespace LAMMPS_NS;
 
 static const char *const NAMES[] = {"p",      "e",      "T",       "c",   "h",     "eps",
                                     "epsdot", "damage", "spalled", "vm",  "sxx",   "syy",
-                                    "szz",    "sxy",    "sxz",     "syz", "nbonds"};
+                                    "szz",    "sxy",    "sxz",     "syz", "asleep", "nbonds"};
 
 /* ---------------------------------------------------------------------- */
 
@@ -96,6 +96,7 @@ void ComputeHVIAtom::find_sources()
 double ComputeHVIAtom::value_of(Value value, int i) const
 {
   if (value == BONDS) return nbonds[i];
+  if (value == ASLEEP) return store->fields.asleep(i) ? 1.0 : 0.0;
 
   const int itype = atom->type[i];
   const HVI::Material *const material = store->materials.of(itype);

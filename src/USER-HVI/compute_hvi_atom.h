@@ -49,6 +49,7 @@ class ComputeHVIAtom : public Compute {
     SXY,
     SXZ,
     SYZ,    // of solids
+    ASLEEP,
     BONDS
   };
 

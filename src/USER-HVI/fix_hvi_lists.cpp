@@ -36,7 +36,7 @@ static bool making = false;    // else it stands in an input
 /* ---------------------------------------------------------------------- */
 
 FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), moved(nullptr), nmax(0), farthest(0.0), unseen(0.0), delay(0),
+    Fix(lmp, narg, arg), moved(nullptr), nmax(0), farthest{}, beyond{}, unseen{}, delay(0),
     relative(true)
 {
   if (!making)
@@ -107,26 +107,25 @@ void FixHVILists::pre_neighbor()
   const double reach = MAX(cut, comm->cutghostuser - neighbor->skin);
   motion.start(nlocal + atom->nghost, atom->x, reach, neighbor->skin);
 
-  // exchange reaches the ranks next door; a particle beyond a fixed face is to be lost
+  // Exchange reaches the ranks next door.  Who owns the place half-way between two has both, as owned or
+  // ghosts, unless they are more than two cutoffs of ghosts apart in some direction.  Both does
+  // not matter where no rank ends.
 
-  double width = domain->prd[0] + domain->prd[1] + domain->prd[2];
-  farthest = width;
+  double width[3];
   for (int k = 0; k < 3; k++) {
     const double sub = domain->subhi[k] - domain->sublo[k];
-    if (domain->periodicity[k] || sub < 0.999 * domain->prd[k]) width = MIN(width, sub);
+    width[k] = domain->periodicity[k] || sub < 0.999 * domain->prd[k] ? sub : FAR_AWAY;
     for (int side = 0; side < 2; side++)
-      if (domain->boundary[k][side] == 1) farthest = MIN(farthest, cut);
+      beyond[3 * side + k] = domain->boundary[k][side] != 1 ? FAR_AWAY
+          : side                                            ? domain->boxhi[k] + cut
+                                                            : cut - domain->boxlo[k];
   }
-  MPI_Allreduce(MPI_IN_PLACE, &width, 1, MPI_DOUBLE, MPI_MIN, world);
-  farthest = MIN(farthest, 0.5 * width);
-
-  // who owns the place half-way between two has both, as owned or ghosts, unless they are more than
-  // two cutoffs of ghosts apart in some direction
-
-  const bool all_seen = comm->nprocs == 1 && domain->nonperiodic && !domain->periodicity[0] &&
-      !domain->periodicity[1] && !domain->periodicity[2];
+  MPI_Allreduce(MPI_IN_PLACE, width, 3, MPI_DOUBLE, MPI_MIN, world);
   const double ghosts = MAX(neighbor->cutneighmax, comm->cutghostuser);
-  unseen = all_seen ? FAR_AWAY : 2.0 * ghosts - (reach + neighbor->skin);
+  for (int k = 0; k < 3; k++) {
+    farthest[k] = 0.5 * width[k];
+    unseen[k] = width[k] < FAR_AWAY ? 2.0 * ghosts - (reach + neighbor->skin) : FAR_AWAY;
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -162,17 +161,20 @@ void FixHVILists::post_integrate()
   double ends[N] = {FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, 0.0};
   for (int i = 0; i < atom->nlocal; i++)
     for (int k = 0; k < 3; k++) {
+      if (-x[i][k] > beyond[k] || x[i][k] > beyond[3 + k]) ends[RENEW] = -1.0;
       moved[i][k] = known ? x[i][k] - hold[3 * i + k] : 0.0;
       ends[LOWEST + k] = MIN(ends[LOWEST + k], moved[i][k]);
       ends[HIGHEST + k] = MIN(ends[HIGHEST + k], -moved[i][k]);
     }
   comm->forward_comm(this);
 
-  if (!known || motion.exceeded(moved) || motion.farthest() > farthest) ends[RENEW] = -1.0;
+  if (!known || motion.exceeded(moved)) ends[RENEW] = -1.0;
+  for (int k = 0; k < 3; k++)
+    if (motion.farthest(k) > farthest[k]) ends[RENEW] = -1.0;
   MPI_Allreduce(MPI_IN_PLACE, ends, N, MPI_DOUBLE, MPI_MIN, world);
   bool renew = ends[RENEW] < 0.0;
   for (int k = 0; k < 3; k++)
-    if (-(ends[LOWEST + k] + ends[HIGHEST + k]) > unseen) renew = true;
+    if (-(ends[LOWEST + k] + ends[HIGHEST + k]) > unseen[k]) renew = true;
   if (renew) next_reneighbor = update->ntimestep;
 }
 

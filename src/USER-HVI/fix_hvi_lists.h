@@ -51,8 +51,9 @@ class FixHVILists : public Fix {
   std::vector<double> hold;    // positions of owned particles when lists were made
   double **moved;              // of owned particles and ghosts, since then
   int nmax;
-  double farthest;    // that any particle may go: to rank next to its own, and not far beyond faces
-  double unseen;      // relative motion, in any direction, of two that no rank has both of
+  double farthest[3];    // that any particle may go: to the rank next to its own
+  double beyond[6];      // fixed faces, low ones first: who comes there is to be lost
+  double unseen[3];      // relative motion of two that no rank has both of
   int delay;          // of neigh_modify
   bool relative;      // else LAMMPS decides
 

@@ -130,10 +130,10 @@ void RelativeMotion::start(int n, const double *const *x, double cut, double ski
 bool RelativeMotion::exceeded(const double *const *moved)
 {
   for (Level &level : levels) std::fill(level.boxes.begin(), level.boxes.end(), nothing());
-  most = 0.0;
+  for (double &one : most) one = 0.0;
   if (levels.empty()) return false;
 
-  double longest = 0.0, farthest = 0.0;
+  double longest = 0.0, farthest[3] = {0.0, 0.0, 0.0};
   for (size_t i = 0; i < cell.size(); i++) {
     Box &box = levels[0].boxes[cell[i]];
     double sq = 0.0;
@@ -141,7 +141,7 @@ bool RelativeMotion::exceeded(const double *const *moved)
       box.lo[k] = std::min(box.lo[k], moved[i][k]);
       box.hi[k] = std::max(box.hi[k], moved[i][k]);
       sq += moved[i][k] * moved[i][k];
-      farthest = std::max(farthest, std::fabs(moved[i][k]));
+      farthest[k] = std::max(farthest[k], std::fabs(moved[i][k]));
     }
     longest = std::max(longest, sq);
   }
@@ -150,7 +150,7 @@ bool RelativeMotion::exceeded(const double *const *moved)
 
   const double skin = levels[0].allowed;
   if (4.0 * longest <= skin * skin) {
-    most = farthest;
+    std::copy_n(farthest, 3, most);
     return false;
   }
 
@@ -175,7 +175,7 @@ bool RelativeMotion::exceeded(const double *const *moved)
         if (sq > allowed_sq) return true;
       }
       if (level.parent.empty()) {
-        for (int k = 0; k < 3; k++) most = std::max({most, -own.lo[k], own.hi[k]});
+        for (int k = 0; k < 3; k++) most[k] = std::max({most[k], -own.lo[k], own.hi[k]});
         continue;
       }
       Box &all = levels[n + 1].boxes[level.parent[c]];

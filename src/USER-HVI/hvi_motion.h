@@ -34,9 +34,9 @@ class RelativeMotion {
 
   bool exceeded(const double *const *moved);
 
-  // the most that any of them has moved, in one direction; after exceeded() has said no
+  // the most that any of them has moved in direction k; after exceeded() has said no
 
-  double farthest() const { return most; }
+  double farthest(int k) const { return most[k]; }
 
   // the smallest cells: all that can be within cut of each other are in one, or in adjacent ones
 
@@ -66,7 +66,7 @@ class RelativeMotion {
 
   std::vector<Level> levels;
   std::vector<int> cell;    // of the points, in the first level
-  double most = 0.0;
+  double most[3] = {0.0, 0.0, 0.0};
 
   static Box nothing();
 };

@@ -94,7 +94,7 @@ class SphFields {
   double density(int i) const { return traction ? traction[i].rho : state[i].rho; }
   VelocityGradient velocity_gradient(int i) const;
   const double *own_force(int i) const { return &rates[i].fx; }    // solids with gradient corrected
-  bool asleep(int i) const { return !sleepers.empty() && sleepers[i]; }
+  bool asleep(int i) const { return (std::size_t) i < sleepers.size() && sleepers[i]; }
   std::vector<char> sleepers;    // owned particles that nothing happens to; empty: there are none
   double viscous_power = 0.0;    // heat of viscosity, of particles that fix hvi/sph integrates
   double plane_force[3] = {0, 0, 0};    // of mirror planes on the particles

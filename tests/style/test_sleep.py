@@ -152,6 +152,30 @@ def test_who_never_sleeps(lmp, tmp_path):
         assert r.thermo["f_sph"][0] == 216, change
 
 
+def test_ranks_share_who_is_awake(lmp, tmp_path):
+    """the weight of compute hvi/atom asleep: each rank has half of those awake, with the way they go unchanged"""
+    s, n = impact(), len(impact().x)
+    out = """compute asleep all hvi/atom asleep
+variable awake atom 1-c_asleep
+compute awake all reduce sum v_awake
+compute least all reduce min c_asleep
+compute most all reduce max c_asleep
+compute proc all property/atom proc
+variable here atom (1-c_asleep)*(c_proc==0)
+compute here all reduce sum v_here
+"""
+    thermo = "thermo_style custom step f_sph c_awake c_least c_most c_here\nthermo_modify norm no\n"
+    found = {}
+    for weight in ("", "weight var cost"):
+        more = f"variable cost atom 1-0.9*c_asleep\nfix share all balance 4 1.0 rcb {weight}\n"
+        t = lmp(text(s, tmp_path, "", comm="tiled") + out + thermo + more + "run 12\n" + WRITE.format("a"), nranks=2).thermo
+        assert np.array_equal(t["c_awake"], n - t["f_sph"]) and t["c_least"][-1] == 0 and t["c_most"][-1] == 1
+        found[weight] = t["c_here"][-1] / t["c_awake"][-1], columns(tmp_path / "a")
+    (plain, one), (weighted, other) = found.values()
+    assert abs(weighted - 0.5) < 0.1 < 0.2 < abs(plain - 0.5), (plain, weighted)
+    assert max(apart(one, other).values()) < 1e-11
+
+
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("words", ["water", "", "gradient law"])
 @pytest.mark.parametrize("sleep", ["exact", ""])

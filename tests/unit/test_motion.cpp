@@ -253,11 +253,13 @@ TEST(RelativeMotion, OfTwoWhoMeet)
 
 TEST(RelativeMotion, NoneWhenAllMoveAlike)
 {
+  const Point way = {1e6, -3e5, 12.0};
   for (const Where &where : PLACES) {
     Motion motion(where.x);
-    const Points moved(where.x.size(), {1e6, -3e5, 12.0});
+    const Points moved(where.x.size(), way);
     EXPECT_FALSE(motion.exceeded(moved)) << where.name;
-    EXPECT_EQ(motion.cells.farthest(), where.x.empty() ? 0.0 : 1e6);
+    for (int k = 0; k < 3; k++)
+      EXPECT_EQ(motion.cells.farthest(k), where.x.empty() ? 0.0 : std::fabs(way[k]));
   }
 }
 
@@ -276,17 +278,17 @@ TEST(RelativeMotion, NoneWithinItsBound)
     Motion motion(where.x);
     for (int n = 0; n < 20; n++) {
       Points moved;
-      double most = 0.0;
+      Point most = {};
       for (size_t i = 0; i < where.x.size(); i++) {
         Point p;
-        for (double &s : p) {
-          s = 0.5 * edge * (n % 2 ? part(random) : (part(random) < 0.0 ? -1.0 : 1.0));
-          most = std::max(most, std::fabs(s));
+        for (int k = 0; k < 3; k++) {
+          p[k] = 0.5 * edge * (n % 2 ? part(random) : (part(random) < 0.0 ? -1.0 : 1.0));
+          most[k] = std::max(most[k], std::fabs(p[k]));
         }
         moved.push_back(p);
       }
       EXPECT_FALSE(motion.exceeded(moved)) << where.name;
-      EXPECT_EQ(motion.cells.farthest(), most);
+      for (int k = 0; k < 3; k++) EXPECT_EQ(motion.cells.farthest(k), most[k]);
     }
   }
   Motion two({{0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}});

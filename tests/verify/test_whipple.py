@@ -11,7 +11,7 @@ KEYS = """hole1_diameter_mm hole2_diameter_mm perforated front_velocity_m_s clou
 PER_WALL = """reached perforated detached_spall spall_mass_mg fragments largest_fragment_mm largest_fragment_mass_fraction
     largest_fragment_velocity_m_s momentum_N_s momentum_ratio energy_J energy_ratio passed_mass_mg cloud_velocity_ratio
     cloud_front_velocity_ratio cloud_momentum_ratio cloud_energy_ratio""".split()
-SMALL = dict(quarter="no", kernel="cubic", eta=1.2, dx=0.6, spacing=12, radius1=7, radius2=9, behind=20, tstop=8, timpact=1)
+SMALL = dict(quarter="no", kernel="cubic", eta=1.2, dx=0.6, spacing=12, radius1=7, radius2=9, behind=20, tstop=8)
 
 
 @pytest.fixture
