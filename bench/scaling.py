@@ -159,7 +159,7 @@ def run(args, label, name, variables, tail, ranks, count=False):
         os.remove(old)
     with open(os.path.join(folder, "in"), "w") as f:
         f.write(scene(name, variables) + tail)
-    cmd = ["mpirun", "--oversubscribe", "-np", str(ranks)]
+    cmd = ["mpirun", "-np", str(ranks)] + (["--oversubscribe"] if ranks > 2 else [])
     if count:
         cmd += ["--mca", "pml_monitoring_enable", "2", "--mca", "pml_monitoring_enable_output", "3", "--mca", "pml_monitoring_filename", "mon"]
     cmd += [os.path.join(os.path.abspath(args.build), "lmp"), "-in", "in", "-screen", "none"]
