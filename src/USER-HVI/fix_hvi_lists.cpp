@@ -43,7 +43,7 @@ FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
     error->all(FLERR, "Fix hvi/lists is made by pair styles and cannot be given in an input");
   force_reneighbor = 1;
   next_reneighbor = -1;
-  comm_forward = 3;
+  comm_forward = SENT;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -153,7 +153,7 @@ void FixHVILists::post_integrate()
   if (atom->nmax > nmax) {
     nmax = atom->nmax;
     memory->destroy(moved);
-    memory->create(moved, nmax, 3, "hvi/lists:moved");
+    memory->create(moved, nmax, SENT, "hvi/lists:moved");
   }
   const double *const *const x = atom->x;
   const bool known = motion.points() == atom->nlocal + atom->nghost;    // none came in between
@@ -182,13 +182,13 @@ void FixHVILists::post_integrate()
 
 int FixHVILists::pack_forward_comm(int n, int *sent, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {
-  for (int m = 0; m < n; m++) memcpy(buf + 3 * m, moved[sent[m]], 3 * sizeof(double));
-  return 3 * n;
+  for (int m = 0; m < n; m++) memcpy(buf + SENT * m, moved[sent[m]], SENT * sizeof(double));
+  return SENT * n;
 }
 
 void FixHVILists::unpack_forward_comm(int n, int first, double *buf)
 {
-  if (n) memcpy(moved[first], buf, 3 * (size_t) n * sizeof(double));
+  if (n) memcpy(moved[first], buf, SENT * (size_t) n * sizeof(double));
 }
 
 /* ---------------------------------------------------------------------- */

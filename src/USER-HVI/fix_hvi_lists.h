@@ -44,6 +44,9 @@ class FixHVILists : public Fix {
 
   static FixHVILists *make(class LAMMPS *, bool relative);
 
+  static constexpr int SENT = 3;    // doubles to each ghost in each step, while in charge
+
+  bool in_charge() const;
   const HVI::RelativeMotion &cells() const { return motion; }
 
  private:
@@ -54,10 +57,8 @@ class FixHVILists : public Fix {
   double farthest[3];    // that any particle may go: to the rank next to its own
   double beyond[6];      // fixed faces, low ones first: who comes there is to be lost
   double unseen[3];      // relative motion of two that no rank has both of
-  int delay;          // of neigh_modify
-  bool relative;      // else LAMMPS decides
-
-  bool in_charge() const;
+  int delay;             // of neigh_modify
+  bool relative;         // else LAMMPS decides
 };
 
 }    // namespace LAMMPS_NS

@@ -270,6 +270,7 @@ void PairHVISPH::setup()
     if (bodies) report.reverse *= 2;
     if (force->newton_pair) report.reverse += HVI::SphRates::FORCE;
   }
+  if (lists->in_charge()) report.forward += FixHVILists::SENT;
   if (integrator) {
     report.border = 1;
     report.kept_bytes += integrator->bytes_per_particle();

@@ -145,7 +145,7 @@ def test_what_a_scene_carries(lmp, tmp_path):
         words, jc, records, kept, forward, reverse, terms, one, two = SCENES[k % len(SCENES)]
         assert table["terms"] == terms and table["memory"] == [records, 8 * kept], (words, jc)
         assert sum(table["arrays"].values()) == records and ("stress" in table["arrays"]) == (jc is not None)
-        assert table["sent"] == [forward, reverse if k < len(SCENES) else 0, 1], (words, jc)
+        assert table["sent"] == [forward + 3, reverse if k < len(SCENES) else 0, 1], (words, jc)
         assert table["style"].startswith("Pair style hvi/sph cubic dim 3 form sum h ")
         assert [table["rows"][t]["laws"] for t in (1, 2)] == ["gruneisen" + one, "tait" + two]
     # the memory that LAMMPS adds up grows by what the table says, for as many particles as it has room for: multiples of 16384
@@ -154,6 +154,15 @@ def test_what_a_scene_carries(lmp, tmp_path):
         room = (mega[k] - mega[0]) / more
         assert mega[k] - mega[0] > 1.0 and room == pytest.approx(round(room), abs=0.02), (k, room)
         assert round(room) == 2
+
+
+def test_doubles_of_lists(lmp, tmp_path):
+    """displacements go to ghosts while hvi/lists is in charge, not where LAMMPS decides on lists"""
+    s = block((6, 6, 6))
+    more = ["", "neigh_modify every 2\n", "fix size all deform 1 x erate 0.1\n"]
+    text = "".join("clear\n" + plain(s, tmp_path, more=m) + "run 0\n" for m in more)
+    text += "clear\n" + plain(s, tmp_path, fix="fix sph all hvi/sph lists displacement\n") + "run 0\n"
+    assert [t["sent"] for t in tables(lmp(text).log)] == [[3, 0, 1], [0, 0, 1], [0, 0, 1], [0, 0, 1]]
 
 
 def test_once_per_run(lmp, tmp_path):

@@ -1,0 +1,468 @@
+#!/usr/bin/env python3
+"""Strong and weak scaling on the cores that there are, and a model beyond them that is checked by counting.
+
+    bench/scaling.py --build build --out build/scaling [--only times,costs,follow,check,model] [--dx 0.5]
+
+times   examples/single-plate (a quarter) and bench/sph/in.solid on 1 and 2 ranks: wall times
+costs   processor time of a particle and of a ghost: in.solid, periodic, on 1 rank: the smaller, the more ghosts
+follow  the plate on 1 rank: who is awake where, lists made, time of a particle-step
+check   both scenes on 4, 8 and 16 ranks, whatever the number of cores: bytes and messages that Open MPI's monitoring of its
+        messages (pml monitoring) counts, against what the model says; volumes, never times
+model   what these numbers make of large plates and cubes on many ranks; check and model need what costs and follow left in --out
+
+Only Open MPI can do the check.  The model is in functions without LAMMPS; tests/python/test_scaling_model.py tests them.
+"""
+import argparse
+import glob
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(HERE)
+PLATE = os.path.join(ROOT, "examples/single-plate/in.plate")
+SOLID = os.path.join(HERE, "sph/in.solid")
+DOUBLE = 8
+
+# atom_style sph: x, rho, esph, vest to ghosts; f, drho, desph back; x, tag, type, mask, rho, esph, cv, vest of a new one
+FORWARD, REVERSE, BORDER = 8, 5, 12
+REDUCTIONS = 2  # of a step over all ranks: hvi/lists, hvi/dt
+ATOM_BYTES = 156 + 28  # of atom_style sph and hvi/lists, owned particles and ghosts
+BALANCE_REDUCTIONS = 30  # of fix balance shift: 18 and 26 were counted on 4 and 16 ranks
+BUILD_REDUCTIONS = 3  # of new lists: shrink-wrapped box, ranks that ghosts come from (of unequal domains), narrowest domain
+
+
+# ---------------------------------------------------------------------- the model, without LAMMPS
+
+def exchanges(bodies, riemann, lists):
+    """How often a step with gradient corrected sends to ghosts, and back: atom_style, limits, traction, push, L, displacements;
+    atom_style, M and L, those of contacts, forces."""
+    return 3 + bodies + riemann + lists, 3 + bodies
+
+
+def sent_ghosts(widths, ranks, cut, periodic):
+    """Particles that a rank in the middle of a full lattice gets from others, for one forward exchange.
+
+    widths: of its domain, spacings; ranks: the grid; a direction with one rank costs no message, but what it adds to the
+    ghosts of directions before it is copied on by those after it."""
+    now, sent = float(np.prod(widths)), 0.0
+    wide = list(widths)
+    for k in range(3):
+        more = now * 2 * cut / wide[k] if periodic[k] or ranks[k] > 1 else 0.0
+        if ranks[k] > 1:
+            sent += more
+        now += more
+        wide[k] += 2 * cut if more else 0.0
+    return sent
+
+
+def halo_messages(ranks, periodic):
+    """Messages of one exchange with ghosts, all ranks together, domains being wider than the cutoff."""
+    return sum(2 * math.prod(ranks) // n * (n if around else n - 1) for n, around in zip(ranks, periodic) if n > 1)
+
+
+def list_messages(ranks):
+    """Those of new lists beside halo_messages(), empty ones too: who has left for the rank next door, and how many are to
+    come, in either direction, if these are two ranks; numbers of new ghosts."""
+    return math.prod(ranks) * sum((4 if n > 2 else 2) + 2 for n in ranks if n > 1)
+
+
+class Map:
+    """Particles over the x-y plane as a density in bins: how many there are in any rectangle."""
+
+    def __init__(self, x, y, weight, edges):
+        self.edges = edges
+        table = np.histogram2d(x, y, bins=(edges, edges), weights=weight)[0]
+        self.cumulated = np.pad(table.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
+
+    def below(self, x, y):
+        """how many have smaller x and y, linear within bins; of all combinations of the two arrays"""
+        def place(values):
+            at = np.clip(np.interp(values, self.edges, np.arange(len(self.edges))), 0, len(self.edges) - 1)
+            low = np.minimum(at.astype(int), len(self.edges) - 2)
+            return low, at - low
+        (i, u), (j, v) = place(np.asarray(x)), place(np.asarray(y))
+        c, u, v = self.cumulated, u[:, None], v[None, :]
+        return ((1 - u) * (1 - v) * c[np.ix_(i, j)] + u * (1 - v) * c[np.ix_(i + 1, j)]
+                + (1 - u) * v * c[np.ix_(i, j + 1)] + u * v * c[np.ix_(i + 1, j + 1)])
+
+    def columns(self, xcuts, ycuts, margin=0.0):
+        """how many are in each column of a grid, made wider on all sides by margin"""
+        b = [self.below(x, y) for x in (xcuts[1:] + margin, xcuts[:-1] - margin) for y in (ycuts[1:] + margin, ycuts[:-1] - margin)]
+        return b[0] - b[1] - b[2] + b[3]
+
+    def cuts(self, axis, n, least=0.0):
+        """where fix balance shift cuts a direction for n ranks: equal shares of all, apart by least"""
+        edge = self.edges
+        marginal = self.cumulated[:, -1] if axis == 0 else self.cumulated[-1]
+        at = np.interp(np.linspace(0.0, marginal[-1], n + 1), marginal + 1e-12 * np.arange(len(edge)), edge)
+        at[0], at[-1] = edge[0], edge[-1]
+        for k in range(1, n):
+            at[k] = max(at[k], at[k - 1] + least)
+        for k in range(n - 1, 0, -1):
+            at[k] = min(at[k], at[k + 1] - least)
+        return at
+
+
+def step_time(work, ghosts, ranks, hops, p, sides=4):
+    """Seconds of a step, by what they go for.
+
+    work: seconds that particles and ghosts cost, by rank; ghosts: by rank; hops: domains that the cutoff spans; sides: of a domain, with neighbors; p: see parameters().
+    What one rank has more than the mean, all wait for; messages of a rank follow one another; reductions go up and down a tree."""
+    mean, most = float(np.mean(work)), float(np.max(work))
+    doubles = p["forward"] + p["reverse"] + p["builds"] * (p["border"] - FORWARD)
+    messages = sides * hops * sum(p["exchanges"]) + p["builds"] * 2 * sides * (1 + hops)
+    reductions = REDUCTIONS + p["builds"] * BUILD_REDUCTIONS + p["balance_reductions"] / 50
+    levels = math.ceil(math.log2(ranks)) if ranks > 1 else 0
+    halo = messages * p["latency"] + DOUBLE * doubles * float(np.max(ghosts)) / p["bandwidth"] if ranks > 1 else 0.0
+    return {"work": mean, "waiting": most - mean, "halo": halo, "reductions": reductions * 2 * levels * p["latency"]}
+
+
+def memory_of_rank(owned, ghosts, total, p):
+    """bytes: particles, ghosts, and atom_modify map array: 4 for each ID there is, on every rank"""
+    return p["owned_bytes"] * owned + p["ghost_bytes"] * ghosts + 4.0 * total
+
+
+def grid_of(ranks):
+    """two factors, as near to a square as they are"""
+    return max((n, ranks // n) for n in range(1, int(math.sqrt(ranks)) + 1) if ranks % n == 0)
+
+
+# ---------------------------------------------------------------------- runs
+
+def scene(name, variables):
+    """The head of an input, up to its runs."""
+    if name == "plate":
+        with open(PLATE) as f:
+            text, mark, rest = f.read().partition("# runs to the times of the frames")
+        if not mark:
+            sys.exit("%s has no line '# runs to the times of the frames'" % PLATE)
+        return text + "thermo 1000000\nthermo_style custom step cpu nbuild f_move time f_balance\nthermo_modify lost ignore\n"
+    with open(SOLID) as f:
+        text, mark, rest = f.read().partition("run          ${stir}")
+    if not mark:
+        sys.exit("%s has no line 'run ${stir}'" % SOLID)
+    text = text.replace("$(v_L/2)", "%s" % variables["Z"])
+    return text + "comm_modify vel no\nneigh_modify every 1 delay 0 check yes\nthermo_style custom step time\nthermo 1000000\n"
+
+
+def run(args, label, name, variables, tail, ranks, count=False):
+    """Run a scene; its log, and what messages were counted: (bytes, messages, reductions) of all ranks."""
+    folder = os.path.join(args.out, re.sub(r"[^\w.]+", "-", label))
+    os.makedirs(folder, exist_ok=True)
+    for old in glob.glob(os.path.join(folder, "*")):
+        os.remove(old)
+    with open(os.path.join(folder, "in"), "w") as f:
+        f.write(scene(name, variables) + tail)
+    cmd = ["mpirun", "-np", str(ranks)] + (["--oversubscribe"] if ranks > 2 else [])
+    if count:
+        cmd += ["--mca", "pml_monitoring_enable", "2", "--mca", "pml_monitoring_enable_output", "3", "--mca", "pml_monitoring_filename", "mon"]
+    cmd += [os.path.join(os.path.abspath(args.build), "lmp"), "-in", "in", "-screen", "none"]
+    for key, value in variables.items():
+        cmd += ["-var", key, str(value)]
+    done = subprocess.run(cmd, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode:
+        sys.exit("failed: %s in %s\n%s" % (" ".join(cmd), folder, done.stdout[-2000:]))
+    with open(os.path.join(folder, "log.lammps")) as f:
+        log = f.read()
+    return (log, counted(folder, ranks)) if count else log
+
+
+def counted(folder, ranks):
+    """Sums of the files of pml monitoring: bytes and messages between ranks, calls that all ranks take part in."""
+    size = number = calls = 0
+    for rank in range(ranks):
+        path = os.path.join(folder, "mon.%d.prof" % rank)
+        if not os.path.exists(path):
+            sys.exit("%s is missing: this MPI has no pml monitoring, which the check needs (Open MPI 4)" % path)
+        with open(path) as f:
+            text = f.read()
+        for a, b in re.findall(r"^E\t\d+\t\d+\t(\d+) bytes\t(\d+) msgs sent", text, re.M):
+            size, number = size + int(a), number + int(b)
+        if rank == 0:
+            world = text.partition("MPI_COMM_WORLD")[2]
+            calls = int(re.search(r"^A2A\t\d+\t\d+ bytes\t(\d+) msgs", world, re.M).group(1))
+    return size, number, calls
+
+
+def read_log(log):
+    """What a log says of its last run, and the setup report."""
+    found = {}
+    loop = re.findall(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps with (\d+) atoms", log, re.M)[-1]
+    found["time"], found["steps"], found["atoms"] = float(loop[0]), int(loop[2]), int(loop[3])
+    found["cpu"] = found["time"] * 0.01 * float(re.findall(r"^([\d.]+)% CPU use", log, re.M)[-1])
+    found["ghosts"] = float(re.findall(r"^Nghost: +(\S+) ave", log, re.M)[-1])
+    found["builds"] = int(re.findall(r"^Neighbor list builds = (\d+)", log, re.M)[-1])
+    found["cut"] = float(re.findall(r"ghost atom cutoff = (\S+)", log)[-1])
+    found["memory"] = float(re.findall(r"memory allocation .* = \S+ \| (\S+) \| \S+ Mbytes", log)[-1]) * 2**20
+    words = re.findall(r"doubles per ghost: (\d+) forward and (\d+) reverse in each step, (\d+) when new", log)[-1]
+    found["forward"], found["reverse"], found["border"] = FORWARD + int(words[0]), REVERSE + int(words[1]), BORDER + int(words[2])
+    found["terms"] = re.findall(r"^  terms: (.*)$", log, re.M)[-1]
+    found["arrays"] = re.findall(r"^  arrays, bytes: (.*)$", log, re.M)[-1]
+    found["grid"] = [int(n) for n in re.findall(r"(\d+) by (\d+) by (\d+) MPI processor grid", log)[-1]]
+    return found
+
+
+def exchanges_of(found, lists):
+    return exchanges("push" in found["arrays"], "Riemann" in found["terms"], lists)
+
+
+def plate_variables(dx):
+    return {"dx": dx, "quarter": "yes"}
+
+
+UNTIL = "variable ahead equal 16e-6-time\nfix stop all halt 1 v_ahead < 0.0 error continue message no\nrun 1000000\n"
+
+
+def table(*heads):
+    print("| %s |\n%s|" % (" | ".join(heads), "|---" * len(heads)), flush=True)
+
+
+def times(args, data):
+    """Wall times of whole runs, 1 and 2 ranks in turn."""
+    rows = []
+    table("scene", "ranks", "particles", "steps", "s", "us of a core per particle and step", "load of the machine")
+    coarse = round(args.dx * 2 ** (1 / 3), 4)
+    cases = [("plate, %g mm" % args.dx, "plate", plate_variables(args.dx), n) for n in (1, 2)]
+    cases += [("plate, %g mm" % coarse, "plate", plate_variables(coarse), 1)]
+    cases += [("solid, 32 x 32 x %d" % z, "solid", {"L": 32, "Z": z, "style": "riemann", "dir": os.path.join(HERE, "sph")}, n)
+              for z, n in ((16, 1), (16, 2), (32, 2))]
+    for label, name, variables, ranks in cases:
+        tail = UNTIL if name == "plate" else "run 20\nrun 100\n"
+        log = run(args, "times %s %d" % (label, ranks), name, variables, tail, ranks)
+        found = read_log(log)
+        rows.append({"scene": label, "ranks": ranks, "particles": found["atoms"], "steps": found["steps"], "s": found["time"],
+                     "us": 1e6 * found["time"] * ranks / found["steps"] / found["atoms"], "load": os.getloadavg()[0]})
+        print("| %(scene)s | %(ranks)d | %(particles)d | %(steps)d | %(s).1f | %(us).2f | %(load).1f |" % rows[-1], flush=True)
+    data["times"] = rows
+
+
+def costs(args, data):
+    """Processor seconds of a particle and of a ghost, from cubes with more and fewer ghosts each; the least of some runs."""
+    rows = []
+    for side in (10, 12, 16, 20, 24, 28):
+        variables = {"L": side, "Z": side, "style": "riemann", "dir": os.path.join(HERE, "sph")}
+        found = [read_log(run(args, "costs %d" % side, "solid", variables, "run 20\nrun %d\n" % (200 if side < 16 else 40), 1)) for _ in range(args.repeat)]
+        best = min(found, key=lambda f: f["cpu"])
+        rows.append([best["atoms"], best["ghosts"], best["cpu"] / best["steps"]])
+        print("%d particles, %d ghosts: %.2f us a particle" % (*rows[-1][:2], 1e6 * rows[-1][2] / rows[-1][0]), flush=True)
+    rows = np.array(rows)
+    share = 1.0 / rows[:, 2]  # relative errors count
+    seconds = np.linalg.lstsq(rows[:, :2] * share[:, None], np.ones(len(rows)), rcond=None)[0]
+    off = np.abs(rows[:, :2] @ seconds * share - 1).max()
+    data["costs"] = {"rows": rows.tolist(), "particle_s": seconds[0], "ghost_s": seconds[1], "off": off}
+    print("particle %.2f us, ghost %.2f us (fit off by %.0f %% at most)" % (1e6 * seconds[0], 1e6 * seconds[1], 100 * off), flush=True)
+
+
+def follow(args, data):
+    """The plate on one rank in one run: positions and who is asleep into dumps; time and lists of each 50 steps."""
+    tail = "dump d all custom 50 dump.* x y c_asleep\ndump_modify d format float %.5g\nthermo 50\n" + UNTIL
+    log = run(args, "follow", "plate", plate_variables(args.dx), tail, 1)
+    atoms = read_log(log)["atoms"]
+    rows = re.findall(r"^ +(\d+) +(\S+) +(\d+) +(\S+) +\S+ +(\S+) *$", log, re.M)
+    rows = np.array([[float(a) for a in row] for row in rows])
+    rows = rows[np.flatnonzero(rows[:, 0] == 0)[-1]:]  # of the last run
+    if rows[-1, 0] % 50:
+        rows = rows[:-1]
+    step, seconds, builds, asleep = rows[:, 0], rows[:, 1], rows[:, 2], rows[:, 3]
+    mean = 0.5 * (asleep[1:] + asleep[:-1])
+    spent, lists = np.diff(seconds), np.diff(builds)
+    awake_s, asleep_s = np.linalg.lstsq(np.stack([50 * (atoms - mean), 50 * mean], 1), spent, rcond=None)[0]
+    data["follow"] = {"dx": args.dx, "atoms": atoms, "steps": int(step[-1]), "seconds": seconds[-1], "builds": builds[-1] / step[-1], "lists": (lists / 50).tolist(),
+                      "awake_s": awake_s, "asleep_s": max(asleep_s, 0.0), "frames": [int(n) for n in step], "awake": (1 - asleep / atoms).tolist()}
+    print("awake %.2f us, asleep %.2f us a step; %.2f lists a step (%s); awake %s" % (
+        1e6 * awake_s, 1e6 * asleep_s, data["follow"]["builds"], " ".join("%.2f" % n for n in lists / 50),
+        " ".join("%.2f" % a for a in data["follow"]["awake"])), flush=True)
+
+
+def read_maps(args, steps):
+    """Maps of all particles, of those awake, and of the weights that fix balance sees, of frames of follow."""
+    maps = []
+    for step in steps:
+        x, y, asleep = np.loadtxt(os.path.join(args.out, "follow", "dump.%d" % step), skiprows=9, unpack=True)
+        wide = 2e-3 * args.dx  # whole spacings: others would see stripes in a lattice
+        edges = wide * np.arange(math.ceil(max(x.max(), y.max()) / wide) + 1)
+        maps.append([Map(x, y, w, edges) for w in (np.ones(len(x)), 1 - asleep, 1 - 0.9 * asleep)])
+    return maps
+
+
+def check(args, data):
+    """Volumes of steps in between: what a run counts less what a shorter one does."""
+    rows = []
+    table("scene, steps", "ranks", "new lists", "bytes a step, counted", "by ghosts in the log", "by shape", "messages", "model", "reductions", "model",
+          "fullest column to the mean", "model")
+    plate = plate_variables(args.dx)
+    windows = [("plate", plate, 10, 45), ("plate", plate, 160, 195), ("plate", plate, 360, 395),
+               ("solid", {"L": 32, "Z": 32, "style": "riemann", "dir": os.path.join(HERE, "sph")}, 100, 120)]
+    for name, variables, first, last in windows:
+        for ranks in (4, 8, 16):
+            ends = [run(args, "check %s %d %d" % (name, ranks, n), name, variables, "run %d\n" % n, ranks, count=True) for n in (first, last)]
+            a, b = (read_log(log) for log, _ in ends)
+            size, number, calls = (v - u for u, v in zip(ends[0][1], ends[1][1]))
+            steps, builds = last - first, b["builds"] - a["builds"]
+            # columns are those of the last fix balance, that of the start among them, when nobody sleeps yet
+            maps = read_maps(args, [first // 50 * 50])[0] if name == "plate" else None
+            row = predict(name, variables, ranks, a, b, steps, builds, maps, first)
+            row["imbalance"] = 1.0
+            if name == "plate":
+                row["imbalance"] = float(re.findall(r"^ +%d .* (\S+) *$" % last, ends[1][0], re.M)[-1])
+            row.update(scene=name, ranks=ranks, first=first, last=last, builds=builds, bytes=size / steps, messages=number / steps, reductions=calls / steps)
+            rows.append(row)
+            print("| %(scene)s, %(first)d-%(last)d | %(ranks)d | %(builds)d | %(bytes).0f | %(bytes_by_ghosts).0f | %(bytes_by_shape).0f | %(messages).1f | "
+                  "%(model_messages).1f | %(reductions).2f | %(model_reductions).2f | %(imbalance).2f | %(model_imbalance).2f |" % row, flush=True)
+    data["check"] = rows
+
+
+def predict(name, variables, ranks, a, b, steps, builds, maps, steps_done):
+    """Bytes and messages of a step of all ranks: with the ghosts that the log counts, and with those of the shape."""
+    grid, lists = b["grid"], True
+    forward, reverse = exchanges_of(b, lists)
+    doubles = b["forward"] + b["reverse"]
+    # atom_style sends borders instead of its forward exchange in steps with new lists
+    doubles += builds / steps * (b["border"] - FORWARD)
+    imbalance = 1.0
+    if name == "solid":
+        side = [variables["L"], variables["L"], variables["Z"]]
+        widths = [s / n for s, n in zip(side, grid)]
+        shape = ranks * sent_ghosts(widths, grid, b["cut"], (True,) * 3)
+        full = [w + 2 * b["cut"] for w in widths]
+        every = ranks * (np.prod(full) - np.prod(widths))
+        measured = 0.5 * ranks * (a["ghosts"] + b["ghosts"]) * shape / every  # ghosts of a rank of its own are not sent
+        per = halo_messages(grid, (True,) * 3)
+    else:
+        measured = 0.5 * ranks * (a["ghosts"] + b["ghosts"])
+        everyone, _, weighed = maps
+        weighed = everyone if steps_done < 50 else weighed
+        cuts = [weighed.cuts(k, grid[k], 0.7e-3 * variables["dx"]) for k in (0, 1)]
+        shape = float((everyone.columns(*cuts, b["cut"]) - everyone.columns(*cuts)).sum())
+        shares = weighed.columns(*cuts)
+        imbalance = float(shares.max() / shares.mean())
+        per = halo_messages(grid, (False,) * 3)
+    reductions = REDUCTIONS + builds / steps * BUILD_REDUCTIONS if name == "plate" else 1 + builds / steps  # no hvi/dt, no change of the box
+    messages = (forward + reverse) * per + builds / steps * list_messages(grid)
+    return {"ghosts": measured, "shape_ghosts": shape, "bytes_by_ghosts": DOUBLE * doubles * measured, "bytes_by_shape": DOUBLE * doubles * shape,
+            "model_messages": messages, "model_reductions": reductions, "model_imbalance": imbalance}
+
+def parameters(args, data):
+    """Of the model: counted, measured here, and those of the machine that is asked about."""
+    found = read_log(open(os.path.join(args.out, "follow", "log.lammps")).read())
+    p = {k: found[k] for k in ("forward", "reverse", "border", "cut")}
+    p.update(exchanges=exchanges_of(found, True), builds=data["follow"]["builds"], balance_reductions=BALANCE_REDUCTIONS,
+             latency=args.latency, bandwidth=args.bandwidth / args.ranks_per_node)
+    for key in ("awake_s", "asleep_s"):
+        p[key] = data["follow"][key] / args.core
+    p["ghost_share"] = data["costs"]["ghost_s"] / data["costs"]["particle_s"]
+    p["cut_spacings"] = p["cut"] / (1e-3 * data["follow"]["dx"])
+    log = open(os.path.join(args.out, "follow", "log.lammps")).read()
+    records, kept = re.findall(r"memory: (\d+) bytes per owned and ghost particle, (\d+) more", log)[-1]
+    near = float(re.findall(r"^Ave neighs/atom = (\S+)", log, re.M)[-1])
+    p["ghost_bytes"] = float(records) + ATOM_BYTES
+    p["owned_bytes"] = p["ghost_bytes"] + float(kept) + 24 + 8 * near  # hvi/lists; the list, and the neighbors within reach
+    return p
+
+
+def plate_steps(maps, ranks, n, n0, dx0, p):
+    """step_time() in the mean over the maps, and the fullest rank: of the same plate with n particles in place of n0."""
+    finer = (n / n0) ** (1 / 3)
+    cut, skin, k = p["cut"] / finer, 0.7e-3 * dx0 / finer, n / n0
+    grid = grid_of(ranks)
+    total, fullest = {}, (0.0, 0.0)
+    for everyone, awake, weighed in maps:
+        cuts = [weighed.cuts(axis, grid[axis], skin) for axis in (0, 1)]
+        inside, active = k * everyone.columns(*cuts), k * awake.columns(*cuts)
+        ghosts, busy = k * everyone.columns(*cuts, cut) - inside, k * awake.columns(*cuts, cut) - active
+        if ranks == 1:
+            ghosts, busy = 0 * ghosts, 0 * busy
+        work = p["awake_s"] * (active + p["ghost_share"] * busy) + p["asleep_s"] * (inside - active)
+        hops = max(math.ceil(cut / np.diff(c).min()) for c in cuts)
+        for key, value in step_time(work, ghosts, ranks, hops, p).items():
+            total[key] = total.get(key, 0.0) + value / len(maps)
+        total["alone"] = total.get("alone", 0.0) + float((p["awake_s"] * active + p["asleep_s"] * (inside - active)).sum()) / len(maps)
+        i = np.unravel_index((inside + ghosts).argmax(), inside.shape)
+        fullest = max(fullest, (float(inside[i]), float(ghosts[i])), key=sum)
+    total["steps"] = finer
+    return summary(total, fullest, n, ranks, p)
+
+
+def cube_steps(ranks, n, p):
+    """The same for a full periodic cube of the same material, all awake, cut into ranks cubes."""
+    side = (n / ranks) ** (1 / 3)
+    ghosts = sent_ghosts((side,) * 3, (2,) * 3, p["cut_spacings"], (True,) * 3)
+    work = np.array([p["awake_s"] * (n / ranks + p["ghost_share"] * ghosts)])
+    total = step_time(work, np.array([ghosts]), ranks, math.ceil(p["cut_spacings"] / side), p, 6)
+    total["alone"], total["steps"] = p["awake_s"] * n, 1.0
+    return summary(total, (n / ranks, ghosts), n, ranks, p)
+
+
+def summary(total, fullest, n, ranks, p):
+    total["ghost_work"] = total["work"] - total["alone"] / ranks
+    total["step"] = total["work"] + total["waiting"] + total["halo"] + total["reductions"]
+    total["efficiency"] = total["alone"] / ranks / total["step"]
+    total["efficiency_balanced"] = total["alone"] / ranks / (total["step"] - total["waiting"])
+    total["memory"] = memory_of_rank(*fullest, n, p)
+    return total
+
+
+def model(args, data):
+    """Plates of up to 1e9 particles on up to 1e4 ranks."""
+    p, n0 = parameters(args, data), data["follow"]["atoms"]
+    # of each interval the middle would be best; the start is not counted, which has nobody awake
+    maps = read_maps(args, data["follow"]["frames"][1:])
+    print("bytes per ghost and step %d, exchanges %d and %d, lists %.2f a step, ghost %.2f of a particle's time" % (
+        DOUBLE * (p["forward"] + p["reverse"]), *p["exchanges"], p["builds"], p["ghost_share"]))
+    table("scene", "particles", "ranks", "per rank", "ms a step", "run h", "efficiency", "if nobody waited", "ghosts' work", "waiting", "halo",
+          "reductions", "fullest rank MB, of that map")
+    rows, many = [], (64, 256, 1024, 4096, 10000)
+    cases = [("plate", n0, ranks) for ranks in (2, 16, 64)] + [("plate", 10 ** k, ranks) for k in range(6, 10) for ranks in many]
+    cases += [("cube", 10 ** k, ranks) for k in (6, 9) for ranks in many]
+    for name, n, ranks in cases:
+        t = plate_steps(maps, ranks, n, n0, data["follow"]["dx"], p) if name == "plate" else cube_steps(ranks, n, p)
+        hours = t["step"] * data["follow"]["steps"] * t["steps"] / 3600
+        rows.append(dict(t, scene=name, particles=n, ranks=ranks, hours=hours))
+        print("| %s | %.3g | %d | %.0f | %.3g | %s | %.2f | %.2f | %s | %.0f, %.0f%s |" % (
+            name, n, ranks, n / ranks, 1e3 * t["step"], "%.3g" % hours if name == "plate" else "", t["efficiency"], t["efficiency_balanced"],
+            " | ".join("%.0f %%" % (100 * t[key] / t["step"]) for key in ("ghost_work", "waiting", "halo", "reductions")),
+            t["memory"] / 1e6, 4e-6 * n, " **too much**" if t["memory"] > args.memory else ""), flush=True)
+    data["model"] = rows
+
+
+STAGES = ("times", "costs", "follow", "check", "model")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", default="build")
+    parser.add_argument("--out", default="build/scaling")
+    parser.add_argument("--only", default=",".join(STAGES), help="stages, separated by commas")
+    parser.add_argument("--dx", type=float, default=0.5, help="spacing of the plate, mm")
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--latency", type=float, default=2e-6, help="of a message and of a hop of a reduction, s")
+    parser.add_argument("--bandwidth", type=float, default=25e9, help="of a node, bytes/s each way")
+    parser.add_argument("--ranks-per-node", type=int, default=64)
+    parser.add_argument("--memory", type=float, default=4e9, help="of a rank, bytes")
+    parser.add_argument("--core", type=float, default=1.0, help="speed of a core there, of a core here")
+    args = parser.parse_args()
+    stages = args.only.split(",")
+    if set(stages) - set(STAGES):
+        parser.error("--only takes " + ", ".join(STAGES))
+    args.out = os.path.abspath(args.out)
+    os.makedirs(args.out, exist_ok=True)
+    path = os.path.join(args.out, "scaling.json")
+    data = {}
+    if os.path.exists(path):
+        with open(path) as f:
+            data = json.load(f)
+    for stage in stages:
+        print("## " + stage, flush=True)
+        globals()[stage](args, data)
+        with open(path, "w") as f:
+            json.dump(data, f, indent=1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,95 @@
+"""bench/scaling.py: the model of communication and imbalance, by counting in small cases; no run, no time."""
+
+import importlib.util
+import pathlib
+
+import numpy as np
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+spec = importlib.util.spec_from_file_location("scaling", ROOT / "bench" / "scaling.py")
+scaling = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(scaling)
+
+
+def lattice(n):
+    return np.stack(np.meshgrid(*[np.arange(k) + 0.5 for k in n], indexing="ij"), -1).reshape(-1, 3)
+
+
+@pytest.mark.parametrize("ranks", [(2, 2, 1), (1, 2, 2), (2, 2, 2)])
+def test_ghosts_of_a_cube(ranks):
+    """those that come from others, counted: images of a rank's own are copied, but those of them that later directions send are sent"""
+    side, cut = 12, 3
+    widths = [side // n for n in ranks]
+    sent = scaling.sent_ghosts(widths, ranks, cut, (True,) * 3)
+    here, count = np.array([widths], float) / 2, 0
+    for x in (lattice((3 * side,) * 3) - side):
+        out = [abs(x[k] - here[0][k]) > widths[k] / 2 for k in range(3)]
+        near = all(abs(x[k] - here[0][k]) < widths[k] / 2 + cut for k in range(3))
+        # it comes in the last direction in which it is outside
+        count += near and any(out) and ranks[max(k for k in range(3) if out[k])] > 1
+    assert sent == pytest.approx(count)
+    assert scaling.sent_ghosts(widths, (1, 1, 1), cut, (True,) * 3) == 0.0
+
+
+def test_messages():
+    """counted from side to side of a grid of ranks"""
+    for ranks in ((2, 2, 1), (4, 2, 1), (3, 1, 2)):
+        for around in (True, False):
+            count = 0
+            for r in np.ndindex(*ranks):
+                for k in range(3):
+                    for step in (-1, 1):
+                        count += ranks[k] > 1 and (around or 0 <= r[k] + step < ranks[k])
+            assert scaling.halo_messages(ranks, (around,) * 3) == count
+    assert scaling.list_messages((1, 1, 1)) == 0 and scaling.list_messages((2, 1, 1)) == 2 * (2 + 2) and scaling.list_messages((4, 1, 1)) == 4 * (4 + 2)
+
+
+def test_exchanges():
+    """of the forms of gradient corrected"""
+    assert scaling.exchanges(False, False, False) == (3, 3)
+    assert scaling.exchanges(True, True, True) == (6, 4)
+
+
+def test_map_counts():
+    """particles in columns, and those around: on whole bins exactly, in between linear"""
+    x = lattice((8, 8, 3))
+    m = scaling.Map(x[:, 0], x[:, 1], np.ones(len(x)), np.arange(9.0))
+    cuts = np.array([0.0, 3.0, 8.0])
+    assert np.allclose(m.columns(cuts, cuts), 3 * np.outer([3, 5], [3, 5]))
+    assert np.allclose(m.columns(cuts, cuts, 2.0), 3 * np.outer([5, 7], [5, 7]))  # nothing beyond the edges
+    assert np.allclose(m.columns(np.array([0.0, 0.5]), np.array([0.0, 8.0])), 3 * 0.5 * 8)
+
+
+def test_cuts():
+    """equal shares of weight in each direction, of unequal widths; not nearer than asked"""
+    x = lattice((8, 8, 1))
+    weight = np.where(x[:, 0] < 2, 9.0, 1.0)
+    m = scaling.Map(x[:, 0], x[:, 1], weight, np.arange(9.0))
+    assert np.allclose(m.cuts(1, 4), [0, 2, 4, 6, 8])
+    across = m.cuts(0, 4)
+    assert np.allclose(m.columns(across, np.array([0.0, 8.0])), weight.sum() / 4)
+    assert across[1] < 1.0 and np.diff(m.cuts(0, 4, 1.0)).min() >= 1.0 - 1e-12
+
+
+P = dict(forward=10, reverse=5, border=13, exchanges=(2, 1), builds=0.5, balance_reductions=50, latency=1e-6, bandwidth=1e9, owned_bytes=2.0, ghost_bytes=1.0)
+
+
+def test_step_time():
+    """by hand"""
+    t = scaling.step_time(np.array([1.0, 3.0]), np.array([100.0, 200.0]), 4, 1, P)
+    assert t["work"] == 2.0 and t["waiting"] == 1.0
+    assert t["halo"] == pytest.approx((4 * 3 + 0.5 * 16) * 1e-6 + 8 * (15 + 0.5 * 5) * 200 / 1e9)
+    assert t["reductions"] == pytest.approx((2 + 0.5 * 3 + 1) * 2 * 2 * 1e-6)
+    alone = scaling.step_time(np.array([1.0]), np.array([0.0]), 1, 1, P)
+    assert alone == {"work": 1.0, "waiting": 0.0, "halo": 0.0, "reductions": 0.0}
+    assert scaling.memory_of_rank(10, 5, 100, P) == 20 + 5 + 400
+
+
+def test_counted(tmp_path):
+    """files of Open MPI's monitoring: its own messages (I) are not counted, nor calls of other communicators"""
+    for rank in range(2):
+        (tmp_path / f"mon.{rank}.prof").write_text(
+            f"# POINT TO POINT\nE\t{rank}\t{1 - rank}\t100 bytes\t3 msgs sent\t1,2\nI\t{rank}\t{1 - rank}\t999 bytes\t9 msgs sent\n# COLLECTIVES\n"
+            f"D\tMPI_COMM_SELF\tprocs: {rank}\nA2A\t{rank}\t0 bytes\t77 msgs sent\nD\tMPI_COMM_WORLD\tprocs: 0,1\nA2A\t{rank}\t50 bytes\t7 msgs sent\n")
+    assert scaling.counted(str(tmp_path), 2) == (200, 6, 7)
