@@ -68,16 +68,15 @@ struct SpallVoids {
 
   double growth(double tension, double K, double D, double dt) const
   {
-    const double s = sigma * std::max(1.0 - D, 1e-6), x = tension / s, n = 1.0 / m;
-    if (!(x > 0.0) || !(K > 0.0) || !(dt * rate * std::pow(x, n) > NOTHING)) return 0.0;
-    const double c = K * dt * rate / s;
+    if (!(K > 0.0) || !(grown(tension, D, dt) > NOTHING)) return 0.0;
+    const double s = strength(D), x = tension / s, n = 1.0 / m, c = K * dt * rate / s;
     double y = std::min(x, std::pow(x / c, m));
     for (int k = 0; k < 100; k++) {
       const double f = c * std::pow(y, n), step = (y + f - x) / (1.0 + n * f / y);
       y -= step;
       if (!(step > 1e-14 * y)) break;
     }
-    return dt * rate * std::pow(y, n);
+    return grown(y * s, D, dt);
   }
 
   // a step to the density rho and the energy e, of something that size
@@ -90,21 +89,25 @@ struct SpallVoids {
       return;
     }
 
-    // tension is nearly, not quite linear in what is grown: K is that of the chord
+    // Tension is nearly, not quite linear in what is grown: K is that of the chord.  At rho0 none is
+    // left, or little.  Where the equation of state is far from that, between lo and hi.
 
     const double before = 1.0 - v.phi, tension = -before * p;
-    double K = rho * csq, g = 0.0, now = tension, left = before;
-    for (int k = 0; k < 50; k++) {
-      g = growth(tension, K, v.D, dt);
-      if (g == 0.0) return;
+    const double apart = std::log(eos.rho0() * before / rho);
+    double K = apart > 0.0 ? std::max(rho * csq, tension / apart) : rho * csq;
+    double g = growth(tension, K, v.D, dt), now = tension, left = before;
+    if (g == 0.0) return;
+    double lo = 0.0, hi = 1.0 + std::max(apart, 0.0);
+    for (int k = 0; k < 200; k++) {
+      const bool chord = k % 4 < 3 && g > lo && g < hi;
+      if (!chord) g = 0.5 * (lo + hi);
       left = before * std::exp(-g);
-      if (!eos.evaluate(rho / left, e, p, csq)) {
-        K *= 2.0;
-        continue;
-      }
-      now = -left * p;
-      if (std::fabs(now - (tension - K * g)) <= 1e-10 * tension) break;
+      now = eos.evaluate(rho / left, e, p, csq) ? -left * p : -tension;
+      if (chord && std::fabs(now - (tension - K * g)) <= 1e-10 * tension) break;
+      if (hi - lo <= 1e-14 * hi) break;
+      (grown(now, v.D, dt) > g ? lo : hi) = g;
       K = now < tension ? (tension - now) / g : 2.0 * K;
+      g = growth(tension, K, v.D, dt);
     }
     v.D += (before - left) / critical(size);
     v.phi = 1.0 - left;
@@ -122,6 +125,15 @@ struct SpallVoids {
 
  private:
   static constexpr double NOTHING = 1e-13;    // of a volume, in a step
+
+  double strength(double D) const { return sigma * std::max(1.0 - D, 1e-6); }
+
+  // (2) under a constant tension
+
+  double grown(double tension, double D, double dt) const
+  {
+    return tension > 0.0 ? dt * rate * std::pow(tension / strength(D), 1.0 / m) : 0.0;
+  }
 
   // until there is no pressure, or no void
 
