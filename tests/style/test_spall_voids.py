@@ -103,7 +103,7 @@ def test_pressure(lmp, tmp_path, material):
     alone = 16 * mu + (2.0 + 0.5 * mu) * f["esph"]  # in tension; rho0 1, c0 4, masses 1
     borne = np.where(f["voids"] > 0, (1 - f["voids"]) * np.minimum(alone, 0), alone)
     sound = (f["spalled"] == 0) & (mu < 0)
-    assert (sound & (f["voids"] > 0.001)).sum() > 5 and (f["p"][sound] < -0.3).sum() > 5
+    assert (sound & (f["voids"] > 0.001)).sum() > 5 and (f["p"][sound] < -0.1).sum() > 5
     assert np.abs(f["p"] - borne)[sound].max() < 1e-9
     assert (f["p"][f["spalled"] == 1] >= 0).all()
 
