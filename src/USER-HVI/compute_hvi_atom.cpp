@@ -31,9 +31,9 @@ using namespace LAMMPS_NS;
 
 // in the order of Value
 
-static const char *const NAMES[] = {"p",      "e",      "T",       "c",   "h",     "eps",
-                                    "epsdot", "damage", "spalled", "vm",  "sxx",   "syy",
-                                    "szz",    "sxy",    "sxz",     "syz", "asleep", "nbonds"};
+static const char *const NAMES[] = {
+    "p",           "e",  "T",   "c",   "h",   "eps", "epsdot", "damage", "spalled", "voids",
+    "void_damage", "vm", "sxx", "syy", "szz", "sxy", "sxz",    "syz",    "asleep",  "nbonds"};
 
 /* ---------------------------------------------------------------------- */
 
@@ -113,7 +113,7 @@ double ComputeHVIAtom::value_of(Value value, int i) const
   const double e = atom->esph[i] / m;
   if (value == ENERGY) return e;
   if (value == TEMPERATURE) {
-    const double T = material->eos->temperature(atom->rho[i], e);
+    const double T = material->eos->temperature(strength ? strength->density(i) : atom->rho[i], e);
     return std::isnan(T) ? 0.0 : T;
   }
   double p, csq;
@@ -139,6 +139,10 @@ double ComputeHVIAtom::solid_value(Value value, int i, double p) const
       return std::min(s.damage, 1.0);
     case SPALLED:
       return s.spalled;
+    case VOIDS:
+      return s.voids.phi;
+    case VOID_DAMAGE:
+      return std::min(s.voids.D, 1.0);
     case MISES:
       return HVI::von_mises(s.S);
     case SXX:

@@ -42,6 +42,8 @@ class ComputeHVIAtom : public Compute {
     EPSDOT,
     DAMAGE,
     SPALLED,
+    VOIDS,
+    VOID_DAMAGE,
     MISES,
     SXX,
     SYY,

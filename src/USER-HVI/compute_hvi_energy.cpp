@@ -32,7 +32,7 @@ enum {
   KINETIC, INTERNAL, CONTACT, SPRING, BROKEN, LEFT, CLAMPS, TOTAL, RATIO,
   PX, PY, PZ, LEFT_PX, LEFT_PY, LEFT_PZ, JX, JY, JZ,
   MASS, LEFT_MASS, LEFT_COUNT, BONDS_BROKEN, BONDS_LEFT,
-  P0X, P0Y, P0Z, MASS0, VISCOUS, PLASTIC, MISSED, NVALUES
+  P0X, P0Y, P0Z, MASS0, VISCOUS, PLASTIC, MISSED, VOIDS, NVALUES
 };
 // clang-format on
 
@@ -140,6 +140,7 @@ void ComputeHVIEnergy::compute_vector()
     for (int i = 0; i < atom->nlocal; i++) {
       here[INTERNAL] += carrier->internal_energy(i);
       here[PLASTIC] += carrier->plastic_work(i);
+      here[VOIDS] += carrier->void_work(i);
     }
   if (force->pair) here[CONTACT] = force->pair->eng_vdwl + force->pair->eng_coul;
   if (force->bond) here[SPRING] = force->bond->energy;
@@ -161,6 +162,7 @@ void ComputeHVIEnergy::compute_vector()
   vector[VISCOUS] = booked[FixHVILedger::VISCOUS];
   vector[MISSED] = booked[FixHVILedger::MISSED];
   vector[PLASTIC] += booked[FixHVILedger::LEFT_PLASTIC];
+  vector[VOIDS] += booked[FixHVILedger::LEFT_VOIDS];
 
   vector[TOTAL] = 0.0;
   for (int n = KINETIC; n < TOTAL; n++) vector[TOTAL] += vector[n];

@@ -30,13 +30,13 @@
 using namespace LAMMPS_NS;
 
 /* ----------------------------------------------------------------------
-   Two sections of data files: the state; the stress in the last forces with what the next step
-   needs beside it.  Data files have no infinity: it is DBL_MAX.
+   Sections of data files: the state; the stress in the last forces with what the next step
+   needs beside it; voids, where they grow.  Data files have no infinity: it is DBL_MAX.
 ------------------------------------------------------------------------- */
 
 namespace {
 using Solid = HVI::SolidState;
-enum { STATE, FORCES };
+enum { STATE, FORCES, VOIDS };
 }    // namespace
 
 constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
@@ -68,6 +68,10 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"shear", FORCES, offsetof(Solid, shear)},
     {"rate", FORCES, offsetof(Solid, rate)},
 
+    {"voids", VOIDS, offsetof(Solid, voids.phi)},
+    {"damage", VOIDS, offsetof(Solid, voids.D)},
+    {"work", VOIDS, offsetof(Solid, voids.work)},
+
     // made anew when a run begins
     {nullptr, 0, offsetof(Solid, yield)},
     {nullptr, 0, offsetof(Solid, carried.xx)},
@@ -81,7 +85,7 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
 /* ---------------------------------------------------------------------- */
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
-    FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces"}),
+    FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces", "_voids"}),
     spall_name("principal"), store(nullptr), fresh(true), checked(false)
 {
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
@@ -124,9 +128,12 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
         options.spall = HVI::Spall::PRINCIPAL;
       else if (value == "zero")
         options.spall = HVI::Spall::ZERO;
+      else if (value == "voids")
+        options.spall = HVI::Spall::VOIDS;
       else
         error->all(FLERR,
-                   "Fix hvi/johnson-cook spall must be none, pressure, principal or zero, not {}",
+                   "Fix hvi/johnson-cook spall must be none, pressure, principal, zero or voids, "
+                   "not {}",
                    value);
     } else if (key == "weibull") {
       options.weibull = utils::numeric(FLERR, value, false, lmp);
@@ -152,6 +159,7 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     error->all(FLERR, "Fix hvi/johnson-cook weibull scatters damage: it needs damage yes");
   if (options.weibull > 0.0 && !atom->tag_enable)
     error->all(FLERR, "Fix hvi/johnson-cook weibull needs IDs of particles");
+  if (options.spall != HVI::Spall::VOIDS) wd_section = VOIDS;    // without this one, the last
   begin();
 }
 
@@ -251,9 +259,10 @@ void FixHVIJohnsonCook::make_models()
     warned[itype] = 1;
     if (comm->me == 0)
       error->warning(FLERR,
-                     "Fix hvi/johnson-cook: material {} (type {}) has no section spall limit and "
+                     "Fix hvi/johnson-cook: material {} (type {}) has no section spall {} and "
                      "does not spall",
-                     material->name, itype);
+                     material->name, itype,
+                     options.spall == HVI::Spall::VOIDS ? HVI::SpallVoids::name : "limit");
   }
   if (!anywhere || (liquids && !here))
     error->all(FLERR,
@@ -321,6 +330,17 @@ double FixHVIJohnsonCook::plastic_work(int i) const
   return (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * extra[i].heat;
 }
 
+double FixHVIJohnsonCook::void_work(int i) const
+{
+  return (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * extra[i].voids.work;
+}
+
+double FixHVIJohnsonCook::density(int i) const
+{
+  const HVI::SolidModel *const model = of(i);
+  return model ? model->density(extra[i], atom->rho[i]) : atom->rho[i];
+}
+
 // what the model of a particle needs of the last forces; before the first there are none
 
 HVI::SolidInput FixHVIJohnsonCook::input(int i, Needs needs) const
@@ -331,6 +351,35 @@ HVI::SolidInput FixHVIJohnsonCook::input(int i, Needs needs) const
   if (needs >= FORCES) in.p = store->fields.pressure(i);
   if (needs >= GRADIENT) in.L = store->fields.velocity_gradient(i);
   if (options.weibull > 0.0) in.id = atom->tag[i];
+  const HVI::SolidModel *const model = of(i);
+  if (model && model->has_size()) in.size = spacing(i);
+  return in;
+}
+
+// in a step that forces come in the middle of: with the density of its end
+
+HVI::SolidInput FixHVIJohnsonCook::settled_input(int i) const
+{
+  HVI::SolidInput in = input(i, FORCES);
+  in.rho = store->fields.density(i);
+  return in;
+}
+
+double FixHVIJohnsonCook::spacing(int i) const
+{
+  const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+  const double V = m / store->materials.of(atom->type[i])->eos->rho0();
+  const int dim = store->fields.settings.laws.dim;
+  return dim == 3 ? std::cbrt(V) : (dim == 2 ? std::sqrt(V) : V);
+}
+
+// at the end of the step that begins, as fix hvi/sph extrapolates it
+
+HVI::SolidInput FixHVIJohnsonCook::extrapolated(int i, double dt) const
+{
+  HVI::SolidInput in = input(i, STATE);
+  in.rho += dt * atom->drho[i];
+  in.e += dt * atom->desph[i] / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
   return in;
 }
 
@@ -356,7 +405,7 @@ void FixHVIJohnsonCook::first_half(double dt)
     const HVI::SolidModel *const model = of(i);
     if (!model) continue;
     if (whole) {
-      model->present(extra[i]);
+      model->present(extra[i], input(i, STATE));
       continue;
     }
     if (fresh || !model->ready(extra[i])) {
@@ -364,7 +413,7 @@ void FixHVIJohnsonCook::first_half(double dt)
       if (fresh && store->fields.asleep(i))
         HVI::SolidModel::rest(extra[i]);    // as in second_half()
     }
-    model->first_half(extra[i], dt);
+    model->first_half(extra[i], extrapolated(i, dt), dt);
   }
   fresh = false;
 }
@@ -390,10 +439,7 @@ void FixHVIJohnsonCook::whole_step(double dt)
 {
   each_solid([this, dt](int n, const int *who, Solid *const *states) {
     HVI::SolidInput in[HVI::LANES];
-    for (int k = 0; k < n; k++) {
-      in[k] = input(who[k], FORCES);
-      in[k].rho = store->fields.density(who[k]);
-    }
+    for (int k = 0; k < n; k++) in[k] = settled_input(who[k]);
     return of(who[0])->whole_step(n, states, in, dt);
   });
 }
@@ -438,8 +484,8 @@ HVI::SphStress FixHVIJohnsonCook::settled(int i) const
 {
   const Solid &s = extra[i];
   const HVI::SolidModel *const model = of(i);
-  return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, model ? model->p_min(s) : -HVI::NO_LIMIT,
-          s.shear};
+  const double p_min = model ? model->p_min(s, settled_input(i)) : -HVI::NO_LIMIT;
+  return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, p_min, s.shear};
 }
 
 /* ----------------------------------------------------------------------

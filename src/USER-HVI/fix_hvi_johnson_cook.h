@@ -64,9 +64,14 @@ class FixHVIJohnsonCook :
   double pressure(int i, double p) const    // what is left of that of the equation of state
   {
     const HVI::SolidModel *const model = of(i);
-    return model ? model->pressure(extra[i], p) : p;
+    if (!model) return p;
+    HVI::SolidInput in = input(i, STATE);
+    in.p = p;
+    return model->pressure(extra[i], in);
   }
+  double density(int i) const;                // of the matter around voids
   double plastic_work(int) const override;    // energy, from the start on
+  double void_work(int) const override;
   bool failed(int i) const { return extra[i].failed(); }
   bool can_fail() const;                   // collective: has failed, or may fail in this run
   std::string laws_of(int itype) const;    // in words
@@ -90,6 +95,9 @@ class FixHVIJohnsonCook :
   const HVI::SolidModel *of(int) const;      // null: no solid
   enum Needs { STATE, FORCES, GRADIENT };    // each with those before it
   HVI::SolidInput input(int, Needs) const;
+  HVI::SolidInput settled_input(int) const;
+  HVI::SolidInput extrapolated(int, double) const;
+  double spacing(int) const;
   template <class Step> void each_solid(const Step &);
 };
 

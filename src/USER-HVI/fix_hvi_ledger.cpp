@@ -263,6 +263,7 @@ void FixHVILedger::let_go(double dt)
   for (int k = 0; k < 3; k++) entry[LEFT_PX + k] += left.momentum[k];
   entry[LEFT_MASS] += left.mass;
   entry[LEFT_PLASTIC] += left.plastic;
+  entry[LEFT_VOIDS] += left.voids;
   entry[LEFT_COUNT] += left.count;
 
   // half the records with newton_bond off, where a bond has one at either end

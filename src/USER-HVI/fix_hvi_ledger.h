@@ -40,6 +40,7 @@ class FixHVILedger : public Fix {
     VISCOUS,                                // heat from viscosity, a part of internal energy
     LEFT_PLASTIC,                           // plastic work that left the box, another part
     MISSED,                                 // work put right in internal energy, see fix hvi/sph
+    LEFT_VOIDS,                             // work of opening voids that left the box, another part
     NENTRY
   };
   // clang-format on

@@ -23,11 +23,12 @@ class EnergyCarrier {
   virtual ~EnergyCarrier() noexcept(false) {}
 
   // of owned particle i, and what leaves with it: internal energy beyond its esph, at the time
-  // its velocity stands for, also in the middle of a step; plastic work so far, a part of the
-  // internal energy
+  // its velocity stands for, also in the middle of a step; plastic work and that of opening voids
+  // so far, parts of the internal energy
 
   virtual double internal_energy(int /*i*/) const { return 0.0; }
   virtual double plastic_work(int /*i*/) const { return 0.0; }
+  virtual double void_work(int /*i*/) const { return 0.0; }
 
   // of a pair that is torn apart, which types and distance say all about: below which squared
   // distance it has energy, that energy, and the force divided by distance

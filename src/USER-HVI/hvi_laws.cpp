@@ -90,7 +90,7 @@ namespace {
       strength<StrengthCowperSymonds>(), strength<StrengthZerilliArmstrong>(),
       strength<StrengthPerfect>(),       strength<StrengthNone>(),
       damage<DamageJohnsonCook>(),       numbers<SpallLimit>("spall"),
-      numbers<ThermalWork>("thermal"),
+      numbers<SpallVoids>("spall"),      numbers<ThermalWork>("thermal"),
   };
 
   // the law of a section of the given kind and the values of its parameters; null if something is wrong
@@ -168,6 +168,14 @@ std::unique_ptr<Damage> make_damage(const Section &section, std::string &problem
   std::vector<double> values;
   const LawEntry *const law = read_law("damage", section, values, problem);
   return law ? law->damage(values.data()) : nullptr;
+}
+
+bool make_voids(const Section &section, SpallVoids &voids, std::string &problem)
+{
+  std::vector<double> values;
+  const LawEntry *const law = read_law("spall", section, values, problem);
+  if (law) voids = SpallVoids::make(values.data());
+  return law;
 }
 
 }    // namespace HVI

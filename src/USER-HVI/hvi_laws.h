@@ -11,6 +11,7 @@
 
 #include "hvi_damage.h"
 #include "hvi_section.h"
+#include "hvi_spall_voids.h"
 #include "hvi_strength.h"
 
 #include <memory>
@@ -43,6 +44,7 @@ std::string law_names(const std::string &kind);    // "johnson-cook, ..."
 
 std::unique_ptr<Strength> make_strength(const Section &, std::string &problem);
 std::unique_ptr<Damage> make_damage(const Section &, std::string &problem);
+bool make_voids(const Section &, SpallVoids &, std::string &problem);    // of a section spall voids
 
 }    // namespace HVI
 

@@ -125,6 +125,7 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
     for (const auto *carrier : carriers) {
       a.energy += carrier->internal_energy(i);
       a.plastic += carrier->plastic_work(i);
+      a.voids += carrier->void_work(i);
     }
     if (clamped) a.clamped_energy += ke;
     for (int k = 0; k < 3; k++) {

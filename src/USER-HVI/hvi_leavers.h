@@ -27,7 +27,7 @@ class HVILeavers : protected Pointers {
   struct Account {    // on this rank, but nrecords of all
     double energy;    // kinetic, internal, of contacts and bonds torn apart
     double momentum[3], mass, count;
-    double plastic;                                // work, a part of the internal energy
+    double plastic, voids;                         // work, parts of the internal energy
     double clamped_energy, clamped_momentum[3];    // of leavers in the clamped groups
     bigint nrecords;                               // of bonds: one or, newton_bond off, two a bond
     std::vector<std::string> unknown;              // styles whose energy is not in it

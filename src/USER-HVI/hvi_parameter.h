@@ -31,6 +31,7 @@ struct Dimension {
 };
 
 static constexpr Dimension NUMBER = {0, 0, 0, 0};
+static constexpr Dimension LENGTH = {0, 1, 0, 0};
 static constexpr Dimension DENSITY = {1, -3, 0, 0};
 static constexpr Dimension SPEED = {0, 1, -1, 0};
 static constexpr Dimension PRESSURE = {1, -1, -2, 0};

@@ -12,6 +12,7 @@
 #include "hvi_mirror.h"
 #include "hvi_vector.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -34,6 +35,13 @@ namespace {
     s.xy += dt * r.xy;
     s.xz += dt * r.xz;
     s.yz += dt * r.yz;
+  }
+
+  // what voids have left of the strength
+
+  double intact(const SolidState &s)
+  {
+    return std::max(0.0, 1.0 - s.voids.D);
   }
 
   void crush(SolidState &s)
@@ -102,7 +110,16 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
     }
   }
 
-  if (options.spall != Spall::NONE) {
+  if (options.spall == Spall::VOIDS) {
+    model->sigma_p = NO_LIMIT;
+    if (const Section *const s = material.section("spall", SpallVoids::name)) {
+      model->with_voids = make_voids(*s, model->voids, problem);
+      if (!model->with_voids) {
+        problem = "has a wrong section spall voids: " + problem;
+        return nullptr;
+      }
+    }
+  } else if (options.spall != Spall::NONE) {
     const Section *const s = material.section("spall", "limit");
     model->sigma_p = s ? s->values.at("sigma_p") : NO_LIMIT;
   }
@@ -145,7 +162,7 @@ void SolidModel::start(SolidState &s, SolidInput in, bool anew) const
   in.p = 0.0;    // there is no pressure yet
   if (s.shear == 0.0 && !s.failed()) s.shear = law->shear_modulus(conditions(s, in));
   s.yield = UNKNOWN;
-  show(s, s.S);
+  show(s, s.S, in);
 }
 
 // begin: a run begins, so the rate of S is not that of the step before
@@ -155,10 +172,10 @@ void SolidModel::prepare(SolidState &s, const SolidInput &in, bool begin) const
   if (s.failed()) return;
   if (begin) s.carried = elastic_rate(s, in);
   if (s.yield == UNKNOWN)
-    s.yield = s.rate > 0.0 ? von_mises(s.S) : law->yield(s.eps, 0.0, conditions(s, in));
+    s.yield = s.rate > 0.0 ? von_mises(s.S) : intact(s) * law->yield(s.eps, 0.0, conditions(s, in));
 }
 
-void SolidModel::first_half(SolidState &s, double dt) const
+void SolidModel::first_half(SolidState &s, const SolidInput &end, double dt) const
 {
   Deviator ahead = s.S;
   if (!s.failed()) {
@@ -169,12 +186,15 @@ void SolidModel::first_half(SolidState &s, double dt) const
     const double stress = von_mises(ahead);
     if (stress > s.yield) ahead = scaled(ahead, s.yield / stress);
   }
-  show(s, ahead);
+  const SpallVoids::State kept = s.voids;
+  if (with_voids && !s.failed()) voids.advance(s.voids, *eos, end.rho, end.e, end.size, dt);
+  show(s, ahead, end);
+  s.voids = kept;
 }
 
-void SolidModel::present(SolidState &s) const
+void SolidModel::present(SolidState &s, const SolidInput &in) const
 {
-  show(s, s.S);
+  show(s, s.S, in);
 }
 
 void SolidModel::rest(SolidState &s)
@@ -220,20 +240,32 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
   Plastic plastic[LANES];
   for (int k = 0; k < n; k++) {
     SolidState &s = *state[k];
-    c[k] = conditions(s, in[k]);
+    SolidInput now = in[k];
+    if (with_voids && (now.p < 0.0 || s.voids.phi > 0.0))
+      voids.advance(s.voids, *eos, now.rho, now.e, now.size, dt);
+    now.p = pressure(s, now);
+    c[k] = conditions(s, now);
     shear[k] = s.shear = law->shear_modulus(c[k]);
     eps[k] = s.eps;
     trial[k] = trial_of(s, in[k]);
+    if (s.voids.D == 0.0) continue;
+
+    // with the yield stress times 1 - D all is as without, if stress and modulus are over that
+
+    const double whole = s.voids.D < 1.0 ? 1.0 / intact(s) : 0.0;
+    trial[k] = scaled(trial[k], whole);
+    shear[k] *= whole;
   }
   law->radial_return(n, trial, dt, shear, eps, c, plastic);
 
   for (int k = 0; k < n; k++) {
     SolidState &s = *state[k];
     if (std::isnan(plastic[k].d_eps)) return k;
-    s.S = plastic[k].S;
-    s.yield = plastic[k].yield;
+    const double left = intact(s);
+    s.S = scaled(plastic[k].S, left);
+    s.yield = left * plastic[k].yield;
     s.eps += plastic[k].d_eps;
-    s.heat += plastic[k].work / c[k].rho;
+    s.heat += left * plastic[k].work / in[k].rho;
     s.rate = plastic[k].d_eps / dt;
     if (fracture && plastic[k].d_eps > 0.0) {
       const double scatter = weibull > 0.0 ? weibull_factor(seed, in[k].id, weibull) : 1.0;
@@ -242,7 +274,7 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     }
     if (s.damage >= 1.0) {
       crush(s);
-    } else if (spalls(spall, c[k].p, s.S, sigma_p)) {
+    } else if (s.voids.D >= 1.0 || spalls(spall, c[k].p, s.S, sigma_p)) {
       s.spalled = 1.0;
       crush(s);
     }
@@ -254,19 +286,19 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
 
 double SolidModel::temperature(const SolidState &s, const SolidInput &in) const
 {
-  return from_work ? T0 + chi * s.heat / cp : eos->temperature(in.rho, in.e);
+  return from_work ? T0 + chi * s.heat / cp : eos->temperature(density(s, in.rho), in.e);
 }
 
 Conditions SolidModel::conditions(const SolidState &s, const SolidInput &in) const
 {
-  return {in.rho, rho0, in.p, thermal ? temperature(s, in) : NOT_A_NUMBER};
+  return {density(s, in.rho), rho0, in.p, thermal ? temperature(s, in) : NOT_A_NUMBER};
 }
 
 // what others will see
 
-void SolidModel::show(SolidState &s, const Deviator &S) const
+void SolidModel::show(SolidState &s, const Deviator &S, const SolidInput &in) const
 {
-  s.seen = {S, p_min(s), s.shear};
+  s.seen = {S, p_min(s, in), s.shear};
 }
 
 void SolidModel::reflect(SolidState &s, int op)

@@ -12,6 +12,7 @@
 #include "hvi_damage.h"
 #include "hvi_material.h"
 #include "hvi_spall.h"
+#include "hvi_spall_voids.h"
 #include "hvi_strength.h"
 
 #include <cstdint>
@@ -48,6 +49,8 @@ struct SolidState {
   double rate;       // of plastic strain
   double yield;      // von Mises's stress on the yield surface of S
 
+  SpallVoids::State voids;
+
   bool failed() const { return damage >= 1.0 || spalled != 0.0; }
 };
 
@@ -57,6 +60,7 @@ struct SolidInput {
   double rho, e, p;    // e per mass; p of the equation of state
   VelocityGradient L;
   std::int64_t id;    // of the scatter of damage
+  double size;        // spacing, for an opening at failure; see has_size()
 };
 
 struct SolidOptions {
@@ -75,9 +79,10 @@ struct SolidOptions {
 
      prepare()        if a run begins or the yield surface is not known
      first_half()     half of the elastic trial stress; seen = S extrapolated to the end of the
-                      step, back to the yield surface, without plastic strain
+                      step, back to the yield surface, without plastic strain, and the tension that
+                      voids leave at the density and energy extrapolated, without keeping them
      ... forces, which give the velocity gradient of the end of the step ...
-     second_half()    the other half of the trial stress, radial return, damage, spall
+     second_half()    the other half of the trial stress, voids, radial return, damage, spall
 
    or at once, before the forces:
 
@@ -99,7 +104,8 @@ class SolidModel {
 
   const Strength &strength() const { return *law; }
   const Damage *damage() const { return fracture.get(); }    // null: none
-  bool spall_limited() const { return sigma_p < NO_LIMIT; }
+  bool spall_limited() const { return sigma_p < NO_LIMIT || with_voids; }
+  bool has_size() const { return with_voids && voids.delta_c > 0.0; }
 
   // of something new, without stress; of something that has no model any more: a liquid
 
@@ -114,8 +120,8 @@ class SolidModel {
   bool ready(const SolidState &s) const { return s.yield != UNKNOWN || s.failed(); }
   void prepare(SolidState &, const SolidInput &, bool begin) const;
 
-  void first_half(SolidState &, double dt) const;
-  void present(SolidState &) const;
+  void first_half(SolidState &, const SolidInput &ahead, double dt) const;
+  void present(SolidState &, const SolidInput &) const;
   void try_out(SolidState &, const VelocityGradient &L, double dt) const;
 
   // in place of the second half or of the whole, where nothing changes
@@ -132,8 +138,23 @@ class SolidModel {
 
   // the least pressure borne, and what is left of p; see clip_tension()
 
-  double p_min(const SolidState &s) const { return least_pressure(spall, s.failed(), sigma_p); }
-  double pressure(const SolidState &s, double p) const { return clip_tension(p, p_min(s)); }
+  double p_min(const SolidState &s, const SolidInput &in) const
+  {
+    const bool open = with_voids && s.voids.phi > 0.0 && !s.failed();
+    return open ? SpallVoids::least(s.voids.phi, *eos, in.rho, in.e)
+                : least_pressure(spall, s.failed(), sigma_p);
+  }
+  double pressure(const SolidState &s, const SolidInput &in) const
+  {
+    return clip_tension(in.p, p_min(s, in));
+  }
+
+  // of the matter around voids
+
+  double density(const SolidState &s, double rho) const
+  {
+    return with_voids ? rho / (1.0 - s.voids.phi) : rho;
+  }
 
   // in the directions of op (see hvi_mirror.h)
 
@@ -148,7 +169,9 @@ class SolidModel {
   std::shared_ptr<const Eos> eos;
   double rho0;
   Spall spall;
-  double sigma_p = 0.0;                    // limit of tension
+  double sigma_p = 0.0;    // limit of tension
+  bool with_voids = false;
+  SpallVoids voids = {};
   double T0 = 0.0, cp = 0.0, chi = 1.0;    // temperature from plastic work
   bool thermal, from_work;
   double weibull;
@@ -156,7 +179,7 @@ class SolidModel {
 
   SolidModel() = default;
   Conditions conditions(const SolidState &, const SolidInput &) const;
-  void show(SolidState &, const Deviator &) const;
+  void show(SolidState &, const Deviator &, const SolidInput &) const;
   template <class Trial>
   int settle(int n, SolidState *const *, const SolidInput *, double dt, const Trial &) const;
 };

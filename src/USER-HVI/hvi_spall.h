@@ -24,11 +24,16 @@ namespace HVI {
                  exceeds sigma_p
      ZERO        spalled for good once the tension -p exceeds sigma_p
 
+   and one that takes time:
+
+     VOIDS       voids grow, at a rate that tension decides; spalled for good once they have done
+                 all their damage: see hvi_spall_voids.h
+
    What has spalled, or failed (damage 1), is rubble from then on: S = 0 and no
    tension, but it bears compression.
 ------------------------------------------------------------------------- */
 
-enum class Spall { NONE, PRESSURE, PRINCIPAL, ZERO };
+enum class Spall { NONE, PRESSURE, PRINCIPAL, ZERO, VOIDS };
 
 // the largest eigenvalue of S; in closed form, good to 1e-8 of S at the worst
 
@@ -54,7 +59,8 @@ inline bool spalls(Spall model, double p, const Deviator &S, double sigma_p)
 }
 
 // The least pressure that is borne: -infinity, -sigma_p, or 0 of rubble, which has spalled or failed,
-// now or before; and what becomes of a pressure by it.  The one law of tension.
+// now or before; and what becomes of a pressure by it.  The one law of tension.  That of matter with
+// voids depends on its state: SpallVoids::least().
 
 inline double least_pressure(Spall model, bool rubble, double sigma_p)
 {

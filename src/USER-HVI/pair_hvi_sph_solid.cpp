@@ -170,8 +170,7 @@ void PairHVISPH::correct_gradient(int i)
   const double m = atom->rmass ? atom->rmass[i] : atom->mass[itype];
   double csq;
   if (!store->materials.of(itype)->eos->evaluate(T.rho, atom->esph[i] / m, T.p, csq))
-    no_answer(i, T.rho);
-  T.p = HVI::clip_tension(T.p, records.stress[i].p_min);    // laws see what is borne
+    no_answer(i, T.rho);    // what of p is borne is known after the step
 
   // the law of the solid sees what hangs together; rubble as forces see it: it may have failed since
 

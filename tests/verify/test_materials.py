@@ -39,9 +39,9 @@ def file(request):
     return ROOT / "potentials" / f"{request.param}.hvi"
 
 
-def having(kind):
+def having(kind, law=None):
     """files with such a section"""
-    return [name for name in FILES if any(k[0] == kind for k in parse(ROOT / "potentials" / f"{name}.hvi")[3])]
+    return [name for name in FILES if any(k[0] == kind and law in (None, k[1]) for k in parse(ROOT / "potentials" / f"{name}.hvi")[3])]
 
 
 def numbers(sections, kind):
@@ -232,7 +232,7 @@ def test_strength_and_damage(lmp, file, tmp_path, heat):
             assert 0 < g["damage"].min() and g["damage"].max() < 1
 
 
-@pytest.mark.parametrize("file", having("spall"), indirect=True)
+@pytest.mark.parametrize("file", having("spall", "limit"), indirect=True)
 def test_tension(lmp, file):
     """spall pressure: the tension left in a particle stretched by 10 %"""
     units, _, _, sections = parse(file)
@@ -240,4 +240,15 @@ def test_tension(lmp, file):
     law = [k[1] for k in sections if k[0] == "strength"][0]
     text = POINT.format(units=units, rho0=v["rho0"], file=file) + f"fix jc all hvi/johnson-cook strength {law} spall pressure\n"
     p = lmp(text + f"set group all sph/rho {0.9 * v['rho0']} sph/e 0\nrun 0\n").thermo["c_p"][0]
-    assert p == -numbers(sections, "spall")[1]["sigma_p"]
+    assert p == -sections["spall", "limit"]["sigma_p"][0]
+
+
+@pytest.mark.parametrize("file", having("spall", "voids"), indirect=True)
+def test_voids(file):
+    """phi_c is 2 Y eps_c/sigma with Grady's eps_c 0.15 and a yield stress of the file, to two digits"""
+    sections = parse(file)[3]
+    v = {k: x[0] for k, x in sections["spall", "voids"].items()}
+    yields = [x["Y0"][0] if "Y0" in x else x["A"][0] for k, x in sections.items() if k[0] == "strength"]
+    phi_c = [2 * Y * 0.15 / v["sigma"] for Y in yields]
+    assert 0.99 * min(phi_c) <= v["phi_c"] <= 1.01 * max(phi_c)
+    assert 0.01 <= v["m"] <= 0.25 and 1e9 < v["sigma"] < 1e10 and 1e4 < v["rate"] < 1e6

@@ -1,0 +1,147 @@
+"""Spall voids in a scene: restart, data files, layouts, mirrors, what is reported, what is refused."""
+
+import itertools
+
+import numpy as np
+import pytest
+import test_mirror
+from test_solid_forces import MATERIAL, start, state
+from test_solid_state import FIXES, NEIGHBOR, reader
+
+JC = "damage no spall voids"
+VOIDS = "spall voids\n  sigma 0.6\n  rate 1.0\n  m 0.2\n  phi_c 0.04\n"
+NAMES = "p T eps spalled voids void_damage vm sxx syy szz sxy sxz syz".split()
+OUT = f"""compute S all hvi/atom {' '.join(NAMES)}
+compute R all property/atom drho desph rho esph
+dump d all custom 1 {{0}} id x y z vx vy vz fx fy fz c_R[*] c_S[*]
+dump_modify d format float %.17g sort id
+run 0
+undump d
+uncompute S
+uncompute R
+"""
+
+
+@pytest.fixture
+def material(tmp_path):
+    path = tmp_path / "voids.hvi"
+    path.write_text(MATERIAL.format(sigma_p=3.0) + VOIDS)
+    return path
+
+
+def read(path):
+    lines = path.read_text().splitlines()
+    first = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
+    a = np.array([line.split() for line in lines[first:]], dtype=float)[:, 1:]
+    out = dict(x=a[:, :3], v=a[:, 3:6], f=a[:, 6:9], drho=a[:, 9], de=a[:, 10], rho=a[:, 11], esph=a[:, 12])
+    out.update(zip(NAMES, a[:, 13:].T))
+    return out
+
+
+def grown(f):
+    """some have voids, some none, some have parted"""
+    assert f["spalled"].sum() > 5 and ((f["voids"] > 1e-3) & (f["spalled"] == 0)).sum() > 5 and (f["voids"] == 0).sum() > 5
+    assert (f["spalled"] == (f["void_damage"] >= 1)).all()
+
+
+@pytest.mark.parametrize("nranks, words", [(1, "viscosity 1 2"), (2, "viscosity 1 2"), (1, "gradient law"), (2, "gradient plain h variable")])
+def test_restart(lmp, tmp_path, material, nranks, words):
+    """30 steps, restart, 30 more: the same bits as 60 at once"""
+    s = state(seed=23)
+    lmp(start(s, tmp_path, material, words, steps=0, sort=False, jc=JC, more="restart 30 half\n") + "run 59\n" + OUT.format("whole"), nranks=nranks)
+    lmp("read_restart half.30\n" + NEIGHBOR + FIXES.format(JC) + "run 29\n" + OUT.format("part"), nranks=nranks)
+    one, two = read(tmp_path / "whole"), read(tmp_path / "part")
+    grown(one)
+    for name in one:
+        assert np.array_equal(one[name], two[name]), name
+
+
+@pytest.mark.parametrize("nranks", [1, 2, 3, 4])
+def test_layouts(lmp, tmp_path, material, nranks):
+    """newton on and off, brick and tiled: as on one rank"""
+    s = state(seed=22)
+    s.rho *= 0.97
+    cases = list(itertools.product(("on", "off"), ("brick", "tiled"), ("viscosity 1 2", "gradient law")))
+    text = "".join("clear\n" + start(s, tmp_path, material, words, steps=20, newton=newton, comm=comm, jc=JC) + OUT.format(f"f.{k}")
+                   for k, (newton, comm, words) in enumerate(cases))
+    lmp("".join("clear\n" + start(s, tmp_path, material, words, steps=20, jc=JC) + OUT.format(f"one.{words[0]}") for words in ("viscosity 1 2", "gradient law")))
+    lmp(text, nranks=nranks)
+    for k, case in enumerate(cases):
+        one, got = read(tmp_path / f"one.{case[2][0]}"), read(tmp_path / f"f.{k}")
+        assert one["voids"].max() > 0.01
+        for name in ("x", "v", "f", "p", "sxx", "eps", "de", "voids", "void_damage"):
+            assert np.abs(got[name] - one[name]).max() <= 1e-9 * np.abs(one[name]).max(), (case, name)
+
+
+@pytest.mark.parametrize("nranks, words", [(1, "viscosity 1 2"), (3, "gradient law")])
+def test_data_file(lmp, tmp_path, material, nranks, words):
+    """30 steps, write_data, read_data, 30 more: as if not interrupted; voids are in a section of their own, which without them is not there"""
+    s = state(seed=23)
+    lmp(start(s, tmp_path, material, words, steps=0, jc=JC) + "run 30\nwrite_data half.data\n" + OUT.format("half") + "run 30\n" + OUT.format("whole"))
+    assert "\njc_voids # id voids damage work\n" in (tmp_path / "half.data").read_text()
+    text = reader(material, words, JC).replace("fix jc NULL jc_forces", "fix jc NULL jc_forces fix jc NULL jc_voids")
+    lmp(text + OUT.format("read") + "run 30\n" + OUT.format("part"), nranks=nranks)
+    half, whole, again, part = (read(tmp_path / f) for f in ("half", "whole", "read", "part"))
+    grown(whole)
+    assert np.array_equal(half["voids"], again["voids"]) and np.array_equal(half["void_damage"], again["void_damage"])
+    for one, two, tolerance in ((half, again, 1e-13), (whole, part, 1e-9)):
+        for name in one:
+            assert np.abs(one[name] - two[name]).max() <= tolerance * max(1.0, np.abs(one[name]).max()), name
+    # a file from before, or of another law, has none
+    lmp(start(s, tmp_path, material, words, steps=3, jc="damage no") + "write_data half.data\n")
+    assert "jc_voids" not in (tmp_path / "half.data").read_text()
+    lmp(reader(material, words, JC) + OUT.format("read"))
+    assert not read(tmp_path / "read")["voids"].any()
+
+
+def test_pressure(lmp, tmp_path, material):
+    """p is (1 - phi) p_eos(rho/(1 - phi), e) where it is tension and voids are, and no more than 0 of what has parted"""
+    lmp(start(state(seed=23), tmp_path, material, steps=60, jc=JC) + OUT.format("f"))
+    f = read(tmp_path / "f")
+    grown(f)
+    mu = f["rho"] / (1 - f["voids"]) - 1
+    alone = 16 * mu + (2.0 + 0.5 * mu) * f["esph"]  # in tension; rho0 1, c0 4, masses 1
+    borne = np.where(f["voids"] > 0, (1 - f["voids"]) * np.minimum(alone, 0), alone)
+    sound = (f["spalled"] == 0) & (mu < 0)
+    assert (sound & (f["voids"] > 0.001)).sum() > 5 and (f["p"][sound] < -0.1).sum() > 5
+    assert np.abs(f["p"] - borne)[sound].max() < 1e-9
+    assert (f["p"][f["spalled"] == 1] >= 0).all()
+
+
+@pytest.mark.parametrize("words", ["viscosity 1 2", "gradient law"])
+def test_as_the_whole(lmp, tmp_path, material, words):
+    """half, quarter and eighth models with mirror planes"""
+    text = "".join("clear\n" + test_mirror.start(p, tmp_path, material, words=words)[0].replace("hvi/johnson-cook", f"hvi/johnson-cook {JC}") +
+                   test_mirror.OUT.format("f" + p).replace("damage spalled", "void_damage voids") for p in ("", "x", "xyz"))
+    lmp(text)
+    whole = test_mirror.read(tmp_path / "f")
+    assert (whole["spalled"] > 1e-4).sum() > 20
+    for planes in ("x", "xyz"):
+        test_mirror.same(whole, test_mirror.read(tmp_path / f"f{planes}"), test_mirror.part(planes)[1], planes)
+
+
+@pytest.mark.parametrize("words", ["viscosity 1 2", "gradient law"])
+def test_books(lmp, tmp_path, material, words):
+    """energy is kept; the work of opening voids is a part of the internal one, and only grows"""
+    more = "fix step all hvi/dt 0.2\ncompute book all hvi/energy\nthermo 5\nthermo_style custom step c_book[1] c_book[2] c_book[8] c_book[9] c_book[29] c_book[31]\n"
+    s = state(seed=24)
+    r = lmp(start(s, tmp_path, material, words, steps=0, jc=JC, more=more + "thermo_modify format float %.17g\nrun 200\n"))
+    t = r.thermo
+    assert np.abs(t["c_book[9]"] - 1).max() < 1e-3
+    assert (np.diff(t["c_book[31]"]) >= 0).all() and 0 < t["c_book[31]"][-1] < t["c_book[2]"][-1] - t["c_book[29]"][-1]
+    assert np.array_equal(t["c_book[8]"], sum([t["c_book[1]"], t["c_book[2]"]]))
+    assert "spall voids" in r.log
+
+
+def test_settings_and_warnings(lmp, tmp_path, material):
+    s = state(seed=23)
+    lmp(start(s, tmp_path, material, steps=3, jc=JC) + "write_restart half\n")
+    r = lmp("read_restart half\n" + NEIGHBOR + FIXES.format("damage no") + "run 1\n", expect_fail=True)
+    assert "was written with strength johnson-cook damage no spall voids" in r.error and "spall principal" in r.error
+    for wrong, message in (("m 0.2", "m = 0"), ("phi_c 0.04", "phi_c = 1.5"), ("sigma 0.6", "sigma = -1"), ("rate 1.0", "rate = 0")):
+        material.write_text(MATERIAL.format(sigma_p=3.0) + VOIDS.replace(wrong, message.replace(" = ", " ")))
+        r = lmp(start(s, tmp_path, material, steps=0, jc=JC), expect_fail=True)
+        assert "spall voids" in r.error and message in r.error, r.error
+    material.write_text(MATERIAL.format(sigma_p=3.0))
+    r = lmp(start(s, tmp_path, material, steps=1, jc=JC))
+    assert any("has no section spall voids and does not spall" in w for w in r.warnings)
