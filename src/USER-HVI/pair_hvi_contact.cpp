@@ -79,7 +79,7 @@ void PairHVIContact::compute(int eflag, int vflag)
    One sweep over the half list; bonded pairs are in it like all others.
    Whether a pair at rest touches is a coin toss, and a mispredicted branch
    costs more than the force: so first collect the pairs in touch without a
-   branch, then work through them.
+   branch, of as many particles as it takes to fill a batch, then work through them.
    UNIFORM: all types share one law, their types need not be fetched
 ------------------------------------------------------------------------- */
 
@@ -87,20 +87,19 @@ template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void PairHVIContact::eval()
 {
   if (list->inum == 0) return;
 
-  // rows of x and f lie side by side: no need to fetch their pointers
+  // rows of x lie side by side: no need to fetch their pointers
 
   const double(*const x)[3] = (const double(*)[3]) atom->x[0];
-  double(*const f)[3] = (double(*)[3]) atom->f[0];
   const int *const type = atom->type;
-  const int nlocal = atom->nlocal;
 
   const int inum = list->inum;
   const int *const ilist = list->ilist;
   const int *const numneigh = list->numneigh;
   const int *const *const firstneigh = list->firstneigh;
 
-  const HVI::Contact one_law = common;
-  Touch touch[NTOUCH];
+  const double one_cutsq = common.cutsq;
+  Touching touch;
+  int n = 0;
 
   for (int ii = 0; ii < inum; ii++) {
     const int i = ilist[ii];
@@ -110,47 +109,67 @@ template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void PairHVIContact::eval()
     const HVI::Contact *const ilaw = law[type[i]];
     const int *const jlist = firstneigh[i];
     const int jnum = numneigh[i];
-    double fxtmp = 0.0, fytmp = 0.0, fztmp = 0.0;
 
-    for (int jfirst = 0; jfirst < jnum; jfirst += NTOUCH) {
-      const int jlast = MIN(jfirst + NTOUCH, jnum);
-      int ntouch = 0;
+    for (int jfirst = 0; jfirst < jnum; jfirst += NROW) {
+      const int jlast = MIN(jfirst + NROW, jnum);
+      if (n > NTOUCH - NROW) {
+        work_off<EVFLAG, NEWTON_PAIR, UNIFORM>(touch, n);
+        n = 0;
+      }
       for (int jj = jfirst; jj < jlast; jj++) {
         const int j = jlist[jj] & NEIGHMASK;
         const double delx = xtmp - x[j][0];
         const double dely = ytmp - x[j][1];
         const double delz = ztmp - x[j][2];
         const double rsq = delx * delx + dely * dely + delz * delz;
-        touch[ntouch] = {delx, dely, delz, rsq, j};
-        ntouch += rsq < (UNIFORM ? one_law.cutsq : ilaw[type[j]].cutsq);
-      }
-
-      for (int n = 0; n < ntouch; n++) {
-        const Touch &t = touch[n];
-        if (t.rsq == 0.0)
-          error->one(FLERR,
-                     "Pair hvi/contact: particles {} and {} are at the same place at step {}",
-                     atom->tag[i], atom->tag[t.j], update->ntimestep);
-        const HVI::Contact &c = UNIFORM ? one_law : ilaw[type[t.j]];
-        const double fpair = c.force(t.rsq);    // Watson & Steinhauser eq 2
-        fxtmp += t.delx * fpair;
-        fytmp += t.dely * fpair;
-        fztmp += t.delz * fpair;
-        if (NEWTON_PAIR || t.j < nlocal) {
-          f[t.j][0] -= t.delx * fpair;
-          f[t.j][1] -= t.dely * fpair;
-          f[t.j][2] -= t.delz * fpair;
-        }
-
-        if (EVFLAG)
-          ev_tally(i, t.j, nlocal, NEWTON_PAIR, eflag_either ? c.energy(t.rsq) : 0.0, 0.0, fpair,
-                   t.delx, t.dely, t.delz);
+        touch.delx[n] = delx;
+        touch.dely[n] = dely;
+        touch.delz[n] = delz;
+        touch.rsq[n] = rsq;
+        touch.i[n] = i;
+        touch.j[n] = j;
+        n += rsq < (UNIFORM ? one_cutsq : ilaw[type[j]].cutsq);
       }
     }
+  }
+  work_off<EVFLAG, NEWTON_PAIR, UNIFORM>(touch, n);
+}
 
-    f[i][0] += fxtmp;
-    f[i][1] += fytmp;
-    f[i][2] += fztmp;
+/* ---------------------------------------------------------------------- */
+
+template <int EVFLAG, int NEWTON_PAIR, int UNIFORM>
+void PairHVIContact::work_off(const Touching &touch, int ntouch)
+{
+  double(*const f)[3] = (double(*)[3]) atom->f[0];
+  const int *const type = atom->type;
+  const int nlocal = atom->nlocal;
+
+  double force[NTOUCH];    // Watson & Steinhauser eq 2
+  const HVI::Contact one_law = common;
+  for (int n = 0; n < ntouch; n++)
+    force[n] = (UNIFORM ? one_law : law[type[touch.i[n]]][type[touch.j[n]]]).force(touch.rsq[n]);
+
+  for (int n = 0; n < ntouch; n++) {
+    const int i = touch.i[n], j = touch.j[n];
+    if (touch.rsq[n] == 0.0)
+      error->one(FLERR, "Pair hvi/contact: particles {} and {} are at the same place at step {}",
+                 atom->tag[i], atom->tag[j], update->ntimestep);
+    const double fpair = force[n];
+    f[i][0] += touch.delx[n] * fpair;
+    f[i][1] += touch.dely[n] * fpair;
+    f[i][2] += touch.delz[n] * fpair;
+    if (NEWTON_PAIR || j < nlocal) {
+      f[j][0] -= touch.delx[n] * fpair;
+      f[j][1] -= touch.dely[n] * fpair;
+      f[j][2] -= touch.delz[n] * fpair;
+    }
+
+    if (EVFLAG) {
+      const double rsq = touch.rsq[n];
+      const HVI::Contact &c = UNIFORM ? one_law : law[type[i]][type[j]];
+      ev_tally(i, j, nlocal, NEWTON_PAIR, eflag_either ? c.energy(rsq) : 0.0, 0.0, fpair,
+               touch.delx[n], touch.dely[n], touch.delz[n]);
+    }
   }
 }
 
@@ -172,6 +191,19 @@ void PairHVIContact::tighten(HVI::TimeStepBounds &bounds)
 
   double contact = bounds.contact * bounds.contact;
   double approach = bounds.approach * bounds.approach;
+
+  if (uniform && one_mass()) {
+    const Extremes all = extremes();
+    const double m = 0.5 * mvv2e * mass[1];
+    if (!(all.rsq >= common.cutsq)) contact = MIN(contact, m / common.stiffness(all.rsq));
+    if (!(all.energy <= 0.0))
+      approach = MIN(approach, m / common.stiffness(common.turning_rsq(all.energy)));
+    if (std::isnan(all.energy)) approach = all.energy;
+    bounds.contact = std::sqrt(contact);
+    bounds.approach = std::sqrt(approach);
+    bounds.conserve_energy(HVI::shortest_cutoff(lmp));
+    return;
+  }
 
   struct Worst {
     double rsq, m_contact, e, m_approach;
@@ -228,6 +260,91 @@ void PairHVIContact::tighten(HVI::TimeStepBounds &bounds)
   bounds.contact = std::sqrt(contact);
   bounds.approach = std::sqrt(approach);
   bounds.conserve_energy(HVI::shortest_cutoff(lmp));
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool PairHVIContact::one_mass() const
+{
+  if (atom->rmass) return false;
+  for (int i = 2; i <= atom->ntypes; i++)
+    if (atom->mass[i] != atom->mass[1]) return false;
+  return true;
+}
+
+/* ----------------------------------------------------------------------
+   where all pairs have one law and one mass: the shortest distance, and the most energy of a pair
+   that approaches, without a branch per pair: which pairs approach is a coin toss, too
+------------------------------------------------------------------------- */
+
+PairHVIContact::Extremes PairHVIContact::extremes() const
+{
+  if (list->inum == 0) return {BIG, 0.0};
+  const double(*const x)[3] = (const double(*)[3]) atom->x[0];
+  const double(*const v)[3] = (const double(*)[3]) atom->v[0];
+  const HVI::Contact c = common;
+  const double quarter_m = 0.25 * force->mvv2e * atom->mass[1];    // half of the reduced mass
+
+  double rsq[NTOUCH], rdotv[NTOUCH];
+  double shortest[NLANE], most[NLANE], sum[NLANE];
+  for (int k = 0; k < NLANE; k++) {
+    shortest[k] = BIG;
+    most[k] = sum[k] = 0.0;
+  }
+  int n = 0;
+
+  const auto work_off = [&]() {
+    for (; n % NLANE; n++) {
+      rsq[n] = BIG;
+      rdotv[n] = 0.0;
+    }
+    for (int first = 0; first < n; first += NLANE)
+      for (int k = 0; k < NLANE; k++) {
+        const double one = rsq[first + k], rate = rdotv[first + k];
+        const double r2inv = 1.0 / one;
+
+        // q > 1/2 of Contact::energy() is where they touch
+
+        double dq = c.s6 * (r2inv * r2inv * r2inv) - 0.5;
+        dq = dq < 0.0 ? 0.0 : dq;
+        const double energy = quarter_m * rate * rate * r2inv + c.depth * dq * dq;
+        const double e = rate >= 0.0 ? 0.0 : energy;
+        shortest[k] = one < shortest[k] ? one : shortest[k];
+        most[k] = e > most[k] ? e : most[k];
+        sum[k] += e;    // a maximum may drop a NaN
+      }
+    n = 0;
+  };
+
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const int *const jlist = list->firstneigh[i];
+    const int jnum = list->numneigh[i];
+    const double xi[3] = {x[i][0], x[i][1], x[i][2]};
+    const double vi[3] = {v[i][0], v[i][1], v[i][2]};
+
+    for (int jfirst = 0; jfirst < jnum; jfirst += NROW) {
+      const int jlast = MIN(jfirst + NROW, jnum);
+      if (n > NTOUCH - NROW) work_off();
+      for (int jj = jfirst; jj < jlast; jj++) {
+        const int j = jlist[jj] & NEIGHMASK;
+        const double delx = xi[0] - x[j][0];
+        const double dely = xi[1] - x[j][1];
+        const double delz = xi[2] - x[j][2];
+        rsq[n] = delx * delx + dely * dely + delz * delz;
+        rdotv[n] = delx * (vi[0] - v[j][0]) + dely * (vi[1] - v[j][1]) + delz * (vi[2] - v[j][2]);
+        n++;
+      }
+    }
+  }
+  work_off();
+
+  for (int k = 1; k < NLANE; k++) {
+    shortest[0] = MIN(shortest[0], shortest[k]);
+    most[0] = MAX(most[0], most[k]);
+    sum[0] += sum[k];
+  }
+  return {shortest[0], std::isnan(sum[0]) ? sum[0] : most[0]};
 }
 
 /* ---------------------------------------------------------------------- */
