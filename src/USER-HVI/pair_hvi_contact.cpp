@@ -15,6 +15,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix_hvi_lists.h"
 #include "force.h"
 #include "memory.h"
 #include "neigh_list.h"
@@ -29,7 +30,8 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 PairHVIContact::PairHVIContact(LAMMPS *lmp) :
-    Pair(lmp), prefactor(1.0), uniform(0), epsilon(nullptr), sigma(nullptr), law(nullptr)
+    Pair(lmp), prefactor(1.0), relative(0), uniform(0), epsilon(nullptr), sigma(nullptr),
+    law(nullptr)
 {
   writedata = 1;
   respa_enable = 0;
@@ -192,6 +194,7 @@ void PairHVIContact::allocate()
 void PairHVIContact::settings(int narg, char **arg)
 {
   prefactor = 1.0;
+  relative = 0;
 
   int iarg = 0;
   while (iarg < narg) {
@@ -201,6 +204,13 @@ void PairHVIContact::settings(int narg, char **arg)
       prefactor = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
       if (!(prefactor > 0.0) || !std::isfinite(prefactor))
         error->all(FLERR, "Pair_style hvi/contact prefactor must be > 0, not {}", arg[iarg + 1]);
+      iarg += 2;
+    } else if (strcmp(arg[iarg], "lists") == 0) {
+      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_style hvi/contact lists", error);
+      if (strcmp(arg[iarg + 1], "relative") != 0 && strcmp(arg[iarg + 1], "displacement") != 0)
+        error->all(FLERR, "Pair_style hvi/contact lists must be relative or displacement, not {}",
+                   arg[iarg + 1]);
+      relative = strcmp(arg[iarg + 1], "relative") == 0;
       iarg += 2;
     } else
       error->all(FLERR, "Unknown pair_style hvi/contact keyword: {}", arg[iarg]);
@@ -250,6 +260,7 @@ void PairHVIContact::init_style()
     error->all(FLERR, "Pair style hvi/contact does not support run_style respa");
 
   neighbor->add_request(this);
+  if (!force->pair_match("^hvi/sph$", 0)) FixHVILists::make(lmp, relative, true);
   uniform = -1;
 }
 
@@ -319,6 +330,7 @@ void PairHVIContact::read_restart(FILE *fp)
 void PairHVIContact::write_restart_settings(FILE *fp)
 {
   fwrite(&prefactor, sizeof(double), 1, fp);
+  fwrite(&relative, sizeof(int), 1, fp);
   fwrite(&mix_flag, sizeof(int), 1, fp);
 }
 
@@ -328,9 +340,11 @@ void PairHVIContact::read_restart_settings(FILE *fp)
 {
   if (comm->me == 0) {
     utils::sfread(FLERR, &prefactor, sizeof(double), 1, fp, nullptr, error);
+    utils::sfread(FLERR, &relative, sizeof(int), 1, fp, nullptr, error);
     utils::sfread(FLERR, &mix_flag, sizeof(int), 1, fp, nullptr, error);
   }
   MPI_Bcast(&prefactor, 1, MPI_DOUBLE, 0, world);
+  MPI_Bcast(&relative, 1, MPI_INT, 0, world);
   MPI_Bcast(&mix_flag, 1, MPI_INT, 0, world);
 }
 
