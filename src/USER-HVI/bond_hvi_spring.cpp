@@ -104,50 +104,62 @@ template <int EVFLAG, int NEWTON_BOND, int EXACT> void BondHVISpring::eval()
   int(*const bondlist)[3] = (int(*)[3]) neighbor->bondlist[0];
   const int nlocal = atom->nlocal;
 
-  for (int n = 0; n < nbondlist; n++) {
-    const int type = bondlist[n][2];
-    if (type <= 0) continue;
+  // a batch at a time: distances; forces, of as many at once as vectors have lanes; who gets them
 
-    const int i1 = bondlist[n][0];
-    const int i2 = bondlist[n][1];
-    double delx, dely, delz;
-    if (EXACT) {
-      const double *const x2 = (i2 < nlocal) ? x[i2] : xowner[i2];
-      delx = x[i1][0] - x2[0];
-      dely = x[i1][1] - x2[1];
-      delz = x[i1][2] - x2[2];
-      HVI::minimum_image(domain, delx, dely, delz);
-    } else {
-      delx = x[i1][0] - x[i2][0];
-      dely = x[i1][1] - x[i2][1];
-      delz = x[i1][2] - x[i2][2];
+  double delx[NBATCH], dely[NBATCH], delz[NBATCH], rsq[NBATCH], force[NBATCH];
+
+  for (int first = 0; first < nbondlist; first += NBATCH) {
+    const int nbatch = MIN(NBATCH, nbondlist - first);
+    int(*const bond)[3] = bondlist + first;
+
+    for (int n = 0; n < nbatch; n++) {
+      const int i1 = bond[n][0];
+      const int i2 = bond[n][1];
+      const double *const x2 = (EXACT && i2 >= nlocal) ? xowner[i2] : x[i2];
+      delx[n] = x[i1][0] - x2[0];
+      dely[n] = x[i1][1] - x2[1];
+      delz[n] = x[i1][2] - x2[2];
+      if (EXACT) HVI::minimum_image(domain, delx[n], dely[n], delz[n]);
+      rsq[n] = delx[n] * delx[n] + dely[n] * dely[n] + delz[n] * delz[n];
     }
-    const double rsq = delx * delx + dely * dely + delz * delz;
 
     // whether a bond of an intact lattice is slack is a coin toss: no branch on it
 
-    const HVI::Spring &s = law[type];
-    const double fbond = s.force(rsq);
+    if (atom->nbondtypes == 1) {
+      const HVI::Spring s = law[1];
+      for (int n = 0; n < nbatch; n++) force[n] = s.force(rsq[n]);
+    } else
+      for (int n = 0; n < nbatch; n++)
+        force[n] = bond[n][2] > 0 ? law[bond[n][2]].force(rsq[n]) : 0.0;
 
-    if (s.broken(rsq)) {
-      bondlist[n][2] = 0;
-      break_bond(i1, i2, type, NEWTON_BOND, s.energy(rsq), delx * fbond, dely * fbond,
-                 delz * fbond);
-      continue;
+    for (int n = 0; n < nbatch; n++) {
+      const int type = bond[n][2];
+      if (type <= 0) continue;
+      const int i1 = bond[n][0];
+      const int i2 = bond[n][1];
+      const HVI::Spring &s = law[type];
+      const double fbond = force[n];
+
+      if (s.broken(rsq[n])) {
+        bond[n][2] = 0;
+        break_bond(i1, i2, type, NEWTON_BOND, s.energy(rsq[n]), delx[n] * fbond, dely[n] * fbond,
+                   delz[n] * fbond);
+        continue;
+      }
+
+      f[i1][0] += delx[n] * fbond;
+      f[i1][1] += dely[n] * fbond;
+      f[i1][2] += delz[n] * fbond;
+      if (NEWTON_BOND || i2 < nlocal) {
+        f[i2][0] -= delx[n] * fbond;
+        f[i2][1] -= dely[n] * fbond;
+        f[i2][2] -= delz[n] * fbond;
+      }
+
+      if (EVFLAG)
+        ev_tally(i1, i2, nlocal, NEWTON_BOND, eflag_either ? s.energy(rsq[n]) : 0.0, fbond, delx[n],
+                 dely[n], delz[n]);
     }
-
-    f[i1][0] += delx * fbond;
-    f[i1][1] += dely * fbond;
-    f[i1][2] += delz * fbond;
-    if (NEWTON_BOND || i2 < nlocal) {
-      f[i2][0] -= delx * fbond;
-      f[i2][1] -= dely * fbond;
-      f[i2][2] -= delz * fbond;
-    }
-
-    if (EVFLAG)
-      ev_tally(i1, i2, nlocal, NEWTON_BOND, eflag_either ? s.energy(rsq) : 0.0, fbond, delx, dely,
-               delz);
   }
 }
 

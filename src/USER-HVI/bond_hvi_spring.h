@@ -52,6 +52,8 @@ class BondHVISpring : public Bond, public HVI::TimeStepSource, public HVI::Energ
   int nmax;
   double **xowner;    // coordinates of ghosts without periodic shifts, only if exact_images
 
+  static constexpr int NBATCH = 128;
+
   void allocate();
   void drop_special();
   void restore_special();

@@ -22,6 +22,7 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -30,14 +31,17 @@ using namespace FixConst;
 static constexpr char LISTS_ID[] = "HVI_LISTS";
 static constexpr int NEVER = MAXSMALLINT;    // neigh_modify delay, while this fix is in charge
 static constexpr double FAR_AWAY = 1.0e100;
+static constexpr int LOOK_AHEAD = 5;     // steps
+static constexpr double MARGIN = 1.5;    // for velocities that change in these steps
 
 static bool making = false;    // else it stands in an input
 
 /* ---------------------------------------------------------------------- */
 
 FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), moved(nullptr), nmax(0), farthest{}, beyond{}, unseen{}, delay(0),
-    relative(true)
+    Fix(lmp, narg, arg), moved(nullptr), going(nullptr), nmax(0), farthest{}, beyond{}, unseen{},
+    delay(0), relative(true), ahead(false), made(0), next(0), looked(0), known(false),
+    leaving(false)
 {
   if (!making)
     error->all(FLERR, "Fix hvi/lists is made by pair styles and cannot be given in an input");
@@ -52,11 +56,12 @@ FixHVILists::~FixHVILists()
 {
   if (neighbor) post_run();    // also if an error has ended the run
   memory->destroy(moved);
+  memory->destroy(going);
 }
 
 /* ---------------------------------------------------------------------- */
 
-FixHVILists *FixHVILists::make(LAMMPS *lmp, bool relative)
+FixHVILists *FixHVILists::make(LAMMPS *lmp, bool relative, bool ahead)
 {
   if (lmp->modify->get_fix_by_id(LISTS_ID)) lmp->modify->delete_fix(LISTS_ID);
   making = true;
@@ -64,6 +69,8 @@ FixHVILists *FixHVILists::make(LAMMPS *lmp, bool relative)
       dynamic_cast<FixHVILists *>(lmp->modify->add_fix(fmt::format("{} all hvi/lists", LISTS_ID)));
   making = false;
   made->relative = relative;
+  made->ahead = ahead;
+  made->comm_forward = ahead ? 2 * SENT : SENT;
   return made;
 }
 
@@ -81,7 +88,7 @@ int FixHVILists::setmask()
 
 bool FixHVILists::in_charge() const
 {
-  if (!relative || !force->pair_match("^hvi/sph$", 0)) return false;
+  if (!relative) return false;
   for (const auto &ifix : modify->get_fix_list())
     if (ifix->box_change & (BOX_CHANGE_SIZE | BOX_CHANGE_SHAPE)) return false;
   return (neighbor->delay == 0 || neighbor->delay == NEVER) && neighbor->every == 1 &&
@@ -98,6 +105,10 @@ void FixHVILists::setup_pre_neighbor()
 
 void FixHVILists::pre_neighbor()
 {
+  if (ahead && !in_charge()) return;    // nobody else asks for the cells
+  made = update->ntimestep;
+  next = made + 1;
+  looked = made;
   const int nlocal = atom->nlocal;
   if (nlocal) hold.assign(atom->x[0], atom->x[0] + 3 * (size_t) nlocal);
   const double cut = neighbor->cutneighmax - neighbor->skin;
@@ -149,51 +160,116 @@ void FixHVILists::post_run()
 
 void FixHVILists::post_integrate()
 {
-  if (neighbor->delay != NEVER) return;
+  if (neighbor->delay != NEVER || update->ntimestep < next) return;
+  measure();
+  const bigint last = looked;
+  looked = update->ntimestep;
+
+  bool renew = exceeded(ahead ? LOOK_AHEAD * MARGIN * update->dt : 0.0);
+  if (ahead && renew) {
+    const bool late = exceeded(0.0);
+    if (late && update->ntimestep > last + 1) neighbor->ndanger++;
+
+    // a list that is old need not get older by some steps, at the cost of a look in each of them
+
+    renew = late || update->ntimestep - made >= 4 * LOOK_AHEAD;
+    next = update->ntimestep + 1;
+  } else
+    next = update->ntimestep + (ahead ? LOOK_AHEAD : 1);
+
+  if (renew || leaving) next_reneighbor = update->ntimestep;
+}
+
+/* ----------------------------------------------------------------------
+   how far owned particles and ghosts have come, and how fast they are
+------------------------------------------------------------------------- */
+
+void FixHVILists::measure()
+{
   if (atom->nmax > nmax) {
     nmax = atom->nmax;
     memory->destroy(moved);
     memory->create(moved, nmax, SENT, "hvi/lists:moved");
+    if (ahead) {
+      memory->destroy(going);
+      memory->create(going, nmax, SENT, "hvi/lists:going");
+    }
   }
+  const int nlocal = atom->nlocal;
   const double *const *const x = atom->x;
-  const bool known = motion.points() == atom->nlocal + atom->nghost;    // none came in between
-  enum { LOWEST, HIGHEST = LOWEST + 3, RENEW = HIGHEST + 3, N };        // less the highest
-  double ends[N] = {FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY, 0.0};
+  known = motion.points() == nlocal + atom->nghost;    // none came in between
+  for (int i = 0; i < nlocal; i++)
+    for (int k = 0; k < 3; k++) moved[i][k] = known ? x[i][k] - hold[3 * i + k] : 0.0;
+  if (ahead && nlocal) memcpy(going[0], atom->v[0], 3 * (size_t) nlocal * sizeof(double));
+  comm->forward_comm(this);
+}
+
+/* ----------------------------------------------------------------------
+   may pairs be missing on any rank, now or up to this time from now?
+------------------------------------------------------------------------- */
+
+bool FixHVILists::exceeded(double time)
+{
+  const double *const *const x = atom->x;
+  double lo[3] = {0.0, 0.0, 0.0}, hi[3] = {0.0, 0.0, 0.0};
+  leaving = false;
   for (int i = 0; i < atom->nlocal; i++)
     for (int k = 0; k < 3; k++) {
-      if (-x[i][k] > beyond[k] || x[i][k] > beyond[3 + k]) ends[RENEW] = -1.0;
-      moved[i][k] = known ? x[i][k] - hold[3 * i + k] : 0.0;
-      ends[LOWEST + k] = MIN(ends[LOWEST + k], moved[i][k]);
-      ends[HIGHEST + k] = MIN(ends[HIGHEST + k], -moved[i][k]);
+      leaving |= -x[i][k] > beyond[k] || x[i][k] > beyond[3 + k];
+      const double now = moved[i][k], then = ahead ? now + time * going[i][k] : now;
+      lo[k] = i ? std::min({lo[k], now, then}) : std::min(now, then);
+      hi[k] = i ? std::max({hi[k], now, then}) : std::max(now, then);
     }
-  comm->forward_comm(this);
 
-  if (!known || motion.exceeded(moved)) ends[RENEW] = -1.0;
+  enum { LOWEST, HIGHEST = LOWEST + 3, RENEW = HIGHEST + 3, LEAVING, N };    // less the highest
+  double ends[N] = {FAR_AWAY, FAR_AWAY, FAR_AWAY, FAR_AWAY,
+                    FAR_AWAY, FAR_AWAY, 0.0,      leaving ? -1.0 : 0.0};
+  if (atom->nlocal)
+    for (int k = 0; k < 3; k++) {
+      ends[LOWEST + k] = lo[k];
+      ends[HIGHEST + k] = -hi[k];
+    }
+  if (!known || motion.exceeded(moved, ahead ? going : nullptr, time)) ends[RENEW] = -1.0;
   for (int k = 0; k < 3; k++)
     if (motion.farthest(k) > farthest[k]) ends[RENEW] = -1.0;
   MPI_Allreduce(MPI_IN_PLACE, ends, N, MPI_DOUBLE, MPI_MIN, world);
-  bool renew = ends[RENEW] < 0.0;
+  leaving = ends[LEAVING] < 0.0;
+  if (ends[RENEW] < 0.0) return true;
   for (int k = 0; k < 3; k++)
-    if (-(ends[LOWEST + k] + ends[HIGHEST + k]) > unseen[k]) renew = true;
-  if (renew) next_reneighbor = update->ntimestep;
+    if (-(ends[LOWEST + k] + ends[HIGHEST + k]) > unseen[k]) return true;
+  return false;
 }
 
 /* ---------------------------------------------------------------------- */
 
 int FixHVILists::pack_forward_comm(int n, int *sent, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {
-  for (int m = 0; m < n; m++) memcpy(buf + SENT * m, moved[sent[m]], SENT * sizeof(double));
-  return SENT * n;
+  int m = 0;
+  for (int one = 0; one < n; one++) {
+    memcpy(buf + m, moved[sent[one]], SENT * sizeof(double));
+    m += SENT;
+    if (!ahead) continue;
+    memcpy(buf + m, going[sent[one]], SENT * sizeof(double));
+    m += SENT;
+  }
+  return m;
 }
 
 void FixHVILists::unpack_forward_comm(int n, int first, double *buf)
 {
-  if (n) memcpy(moved[first], buf, SENT * (size_t) n * sizeof(double));
+  int m = 0;
+  for (int i = first; i < first + n; i++) {
+    memcpy(moved[i], buf + m, SENT * sizeof(double));
+    m += SENT;
+    if (!ahead) continue;
+    memcpy(going[i], buf + m, SENT * sizeof(double));
+    m += SENT;
+  }
 }
 
 /* ---------------------------------------------------------------------- */
 
 double FixHVILists::memory_usage()
 {
-  return motion.bytes() + (hold.capacity() + 3.0 * nmax) * sizeof(double);
+  return motion.bytes() + (hold.capacity() + (ahead ? 6.0 : 3.0) * nmax) * sizeof(double);
 }

@@ -42,9 +42,10 @@ class FixHVILists : public Fix {
   // for init_style() of pair styles, where it becomes the last fix of all: it must see where others
   // have put the particles
 
-  static FixHVILists *make(class LAMMPS *, bool relative);
+  static FixHVILists *make(class LAMMPS *, bool relative, bool ahead);
 
-  static constexpr int SENT = 3;    // doubles to each ghost in each step, while in charge
+  static constexpr int SENT =
+      3;    // doubles to each ghost in each step, while in charge; twice as many if ahead
 
   bool in_charge() const;
   const HVI::RelativeMotion &cells() const { return motion; }
@@ -52,13 +53,20 @@ class FixHVILists : public Fix {
  private:
   HVI::RelativeMotion motion;
   std::vector<double> hold;    // positions of owned particles when lists were made
-  double **moved;              // of owned particles and ghosts, since then
+  double **moved, **going;     // of owned particles and ghosts, since then; velocities, if ahead
   int nmax;
   double farthest[3];    // that any particle may go: to the rank next to its own
   double beyond[6];      // fixed faces, low ones first: who comes there is to be lost
   double unseen[3];      // relative motion of two that no rank has both of
   int delay;             // of neigh_modify
   bool relative;         // else LAMMPS decides
+  bool ahead;            // not looked at in each step, but by how far they will get in several
+  bigint made, next, looked;    // step when lists were made, are looked at next, were looked at
+  bool known;                   // no particle has come since lists were made
+  bool leaving;                 // some particle is to be lost
+
+  void measure();
+  bool exceeded(double time);
 };
 
 }    // namespace LAMMPS_NS

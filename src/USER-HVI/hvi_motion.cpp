@@ -127,7 +127,7 @@ void RelativeMotion::start(int n, const double *const *x, double cut, double ski
 
 /* ---------------------------------------------------------------------- */
 
-bool RelativeMotion::exceeded(const double *const *moved)
+bool RelativeMotion::exceeded(const double *const *moved, const double *const *v, double time)
 {
   for (Level &level : levels) std::fill(level.boxes.begin(), level.boxes.end(), nothing());
   for (double &one : most) one = 0.0;
@@ -136,14 +136,16 @@ bool RelativeMotion::exceeded(const double *const *moved)
   double longest = 0.0, farthest[3] = {0.0, 0.0, 0.0};
   for (size_t i = 0; i < cell.size(); i++) {
     Box &box = levels[0].boxes[cell[i]];
-    double sq = 0.0;
+    double sq = 0.0, later = 0.0;
     for (int k = 0; k < 3; k++) {
-      box.lo[k] = std::min(box.lo[k], moved[i][k]);
-      box.hi[k] = std::max(box.hi[k], moved[i][k]);
-      sq += moved[i][k] * moved[i][k];
-      farthest[k] = std::max(farthest[k], std::fabs(moved[i][k]));
+      const double now = moved[i][k], then = v ? now + time * v[i][k] : now;
+      box.lo[k] = std::min({box.lo[k], now, then});
+      box.hi[k] = std::max({box.hi[k], now, then});
+      sq += now * now;
+      later += then * then;
+      farthest[k] = std::max({farthest[k], std::fabs(now), std::fabs(then)});
     }
-    longest = std::max(longest, sq);
+    longest = std::max({longest, sq, later});
   }
 
   // diagonals of boxes may be longer than any difference: what LAMMPS asks for is enough

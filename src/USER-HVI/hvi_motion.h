@@ -30,9 +30,10 @@ class RelativeMotion {
  public:
   void start(int n, const double *const *x, double cut, double skin);
 
-  // moved: what each of the n points has moved since.  False: no pair can be missing.
+  // moved: what each of the n points has moved since.  False: no pair can be missing; nor any time up
+  // to the one given, if they go on with velocity v.
 
-  bool exceeded(const double *const *moved);
+  bool exceeded(const double *const *moved, const double *const *v = nullptr, double time = 0.0);
 
   // the most that any of them has moved in direction k; after exceeded() has said no
 

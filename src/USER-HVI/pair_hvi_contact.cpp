@@ -15,6 +15,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix_hvi_lists.h"
 #include "force.h"
 #include "memory.h"
 #include "neigh_list.h"
@@ -23,16 +24,14 @@
 
 #include <cmath>
 #include <cstring>
-#include <vector>
 
 using namespace LAMMPS_NS;
-
-static constexpr double BIG = 1.0e100;
 
 /* ---------------------------------------------------------------------- */
 
 PairHVIContact::PairHVIContact(LAMMPS *lmp) :
-    Pair(lmp), prefactor(1.0), uniform(0), epsilon(nullptr), sigma(nullptr), law(nullptr)
+    Pair(lmp), prefactor(1.0), relative(0), uniform(0), epsilon(nullptr), sigma(nullptr),
+    law(nullptr)
 {
   writedata = 1;
   respa_enable = 0;
@@ -79,7 +78,7 @@ void PairHVIContact::compute(int eflag, int vflag)
    One sweep over the half list; bonded pairs are in it like all others.
    Whether a pair at rest touches is a coin toss, and a mispredicted branch
    costs more than the force: so first collect the pairs in touch without a
-   branch, then work through them.
+   branch, of as many particles as it takes to fill a batch, then work through them.
    UNIFORM: all types share one law, their types need not be fetched
 ------------------------------------------------------------------------- */
 
@@ -87,20 +86,19 @@ template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void PairHVIContact::eval()
 {
   if (list->inum == 0) return;
 
-  // rows of x and f lie side by side: no need to fetch their pointers
+  // rows of x lie side by side: no need to fetch their pointers
 
   const double(*const x)[3] = (const double(*)[3]) atom->x[0];
-  double(*const f)[3] = (double(*)[3]) atom->f[0];
   const int *const type = atom->type;
-  const int nlocal = atom->nlocal;
 
   const int inum = list->inum;
   const int *const ilist = list->ilist;
   const int *const numneigh = list->numneigh;
   const int *const *const firstneigh = list->firstneigh;
 
-  const HVI::Contact one_law = common;
-  Touch touch[NTOUCH];
+  const double one_cutsq = common.cutsq;
+  Touching touch;
+  int n = 0;
 
   for (int ii = 0; ii < inum; ii++) {
     const int i = ilist[ii];
@@ -110,124 +108,68 @@ template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void PairHVIContact::eval()
     const HVI::Contact *const ilaw = law[type[i]];
     const int *const jlist = firstneigh[i];
     const int jnum = numneigh[i];
-    double fxtmp = 0.0, fytmp = 0.0, fztmp = 0.0;
 
-    for (int jfirst = 0; jfirst < jnum; jfirst += NTOUCH) {
-      const int jlast = MIN(jfirst + NTOUCH, jnum);
-      int ntouch = 0;
+    for (int jfirst = 0; jfirst < jnum; jfirst += NROW) {
+      const int jlast = MIN(jfirst + NROW, jnum);
+      if (n > NTOUCH - NROW) {
+        work_off<EVFLAG, NEWTON_PAIR, UNIFORM>(touch, n);
+        n = 0;
+      }
       for (int jj = jfirst; jj < jlast; jj++) {
         const int j = jlist[jj] & NEIGHMASK;
         const double delx = xtmp - x[j][0];
         const double dely = ytmp - x[j][1];
         const double delz = ztmp - x[j][2];
         const double rsq = delx * delx + dely * dely + delz * delz;
-        touch[ntouch] = {delx, dely, delz, rsq, j};
-        ntouch += rsq < (UNIFORM ? one_law.cutsq : ilaw[type[j]].cutsq);
-      }
-
-      for (int n = 0; n < ntouch; n++) {
-        const Touch &t = touch[n];
-        if (t.rsq == 0.0)
-          error->one(FLERR,
-                     "Pair hvi/contact: particles {} and {} are at the same place at step {}",
-                     atom->tag[i], atom->tag[t.j], update->ntimestep);
-        const HVI::Contact &c = UNIFORM ? one_law : ilaw[type[t.j]];
-        const double fpair = c.force(t.rsq);    // Watson & Steinhauser eq 2
-        fxtmp += t.delx * fpair;
-        fytmp += t.dely * fpair;
-        fztmp += t.delz * fpair;
-        if (NEWTON_PAIR || t.j < nlocal) {
-          f[t.j][0] -= t.delx * fpair;
-          f[t.j][1] -= t.dely * fpair;
-          f[t.j][2] -= t.delz * fpair;
-        }
-
-        if (EVFLAG)
-          ev_tally(i, t.j, nlocal, NEWTON_PAIR, eflag_either ? c.energy(t.rsq) : 0.0, 0.0, fpair,
-                   t.delx, t.dely, t.delz);
+        touch.delx[n] = delx;
+        touch.dely[n] = dely;
+        touch.delz[n] = delz;
+        touch.rsq[n] = rsq;
+        touch.i[n] = i;
+        touch.j[n] = j;
+        n += rsq < (UNIFORM ? one_cutsq : ilaw[type[j]].cutsq);
       }
     }
-
-    f[i][0] += fxtmp;
-    f[i][1] += fytmp;
-    f[i][2] += fztmp;
   }
+  work_off<EVFLAG, NEWTON_PAIR, UNIFORM>(touch, n);
 }
 
-/* ----------------------------------------------------------------------
-   shortest sqrt(m/k) of the pairs in reach: as they stand, and where a pair
-   that approaches will turn back if left alone.  The stiffness k grows with
-   depth and with energy, so only a pair that is deeper, more energetic or
-   lighter than the worst one so far of its types needs to be worked out.
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-void PairHVIContact::tighten(HVI::TimeStepBounds &bounds)
+template <int EVFLAG, int NEWTON_PAIR, int UNIFORM>
+void PairHVIContact::work_off(const Touching &touch, int ntouch)
 {
-  const double *const *const x = atom->x;
-  const double *const *const v = atom->v;
-  const double *const rmass = atom->rmass;
-  const double *const mass = atom->mass;
+  double(*const f)[3] = (double(*)[3]) atom->f[0];
   const int *const type = atom->type;
-  const double mvv2e = force->mvv2e;
+  const int nlocal = atom->nlocal;
 
-  double contact = bounds.contact * bounds.contact;
-  double approach = bounds.approach * bounds.approach;
+  double force[NTOUCH];    // Watson & Steinhauser eq 2
+  const HVI::Contact one_law = common;
+  for (int n = 0; n < ntouch; n++)
+    force[n] = (UNIFORM ? one_law : law[type[touch.i[n]]][type[touch.j[n]]]).force(touch.rsq[n]);
 
-  struct Worst {
-    double rsq, m_contact, e, m_approach;
-  };
-  const int np1 = atom->ntypes + 1;
-  std::vector<Worst> worst(np1 * np1, {BIG, BIG, 0.0, BIG});
+  for (int n = 0; n < ntouch; n++) {
+    const int i = touch.i[n], j = touch.j[n];
+    if (touch.rsq[n] == 0.0)
+      error->one(FLERR, "Pair hvi/contact: particles {} and {} are at the same place at step {}",
+                 atom->tag[i], atom->tag[j], update->ntimestep);
+    const double fpair = force[n];
+    f[i][0] += touch.delx[n] * fpair;
+    f[i][1] += touch.dely[n] * fpair;
+    f[i][2] += touch.delz[n] * fpair;
+    if (NEWTON_PAIR || j < nlocal) {
+      f[j][0] -= touch.delx[n] * fpair;
+      f[j][1] -= touch.dely[n] * fpair;
+      f[j][2] -= touch.delz[n] * fpair;
+    }
 
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    const int itype = type[i];
-    const int *const jlist = list->firstneigh[i];
-    const int jnum = list->numneigh[i];
-    const double mi = rmass ? rmass[i] : mass[itype];
-
-    for (int jj = 0; jj < jnum; jj++) {
-      const int j = jlist[jj] & NEIGHMASK;
-      const int jtype = type[j];
-      const double delx = x[i][0] - x[j][0];
-      const double dely = x[i][1] - x[j][1];
-      const double delz = x[i][2] - x[j][2];
-      const double rsq = delx * delx + dely * dely + delz * delz;
-      const double rdotv =
-          delx * (v[i][0] - v[j][0]) + dely * (v[i][1] - v[j][1]) + delz * (v[i][2] - v[j][2]);
-
-      const HVI::Contact &c = law[itype][jtype];
-      Worst &w = worst[itype * np1 + jtype];
-      const double mj = rmass ? rmass[j] : mass[jtype];
-      const double m = mvv2e * mi * mj / (mi + mj);
-      const bool touching = rsq < c.cutsq;
-
-      if (touching && !(rsq >= w.rsq && m >= w.m_contact)) {
-        const double bound = m / c.stiffness(rsq);
-        if (bound < contact || std::isnan(bound)) {
-          contact = bound;
-          w.rsq = rsq;
-          w.m_contact = m;
-        }
-      }
-
-      if (!(rdotv >= 0.0)) {
-        const double e = 0.5 * m * rdotv * rdotv / rsq + (touching ? c.energy(rsq) : 0.0);
-        if (!(e <= w.e && m >= w.m_approach)) {
-          const double bound = m / c.stiffness(c.turning_rsq(e));
-          if (bound < approach || std::isnan(bound)) {
-            approach = bound;
-            w.e = e;
-            w.m_approach = m;
-          }
-        }
-      }
+    if (EVFLAG) {
+      const double rsq = touch.rsq[n];
+      const HVI::Contact &c = UNIFORM ? one_law : law[type[i]][type[j]];
+      ev_tally(i, j, nlocal, NEWTON_PAIR, eflag_either ? c.energy(rsq) : 0.0, 0.0, fpair,
+               touch.delx[n], touch.dely[n], touch.delz[n]);
     }
   }
-
-  bounds.contact = std::sqrt(contact);
-  bounds.approach = std::sqrt(approach);
-  bounds.conserve_energy(HVI::shortest_cutoff(lmp));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -252,6 +194,7 @@ void PairHVIContact::allocate()
 void PairHVIContact::settings(int narg, char **arg)
 {
   prefactor = 1.0;
+  relative = 0;
 
   int iarg = 0;
   while (iarg < narg) {
@@ -261,6 +204,13 @@ void PairHVIContact::settings(int narg, char **arg)
       prefactor = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
       if (!(prefactor > 0.0) || !std::isfinite(prefactor))
         error->all(FLERR, "Pair_style hvi/contact prefactor must be > 0, not {}", arg[iarg + 1]);
+      iarg += 2;
+    } else if (strcmp(arg[iarg], "lists") == 0) {
+      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_style hvi/contact lists", error);
+      if (strcmp(arg[iarg + 1], "relative") != 0 && strcmp(arg[iarg + 1], "displacement") != 0)
+        error->all(FLERR, "Pair_style hvi/contact lists must be relative or displacement, not {}",
+                   arg[iarg + 1]);
+      relative = strcmp(arg[iarg + 1], "relative") == 0;
       iarg += 2;
     } else
       error->all(FLERR, "Unknown pair_style hvi/contact keyword: {}", arg[iarg]);
@@ -310,6 +260,7 @@ void PairHVIContact::init_style()
     error->all(FLERR, "Pair style hvi/contact does not support run_style respa");
 
   neighbor->add_request(this);
+  if (!force->pair_match("^hvi/sph$", 0)) FixHVILists::make(lmp, relative, true);
   uniform = -1;
 }
 
@@ -379,6 +330,7 @@ void PairHVIContact::read_restart(FILE *fp)
 void PairHVIContact::write_restart_settings(FILE *fp)
 {
   fwrite(&prefactor, sizeof(double), 1, fp);
+  fwrite(&relative, sizeof(int), 1, fp);
   fwrite(&mix_flag, sizeof(int), 1, fp);
 }
 
@@ -388,9 +340,11 @@ void PairHVIContact::read_restart_settings(FILE *fp)
 {
   if (comm->me == 0) {
     utils::sfread(FLERR, &prefactor, sizeof(double), 1, fp, nullptr, error);
+    utils::sfread(FLERR, &relative, sizeof(int), 1, fp, nullptr, error);
     utils::sfread(FLERR, &mix_flag, sizeof(int), 1, fp, nullptr, error);
   }
   MPI_Bcast(&prefactor, 1, MPI_DOUBLE, 0, world);
+  MPI_Bcast(&relative, 1, MPI_INT, 0, world);
   MPI_Bcast(&mix_flag, 1, MPI_INT, 0, world);
 }
 

@@ -47,19 +47,29 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::Ener
 
  protected:
   double prefactor;
+  int relative;           // 1 if lists are made anew by relative motion
   int uniform;            // 1 if all pairs of types share one law,
   HVI::Contact common;    // and this is it
   double **epsilon, **sigma;
   HVI::Contact **law;
 
-  static constexpr int NTOUCH = 64;
-  struct Touch {
-    double delx, dely, delz, rsq;
-    int j;
+  // pairs in touch, a batch of them; NROW at most from a row of the list before there is a look at
+  // whether the batch is full
+
+  static constexpr int NROW = 64, NTOUCH = 256, NLANE = 8;
+  struct Touching {
+    double delx[NTOUCH], dely[NTOUCH], delz[NTOUCH], rsq[NTOUCH];
+    int i[NTOUCH], j[NTOUCH];
   };
 
   void allocate();
+  struct Extremes {
+    double rsq, energy;
+  };
+  bool one_mass() const;
+  Extremes extremes() const;
   template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void eval();
+  template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void work_off(const Touching &, int);
 };
 
 }    // namespace LAMMPS_NS

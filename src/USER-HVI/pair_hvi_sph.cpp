@@ -176,7 +176,7 @@ void PairHVISPH::init_style()
   FixHVILedger::instance(lmp);    // fix hvi/sph cannot make it: a fix must not add fixes
   const auto integrators = modify->get_fix_by_style("^hvi/sph$");
   integrator = integrators.empty() ? nullptr : dynamic_cast<FixHVISPH *>(integrators[0]);
-  lists = FixHVILists::make(lmp, !integrator || integrator->relative_lists());
+  lists = FixHVILists::make(lmp, !integrator || integrator->relative_lists(), false);
   strength = FixHVIJohnsonCook::find(lmp);
 
   const int ntypes = atom->ntypes;

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scenes import KAPPA, PAIR, R_EQ, State, collision, cube, scene
+from scenes import KAPPA, PAIR, R_EQ, State, collision, contact, cube, scene
 
 MAXIMUM, CONTACT, SPRING, APPROACH, GROWING = range(5)
 BOX = [[-8.0, 8.0]] * 3
@@ -211,3 +211,28 @@ def test_every_contact_of_a_hybrid(lmp, stiff):
         pair += f"pair_coeff {k} {k} hvi/contact {k} {50.0 if k == stiff else 1.0} 1.0\n"
     dt, why = first(lmp, s, pair=pair)
     assert dt == pytest.approx(C * np.sqrt(0.5 / stiffness(1.0, eps=50.0)), rel=1e-12) and why == CONTACT
+
+
+@pytest.mark.parametrize("nranks", [1, 3])
+@pytest.mark.parametrize("speed, why", [(0.0, CONTACT), (6.0, APPROACH)])
+def test_one_mass_or_several(lmp, speed, why, nranks):
+    """of particles of one mass the limits are found in batches: as of those whose masses differ in the last digits"""
+    steps = []
+    for heavier in (0.0, 1e-13):
+        s = cube((7, 6, 5), jitter=0.2, speed=speed, cut=1.0, types=2, seed=4)
+        s.masses = (1.0, 1.0 + heavier)
+        steps.append(first(lmp, s, nranks=nranks))
+    (fast, because), (general, reason) = steps
+    assert because == reason == why
+    assert fast == pytest.approx(general, rel=1e-12)
+    # by brute force
+    i, j = np.triu_indices(len(s.x), 1)
+    d, u = s.x[i] - s.x[j], s.v[i] - s.v[j]
+    r = np.linalg.norm(d, axis=1)
+    near = r < R_EQ + 0.3
+    if why == CONTACT:
+        assert fast == pytest.approx(C * np.sqrt(0.5 / stiffness(r.min())), rel=1e-12)
+    else:
+        rate = np.minimum((d * u).sum(axis=1) / r, 0.0)[near]
+        e = np.where(rate < 0.0, 0.25 * rate**2 + contact(r[near])[0], 0.0)
+        assert fast == pytest.approx(C * np.sqrt(0.5 / stiffness(turning(e.max()))), rel=1e-12)
