@@ -68,15 +68,21 @@ struct SpallVoids {
 
   double growth(double tension, double K, double D, double dt) const
   {
-    if (!(K > 0.0) || !(grown(tension, D, dt) > NOTHING)) return 0.0;
+    const double upper = grown(tension, D, dt);
+    if (!(K > 0.0) || !(upper > NOTHING)) return 0.0;
     const double s = strength(D), x = tension / s, n = 1.0 / m, c = K * dt * rate / s;
-    double y = std::min(x, std::pow(x / c, m));
-    for (int k = 0; k < 100; k++) {
-      const double f = c * std::pow(y, n), step = (y + f - x) / (1.0 + n * f / y);
-      y -= step;
-      if (!(step > 1e-14 * y)) break;
+    double y = x, f = upper * K / s;
+    if (!(f < x)) {
+      y = std::pow(x / c, m);
+      f = x;
     }
-    return grown(y * s, D, dt);
+    for (int k = 0; k < 100; k++) {
+      const double step = (y + f - x) / (1.0 + n * f / y);
+      y -= step;
+      f = c * std::pow(y, n);
+      if (!(step > 1e-9 * y)) break;
+    }
+    return f * s / K;
   }
 
   // a step to the density rho and the energy e, of something that size
