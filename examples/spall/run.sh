@@ -1,0 +1,30 @@
+#!/bin/sh
+# All runs of README.md, one folder each under runs/: sh run.sh [LAMMPS command, default: lmp]. Two minutes.
+here=$(cd "$(dirname "$0")" && pwd)
+lmp=${*:-lmp}
+export LAMMPS_POTENTIALS="$here/../../potentials:$here"
+run() { # name, variables
+  name=$1; shift
+  mkdir -p runs/"$name"
+  $lmp -in "$here"/in.spall -var out runs/"$name" -log runs/"$name"/log.lammps "$@" >runs/"$name"/screen </dev/null || exit 1
+}
+for s in voids principal; do
+  for n in 8 16 32 64 128 256; do run n$n-$s -var n $n -var spall $s; done
+  while read -r hf ht; do
+    for n in 64 128; do run h$hf-$n-$s -var hf "$hf" -var ht "$ht" -var n $n -var spall $s; done
+  done <<THICK
+20 40
+6.3 12.6
+2 4
+0.63 1.26
+0.2 0.4
+0.063 0.126
+THICK
+done
+sed '/^#/d; /^name,/d' "$here"/shots.csv | while IFS=, read -r shot metal paper flyer target hf ht v0 rest; do
+  for s in voids principal none; do
+    for n in 64 128; do
+      run "shot-$(echo "$shot" | tr ' ' _)-$s-$n" -var flyer "$flyer" -var target "$target" -var hf "$hf" -var ht "$ht" -var v0 "$v0" -var spall $s -var n $n
+    done
+  done || exit 1
+done

@@ -1,0 +1,172 @@
+"""Spall by growth of voids: against the law's own equations, and in plate impacts (examples/spall).
+
+Rows in one-dimensional strain. Constants are those of the material file; nothing here is fitted.
+"""
+
+import numpy as np
+import pytest
+import yaml
+from reference.voids import C0, CL, RHO0, S1, SHEAR, constants, law
+from solid_runs import consistency, row
+
+def stretch(lmp, root, folder, epsdot, strain, words="", steps=4000):
+    """the same of the middle of a row, whose particles all have v = epsdot x"""
+    n, a = 40, 1e-3 * 1e4 / epsdot
+    s = row(n * a, n, margin=2 * n * a, rho=RHO0)
+    middle = 0.5 * s.box[0]
+    s.v[:, 0] = epsdot * (s.x[:, 0] - middle)
+    s.write(folder / "row.data")
+    return lmp(f"""units si
+boundary f p p
+atom_style sph
+atom_modify map array
+processors * 1 1
+read_data row.data
+pair_style hvi/sph cubic dim 1 viscosity 0 0 {words}
+pair_coeff 1 1 file {root}/potentials/Al6061-T6.hvi h {1.2 * a:.17g}
+neighbor {0.3 * a:.17g} bin
+neigh_modify every 1 delay 0 check yes
+fix solid all hvi/johnson-cook strength none damage no spall voids
+fix move all hvi/sph
+fix hold all setforce 0 0 0
+timestep {strain / epsdot / steps:.17g}
+region middle block {middle - 3 * a:.17g} {middle + 3 * a:.17g} INF INF INF INF
+group middle region middle
+compute S all hvi/atom p e voids void_damage spalled
+compute M middle reduce ave c_S[*]
+thermo 1
+thermo_style custom step time c_M[*]
+thermo_modify format float %.12g
+run {steps}
+""").thermo
+
+
+@pytest.mark.parametrize("words", ["", "gradient law"])
+@pytest.mark.parametrize("epsdot", [1e4, 1e5, 1e6, 1e7])
+def test_stretched_at_a_constant_rate(lmp, root, tmp_path, epsdot, words):
+    """strength, energy and strain at failure are those of the law's equations; they are near sigma (epsdot/rate)^m and sigma phi_c/2
+
+    The part of sigma (epsdot/rate)^m that matter bears falls from 0.94 at 1e4/s to 0.86 at 1e7/s: the larger the rate, the more voids have
+    opened, and damage has been done, when tension is largest. The cubic kernel has M > 1 in a row: with gradient law so much faster is the stretching.
+    """
+    k = constants(root)
+    M = consistency("cubic", 1.2, 1)[0, 0] if words else 1.0
+    strength, energy, strain = law(k, epsdot * M)
+    t = stretch(lmp, root, tmp_path, epsdot, 1.1 * strain, words)
+    bad = np.flatnonzero(t["c_M[4]"] >= 1)[0]
+    found = -t["c_M[1]"].min(), RHO0 * t["c_M[2]"][bad], epsdot * t["Time"][bad] * M
+    scale = k["sigma"] * (epsdot / k["rate"]) ** k["m"]
+    print(f"{epsdot:.0e} {words}: law {strength:.4e} {energy:.4e} {strain:.5f}, row", [f"{v:.4e}" for v in found], "of the scale",
+          strength / scale, energy / (0.5 * scale * k["phi_c"]), "M", M)
+    assert found == pytest.approx((strength, energy, strain), rel=2e-3 if not words else 5e-3)
+    assert 0.85 < strength / scale < 0.95
+    assert 1.0 < energy / (0.5 * scale * k["phi_c"]) < 1.25
+
+
+# plate impacts
+
+
+RUNS = {}  # several tests look at the same run
+
+
+@pytest.fixture
+def shot(lmp, root, tmp_path):
+    """result.yaml of in.spall, and the record: t (us), u, largest tension, failed particles"""
+
+    def run(**variables):
+        key = tuple(sorted(variables.items()))
+        if key not in RUNS:
+            folder = tmp_path / str(len(RUNS))
+            folder.mkdir()
+            env = {"LAMMPS_POTENTIALS": f"{root}/potentials:{root}/examples/spall"}
+            lmp(root / "examples" / "spall" / "in.spall", cwd=folder, vars={**variables, "out": folder}, env=env)
+            RUNS[key] = yaml.safe_load((folder / "result.yaml").read_text()), np.loadtxt(folder / "surface.dat").T
+            result = RUNS[key][0]
+            print(variables, {k: result[k] for k in ("pull_back_m_s", "spall_strength_GPa", "strain_rate_per_s", "spall_plane_mm", "void_work_J_m2")})
+            assert abs(result["energy_ratio"] - 1) < 1e-4 and result["momentum_error"] < 1e-13
+        return RUNS[key]
+
+    return run
+
+
+@pytest.mark.parametrize("n", [16, 64])
+def test_what_is_read_off_a_record(shot, n):
+    """pull-back, strength, strain rate by their definitions, from the record, independently of the input's loop"""
+    r, (t, u, _, bad) = shot(n=n)
+    half = np.flatnonzero(u < 0.5 * u.max())
+    top = np.where(t > t[half[half < u.argmax()][-1]] + 0.5e6 * 2e-3 / C0, u, 0).argmax()  # not what rings behind the shock
+    rise = next(k for k in range(top, len(u)) if u[k] - u[top:k + 1].min() > 0.1 * (u[top] - u[top:k + 1].min()) and u[top:k + 1].min() < 0.98 * u[top])
+    low = top + u[top:rise + 1].argmin()
+    du = u[top] - u[low]
+    half = top + np.flatnonzero(u[top:] < u[top] - 0.5 * du)[0]
+    tenth = np.flatnonzero(u[:half] >= u[top] - 0.1 * du)[-1]
+    rate = 0.4 * du / (2 * C0 * 1e-6 * (t[half] - t[tenth]))
+    assert r["record"] == "ok" and (r["plate"] == "ok") == (n >= 32)
+    assert r["pull_back_m_s"] == pytest.approx(du, rel=1e-4)
+    assert r["spall_strength_GPa"] == pytest.approx(0.5e-9 * RHO0 * C0 * du, rel=1e-4)
+    assert r["strain_rate_per_s"] == pytest.approx(rate, rel=0.03)  # a sample of either end
+    assert r["first_failure_us"] == pytest.approx(t[np.flatnonzero(bad > 0)[0]], abs=1.01 * (t[1] - t[0]))
+    # the plateau: both elastic waves, as in test_solids.py
+    hel = 324.1e6 * RHO0 * CL**2 / (2 * SHEAR)
+    if n >= 64:
+        assert r["top_m_s"] == pytest.approx(500 - hel / RHO0 * (1 / C0 - 1 / CL), rel=0.01)
+
+
+def test_a_record_without_spall(shot):
+    """no limit of tension, so no failure; and a record that ends before the surface falls says so"""
+    assert shot(n=32, spall="none")[0]["failed_particles"] == 0
+    r = shot(n=32, tstop=1.1)[0]
+    assert r["record"].startswith("no pull-back") and r["failed_particles"] == 0
+
+
+def test_convergence(shot):
+    """pull-back velocity by voids changes by less than 5 % from each spacing to the next, 32 to 128 particles per flyer; that of the limit does not
+
+    It has not converged for all that: with 256 it is less by 13 % again (examples/spall). Energy per area goes down with the spacing: softening
+    is local, so damage goes into thinner layers. No regime was found in which it stays.
+    """
+    n = (16, 32, 64, 128)
+    du, energy, instant = (np.array([shot(n=k, **how)[0][key] for k in n])
+                           for key, how in (("pull_back_m_s", {}), ("void_work_J_m2", {}), ("pull_back_m_s", dict(spall="principal"))))
+    print("du", du, "energy", energy, "instant", instant)
+    assert np.abs(du[1:] / du[:-1] - 1).max() < 0.05
+    assert np.abs(instant[1:] / instant[:-1] - 1).max() > 0.15
+    assert np.all((0.75 < energy[1:] / energy[:-1]) & (energy[1:] / energy[:-1] < 0.9))
+
+
+def test_rates(shot, root):
+    """the same plates 0.1 to 10 times as thick: strength by voids goes with the strain rate, the instant limit knows none
+
+    Beside the exponent m of the law, that of the law's own strength is less by a tenth (test_stretched_at_a_constant_rate), and that read off
+    records less again: 0.84 of sigma at 1e6/s with 64 particles per flyer, 0.70 with 128 (examples/spall).
+    """
+    k = constants(root)
+    slopes = []
+    for spall in ("voids", "principal"):
+        found = np.array([[shot(n=64, hf=h, ht=2 * h, spall=spall)[0][q] for q in ("strain_rate_per_s", "spall_strength_GPa")] for h in (20, 2, 0.2)])
+        slopes.append(np.polyfit(*np.log(found.T), 1)[0])
+        if spall == "voids":
+            part = found[:, 1] * 1e9 / (k["sigma"] * (found[:, 0] / k["rate"]) ** k["m"])
+    print("exponents", slopes, "of the law's sigma", part)
+    assert 0.7 * k["m"] < slopes[0] < k["m"]
+    assert abs(slopes[1]) < 0.01
+    assert np.all((0.8 < part) & (part < 1.05))
+
+
+@pytest.mark.parametrize("V", [600, 1000, 1500])
+def test_place_of_first_failure(shot, V):
+    """an instant limit is passed where the head of the flyer's release runs in the release fan of the free surface
+
+    That head runs at a = (c0 + 2 s u) c_l/c0 behind the shock of speed Us = c0 + s u; the fan's ends at a and c0. So the least depth is where
+    the head meets the end of the fan, the largest where it meets its head, both in the plates' thickness at rest. Voids need time, and fail deeper.
+    """
+    n, hf, ht = 128, 2.0, 4.0
+    u = V / 2
+    a, Us = (C0 + 2 * S1 * u) * CL / C0, C0 + S1 * u
+    deep = ht - 0.5 * (ht - hf) * (1 + a / Us)
+    shallow = C0 * ((ht + hf + C0 * ht / Us + a * hf / Us) / (a + C0) - ht / Us)
+    instant, voids = (shot(n=n, v0=V, spall=spall)[0]["spall_plane_mm"] for spall in ("principal", "voids"))
+    print(V, "bounds", shallow, deep, "instant", instant, "voids", voids)
+    reach = 2.4 * hf / n  # of the kernel
+    assert shallow - reach < instant < deep + reach
+    assert instant < voids < hf
