@@ -88,7 +88,7 @@ int FixHVILists::setmask()
 
 bool FixHVILists::in_charge() const
 {
-  if (!relative) return false;
+  if (!relative || !force->pair_match(ahead ? "^hvi/contact" : "^hvi/sph$", 0, 1)) return false;
   for (const auto &ifix : modify->get_fix_list())
     if (ifix->box_change & (BOX_CHANGE_SIZE | BOX_CHANGE_SHAPE)) return false;
   return (neighbor->delay == 0 || neighbor->delay == NEVER) && neighbor->every == 1 &&

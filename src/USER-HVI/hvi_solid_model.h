@@ -149,11 +149,11 @@ class SolidModel {
     return clip_tension(in.p, p_min(s, in));
   }
 
-  // of the matter around voids
+  // of the matter around voids; rubble has no voids any more, but gaps
 
   double density(const SolidState &s, double rho) const
   {
-    return with_voids ? rho / (1.0 - s.voids.phi) : rho;
+    return with_voids && !s.failed() ? rho / (1.0 - s.voids.phi) : rho;
   }
 
   // in the directions of op (see hvi_mirror.h)

@@ -115,6 +115,7 @@ struct SpallVoids {
       K = now < tension ? (tension - now) / g : 2.0 * K;
       g = growth(tension, K, v.D, dt);
     }
+    g = std::log(before / left);
     v.D += (before - left) / critical(size);
     v.phi = 1.0 - left;
     v.work += std::max(now, 0.0) * g / rho;

@@ -27,6 +27,9 @@
 
 using namespace LAMMPS_NS;
 
+static constexpr int RECORD =
+    -2;    // of settings in restart files; mix flags of older ones are not below 0
+
 /* ---------------------------------------------------------------------- */
 
 PairHVIContact::PairHVIContact(LAMMPS *lmp) :
@@ -330,6 +333,7 @@ void PairHVIContact::read_restart(FILE *fp)
 void PairHVIContact::write_restart_settings(FILE *fp)
 {
   fwrite(&prefactor, sizeof(double), 1, fp);
+  fwrite(&RECORD, sizeof(int), 1, fp);
   fwrite(&relative, sizeof(int), 1, fp);
   fwrite(&mix_flag, sizeof(int), 1, fp);
 }
@@ -338,8 +342,14 @@ void PairHVIContact::write_restart_settings(FILE *fp)
 
 void PairHVIContact::read_restart_settings(FILE *fp)
 {
+  int record = 0;
   if (comm->me == 0) {
     utils::sfread(FLERR, &prefactor, sizeof(double), 1, fp, nullptr, error);
+    utils::sfread(FLERR, &record, sizeof(int), 1, fp, nullptr, error);
+    if (record != RECORD)
+      error->one(FLERR,
+                 "Pair hvi/contact: the restart file is of another version of the package: begin "
+                 "from a data file");
     utils::sfread(FLERR, &relative, sizeof(int), 1, fp, nullptr, error);
     utils::sfread(FLERR, &mix_flag, sizeof(int), 1, fp, nullptr, error);
   }

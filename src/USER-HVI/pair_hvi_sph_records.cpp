@@ -232,7 +232,8 @@ void PairHVISPH::find_sleepers()
   if (v_quiet == HVI::NO_BOUND) return;
 
   sleepers.resize(nlocal);
-  for (int i = 0; i < nlocal; i++) sleepers[i] = sleep.asleep(cells.cell_of(i));
+  for (int i = 0; i < nlocal; i++)
+    sleepers[i] = is_ours[atom->type[i]] && sleep.asleep(cells.cell_of(i));
 }
 
 /* ----------------------------------------------------------------------

@@ -70,6 +70,35 @@ def test_a_list_that_stays_gives_others(lmp, tmp_path, name):
     assert max(error(name, tmp_path, k) for k in range(3)) > 1e-3
 
 
+def test_not_for_another_pair_style(lmp, tmp_path):
+    """a run of hvi/contact with lists relative leaves nothing to one of another style: LAMMPS decides again"""
+    count = {}
+    for lists in ("relative", "displacement"):
+        lines = f"""units lj
+atom_style bond
+atom_modify map array
+boundary s s s
+lattice sc 1.0
+region box block 0 4 0 4 0 4
+create_box 1 box bond/types 1 extra/bond/per/atom 1
+create_atoms 1 box
+mass 1 1
+velocity all set 20 0 0
+pair_style hvi/contact lists {lists}
+pair_coeff 1 1 1 0.9
+neighbor 0.3 bin
+neigh_modify every 1 delay 0 check yes
+fix 1 all nve
+{THERMO}run 60
+pair_style lj/cut 1.5
+pair_coeff 1 1 0.1 0.9
+run 60
+"""
+        count[lists] = [t["Nbuild"][-1] for t in lmp(lines).runs]
+    first, second = zip(*count.values())
+    assert first[0] < 0.5 * first[1] and second[0] == second[1] >= 25, count
+
+
 def test_flight_costs_few_lists(lmp, tmp_path):
     """a body in flight at once and slowly spinning apart, beside one that rests"""
     s = bodies((4, (2, 3, 2), (30, 0, 0)), (4, (2, 20, 2), (0, 0, 0)), box=(200, 40, 12), periodic=False)

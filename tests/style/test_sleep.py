@@ -152,6 +152,16 @@ def test_who_never_sleeps(lmp, tmp_path):
         assert r.thermo["f_sph"][0] == 216, change
 
 
+def test_others_are_awake(lmp, tmp_path):
+    """particles of other styles under hybrid never count as asleep"""
+    s = bodies(lattice((5, 5, 5), (4, 4, 4)), lattice((5, 5, 5), (24, 4, 4), (0.0, 0.1, 0.0)), box=(36, 14, 14))
+    pair = "pair_style hybrid hvi/sph cubic lj/cut 1.2\npair_coeff 1 1 hvi/sph eos tait 1.0 4.0 7 h 1.25\npair_coeff * 2 lj/cut 1e-3 0.9\n"
+    lines = scene(s, tmp_path / "s.data", pair, fix="group one type 1\ngroup two type 2\nfix sph one hvi/sph\nfix nve two nve\n")
+    out = "compute a all hvi/atom asleep\ncompute one one reduce sum c_a\ncompute two two reduce sum c_a\n"
+    t = lmp(lines + out + "timestep 0.05\nthermo_style custom step c_one c_two f_sph\nthermo_modify norm no\nrun 3\n").thermo
+    assert (t["c_one"][1:] == 125).all() and (t["c_two"] == 0).all() and (t["f_sph"][1:] == 125).all()
+
+
 def test_ranks_share_who_is_awake(lmp, tmp_path):
     """the weight of compute hvi/atom asleep: each rank has half of those awake, with the way they go unchanged"""
     s, n = impact(), len(impact().x)

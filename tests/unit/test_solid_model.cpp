@@ -295,6 +295,19 @@ TEST(SolidModel, Temperature)
   o.from_work = false;
   const std::string cold = "# UNITS: lj\neos linear\nrho0 1\nK 60\n";
   EXPECT_TRUE(std::isnan(made(cold + COOK, o)->temperature(s, in)));
+
+  // around voids matter is denser; rubble has the density it has, whatever voids it failed with
+
+  o.spall = Spall::VOIDS;
+  const auto open = made(EOS + COOK + "spall voids\nsigma 1\nrate 1\nm 0.2\nphi_c 0.1\n", o);
+  s.voids.phi = 0.1;
+  SolidInput dense = in;
+  dense.rho = in.rho / 0.9;
+  const double around = made(EOS + COOK, options("johnson-cook"))->temperature(s, dense);
+  EXPECT_NEAR(open->temperature(s, in), around, 1e-9);
+  EXPECT_GT(std::fabs(around - 310.0), 1e-6);
+  s.spalled = 1.0;
+  EXPECT_NEAR(open->temperature(s, in), 310.0, 1e-9);
 }
 
 // Adiabatic: Y = A (1 - T*) and dT = chi Y deps/cp give Y = A exp(-k eps), k = chi A/cp/(Tm - Tref);
