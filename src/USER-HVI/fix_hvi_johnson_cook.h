@@ -80,7 +80,6 @@ class FixHVIJohnsonCook :
   static const Field FIELDS[];
 
   HVI::SolidOptions options;
-  std::string spall_name;
   std::vector<std::unique_ptr<HVI::SolidModel>> models;    // of types; null: no solid
   std::vector<bigint> inside, outside;                     // of the group: particles of types
   std::vector<int> warned;                                 // of types that do not spall

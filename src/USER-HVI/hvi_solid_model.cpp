@@ -37,13 +37,6 @@ namespace {
     s.yz += dt * r.yz;
   }
 
-  // what voids have left of the strength
-
-  double intact(const SolidState &s)
-  {
-    return std::max(0.0, 1.0 - s.voids.D);
-  }
-
   void crush(SolidState &s)
   {
     s.S = Deviator();
@@ -110,19 +103,8 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
     }
   }
 
-  if (options.spall == Spall::VOIDS) {
-    model->sigma_p = NO_LIMIT;
-    if (const Section *const s = material.section("spall", SpallVoids::name)) {
-      model->with_voids = make_voids(*s, model->voids, problem);
-      if (!model->with_voids) {
-        problem = "has a wrong section spall voids: " + problem;
-        return nullptr;
-      }
-    }
-  } else if (options.spall != Spall::NONE) {
-    const Section *const s = material.section("spall", "limit");
-    model->sigma_p = s ? s->values.at("sigma_p") : NO_LIMIT;
-  }
+  problem = model->take_spall(material);
+  if (!problem.empty()) return nullptr;
 
   const Eos &eos = *material.eos;
   model->T0 = eos.temperature(eos.rho0(), 0.0);
@@ -135,6 +117,40 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
     return nullptr;
   }
   return model;
+}
+
+/* ----------------------------------------------------------------------
+   the law of spall; without its section the material does not spall.  Returns what is wrong.
+------------------------------------------------------------------------- */
+
+std::string SolidModel::take_spall(const Material &material)
+{
+  const char *const name = spall_model(spall).section;
+  const Section *const section = name ? material.section("spall", name) : nullptr;
+  if (!section) {
+    spall = Spall::NONE;
+    return "";
+  }
+  std::string problem;
+  if (spall == Spall::VOIDS)
+    with_voids = make_spall(*section, voids, problem);
+  else if (spall == Spall::TULER_BUTCHER)
+    make_spall(*section, impulse, problem);
+  else
+    sigma_p = section->values.at("sigma_p");
+  with_spall = problem.empty();
+  return with_spall ? "" : std::string("has a wrong section spall ") + name + ": " + problem;
+}
+
+// whether it spalls at the end of this step, under the pressure of the law
+
+bool SolidModel::parts(SolidState &s, double p, double dt) const
+{
+  if (spall == Spall::TULER_BUTCHER)
+    s.voids.D = impulse.advance(s.voids.D, principal_above(impulse.sigma_0, p, s.S), dt);
+  else if (spall != Spall::VOIDS)
+    return spalls(spall, p, s.S, sigma_p);
+  return s.voids.D >= 1.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -248,11 +264,12 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     shear[k] = s.shear = law->shear_modulus(c[k]);
     eps[k] = s.eps;
     trial[k] = trial_of(s, in[k]);
-    if (s.voids.D == 0.0) continue;
+    const double left = intact(s);
+    if (left == 1.0) continue;
 
     // with the yield stress times 1 - D all is as without, if stress and modulus are over that
 
-    const double whole = s.voids.D < 1.0 ? 1.0 / intact(s) : 0.0;
+    const double whole = left > 0.0 ? 1.0 / left : 0.0;
     trial[k] = scaled(trial[k], whole);
     shear[k] *= whole;
   }
@@ -274,7 +291,7 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     }
     if (s.damage >= 1.0) {
       crush(s);
-    } else if (s.voids.D >= 1.0 || spalls(spall, c[k].p, s.S, sigma_p)) {
+    } else if (parts(s, c[k].p, dt)) {
       s.spalled = 1.0;
       crush(s);
     }

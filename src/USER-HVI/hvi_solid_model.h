@@ -12,9 +12,11 @@
 #include "hvi_damage.h"
 #include "hvi_material.h"
 #include "hvi_spall.h"
+#include "hvi_spall_tuler_butcher.h"
 #include "hvi_spall_voids.h"
 #include "hvi_strength.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -49,7 +51,7 @@ struct SolidState {
   double rate;       // of plastic strain
   double yield;      // von Mises's stress on the yield surface of S
 
-  SpallVoids::State voids;
+  SpallVoids::State voids;    // with the impulse of Tuler & Butcher only D, the part of K used up
 
   bool failed() const { return damage >= 1.0 || spalled != 0.0; }
 };
@@ -104,7 +106,7 @@ class SolidModel {
 
   const Strength &strength() const { return *law; }
   const Damage *damage() const { return fracture.get(); }    // null: none
-  bool spall_limited() const { return sigma_p < NO_LIMIT || with_voids; }
+  bool spall_limited() const { return with_spall; }
   bool has_size() const { return with_voids && voids.delta_c > 0.0; }
 
   // of something new, without stress; of something that has no model any more: a liquid
@@ -170,14 +172,24 @@ class SolidModel {
   double rho0;
   Spall spall;
   double sigma_p = 0.0;    // limit of tension
-  bool with_voids = false;
+  bool with_spall = false, with_voids = false;
   SpallVoids voids = {};
+  SpallTulerButcher impulse = {};
   double T0 = 0.0, cp = 0.0, chi = 1.0;    // temperature from plastic work
   bool thermal, from_work;
   double weibull;
   int seed;
 
   SolidModel() = default;
+  std::string take_spall(const Material &);
+  bool parts(SolidState &, double p, double dt) const;
+
+  // what voids have left of the strength
+
+  double intact(const SolidState &s) const
+  {
+    return with_voids && s.voids.D > 0.0 ? std::max(0.0, 1.0 - s.voids.D) : 1.0;
+  }
   Conditions conditions(const SolidState &, const SolidInput &) const;
   void show(SolidState &, const Deviator &, const SolidInput &) const;
   template <class Trial>

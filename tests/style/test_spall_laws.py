@@ -1,0 +1,103 @@
+"""Spall by an impulse in a scene: restart, data files, ranks, what it does, what is refused."""
+
+import numpy as np
+import pytest
+import test_spall_voids as voids
+from test_solid_forces import MATERIAL, start, state
+from test_solid_state import FIXES, NEIGHBOR, reader
+
+LAWS = {"tuler-butcher": "spall tuler-butcher\n  sigma_0 0.1\n  lambda 2\n  K 0.004\n"}
+JC = "damage no spall "
+
+
+@pytest.fixture
+def material(tmp_path):
+    path = tmp_path / "laws.hvi"
+    path.write_text(MATERIAL.format(sigma_p=3.0) + "".join(LAWS.values()))
+    return path
+
+
+def parted(f, law):
+    """some have spalled, some have not; of an impulse a part is there"""
+    assert 5 < f["spalled"].sum() < 500 and not f["voids"].any()
+    if law == "tuler-butcher":
+        assert ((f["void_damage"] > 0.01) & (f["spalled"] == 0)).sum() > 5 and (f["spalled"] == (f["void_damage"] == 1)).all()
+    assert (f["vm"][f["spalled"] == 1] == 0).all() and (f["p"][f["spalled"] == 1] >= 0).all()
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("nranks, words", [(1, "viscosity 1 2"), (2, "gradient law"), (2, "viscosity 1 2 h variable")])
+def test_restart(lmp, tmp_path, material, law, nranks, words):
+    """30 steps, restart, 30 more: the same bits as 60 at once"""
+    s = state(seed=23)
+    lmp(start(s, tmp_path, material, words, steps=0, sort=False, jc=JC + law, more="restart 30 half\n") + "run 59\n" + voids.OUT.format("whole"), nranks=nranks)
+    lmp("read_restart half.30\n" + NEIGHBOR + FIXES.format(JC + law) + "run 29\n" + voids.OUT.format("part"), nranks=nranks)
+    one, two = voids.read(tmp_path / "whole"), voids.read(tmp_path / "part")
+    parted(one, law)
+    for name in one:
+        assert np.array_equal(one[name], two[name]), name
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("words", ["viscosity 1 2", "gradient law"])
+def test_ranks(lmp, tmp_path, material, law, words):
+    text = start(state(seed=23), tmp_path, material, words, steps=40, jc=JC + law) + voids.OUT
+    lmp(text.format("one"))
+    one = voids.read(tmp_path / "one")
+    parted(one, law)
+    for nranks in (2, 4):
+        lmp(text.format("all"), nranks=nranks)
+        got = voids.read(tmp_path / "all")
+        assert np.array_equal(one["spalled"], got["spalled"])
+        for name in one:
+            assert np.abs(got[name] - one[name]).max() <= 1e-9 * max(1.0, np.abs(one[name]).max()), name
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("nranks, words", [(1, "viscosity 1 2"), (3, "gradient law")])
+def test_data_file(lmp, tmp_path, material, law, nranks, words):
+    """30 steps, write_data, read_data, 30 more: as if not interrupted"""
+    s = state(seed=23)
+    lmp(start(s, tmp_path, material, words, steps=0, jc=JC + law) + "run 30\nwrite_data half.data\n" + voids.OUT.format("half") + "run 30\n" + voids.OUT.format("whole"))
+    text = reader(material, words, JC + law)
+    has_state = law == "tuler-butcher"
+    assert ("\njc_voids # id voids damage work\n" in (tmp_path / "half.data").read_text()) == has_state
+    if has_state:
+        text = text.replace("fix jc NULL jc_forces", "fix jc NULL jc_forces fix jc NULL jc_voids")
+    lmp(text + voids.OUT.format("read") + "run 30\n" + voids.OUT.format("part"), nranks=nranks)
+    half, whole, again, part = (voids.read(tmp_path / f) for f in ("half", "whole", "read", "part"))
+    parted(whole, law)
+    for one, two, tolerance in ((half, again, 1e-13), (whole, part, 1e-9)):
+        for name in one:
+            assert np.abs(one[name] - two[name]).max() <= tolerance * max(1.0, np.abs(one[name]).max()), name
+
+
+@pytest.mark.parametrize("words", ["viscosity 1 2", "gradient law"])
+def test_impulse(lmp, tmp_path, material, words):
+    """what each step uses up of K, from the stress at its end; that in the forces has an energy that was extrapolated"""
+    frames = "".join(f"run 1\n{voids.OUT.format(f'f.{k}')}" for k in range(8))
+    lmp(start(state(seed=23), tmp_path, material, words, steps=10, jc=JC + "tuler-butcher") + frames)
+    f = [voids.read(tmp_path / f"f.{k}") for k in range(8)]
+    n = 0
+    for one, two in zip(f, f[1:]):
+        stress = np.array([[two["sxx"], two["sxy"], two["sxz"]], [two["sxy"], two["syy"], two["syz"]], [two["sxz"], two["syz"], two["szz"]]])
+        above = np.maximum(np.linalg.eigvalsh(stress.transpose(2, 0, 1))[:, 2] - 0.1, 0)
+        sound = two["spalled"] == 0
+        assert (two["void_damage"] - one["void_damage"])[sound] == pytest.approx(0.004 * above[sound] ** 2 / 0.004, rel=0.03, abs=1e-4)
+        n += (above[sound] > 0).sum()
+    assert n > 100
+
+
+def test_wrong_input(lmp, tmp_path, material):
+    s = state(seed=23)
+    lmp(start(s, tmp_path, material, steps=3, jc=JC + "tuler-butcher") + "write_restart half\n")
+    r = lmp("read_restart half\n" + NEIGHBOR + FIXES.format("damage no spall voids") + "run 1\n", expect_fail=True)
+    assert "was written with strength johnson-cook damage no spall tuler-butcher" in r.error and "spall voids" in r.error
+    law = LAWS["tuler-butcher"]
+    for wrong, message in (("sigma_0 0.1", "sigma_0 = -1"), ("lambda 2", "lambda = 0"), ("K 0.004", "K = 0"), ("  K 0.004\n", "missing key K")):
+        material.write_text(MATERIAL.format(sigma_p=3.0) + law.replace(wrong, message.replace(" = ", " ") if "=" in message else ""))
+        r = lmp(start(s, tmp_path, material, steps=0, jc=JC + "tuler-butcher"), expect_fail=True)
+        assert "spall tuler-butcher" in r.error and message in r.error, r.error
+    material.write_text(MATERIAL.format(sigma_p=3.0))
+    r = lmp(start(s, tmp_path, material, steps=1, jc=JC + "tuler-butcher"))
+    assert any("has no section spall tuler-butcher and does not spall" in w for w in r.warnings)

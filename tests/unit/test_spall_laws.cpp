@@ -1,0 +1,173 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi: hypervelocity impact for LAMMPS, GNU GPL version 2, see LICENSE
+   Laws of spall other than voids, by themselves and in a solid, against closed forms and integrals of their own.
+------------------------------------------------------------------------- */
+
+#include "hvi_solid_model.h"
+#include "hvi_spall_tuler_butcher.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace HVI;
+
+namespace {
+
+const std::string EOS = "eos gruneisen\nrho0 2703\nC 5240\nS1 1.4\ng0 1.97\na 0.48\ncp 885\n";
+const std::string PERFECT = "strength perfect\nG 27.6e9\nY 0.3e9\n";
+const std::string IMPULSE = "spall tuler-butcher\nsigma_0 0.4e9\nlambda 2.5\nK 2e16\n";
+
+Material parsed(const std::string &text, const std::string &units = "si")
+{
+  Material material;
+  EXPECT_EQ(parse_material("# UNITS: si\n" + text, "x.hvi", units, material), "");
+  return material;
+}
+
+SolidOptions options(Spall spall)
+{
+  SolidOptions o;
+  o.strength = "perfect";
+  o.damage = o.thermal = false;
+  o.spall = spall;
+  return o;
+}
+
+std::unique_ptr<SolidModel> made(const std::string &text, const SolidOptions &o)
+{
+  std::string problem;
+  auto model = SolidModel::make(parsed(text), o, problem);
+  EXPECT_EQ(problem, "");
+  EXPECT_TRUE(model);
+  return model;
+}
+
+// a step of something stretched along x, under that tension
+
+void step(const SolidModel &model, SolidState &s, double tension, double rate, double dt,
+          bool begin)
+{
+  SolidInput in = {};
+  in.rho = 2703;
+  in.p = -tension;
+  in.size = 1.0;
+  in.L.xx = rate;
+  if (begin || !model.ready(s)) model.prepare(s, in, begin);
+  model.first_half(s, in, dt);
+  SolidState *const list[] = {&s};
+  if (!s.failed()) { EXPECT_EQ(model.second_half(1, list, &in, dt), -1); }
+}
+
+}    // namespace
+
+/* ----------------------------------------------------------------------
+   Stress that grows as M rate t: (sigma - sigma_0)^(lambda + 1) = (lambda + 1) K M rate at the end.  With
+   sigma_0 = 0 and lambda = 1/m - 1 that is a strength that goes with rate^m.
+------------------------------------------------------------------------- */
+
+TEST(SpallTulerButcher, StressThatGrows)
+{
+  const double M = 74e9;
+  for (double sigma_0 : {0.0, 0.4e9})
+    for (double lambda : {0.5, 2.0, 4.0})
+      for (double rate : {1e4, 1e5, 1e6}) {
+        const double want = sigma_0 + 1e9 * std::pow(rate / 1e5, 1 / (lambda + 1));
+        const double K = std::pow(1e9, lambda + 1) / ((lambda + 1) * M * 1e5);
+        const SpallTulerButcher law = {sigma_0, lambda, K};
+        double error[2];
+        for (int k = 0; k < 2; k++) {
+          const double dt = want / (M * rate) / (2000 << k);
+          double used = 0.0, sigma = 0.0;
+          for (int n = 1; used < 1.0; n++) used = law.advance(used, sigma = M * rate * dt * n, dt);
+          EXPECT_EQ(used, 1.0);
+          error[k] = std::fabs(sigma / want - 1.0);
+        }
+        EXPECT_LT(error[0], 2e-3) << sigma_0 << " " << lambda << " " << rate;
+        EXPECT_LT(error[1], 1e-3) << sigma_0 << " " << lambda << " " << rate;
+      }
+}
+
+// below the threshold nothing, however long; what is used up stays
+
+TEST(SpallTulerButcher, Threshold)
+{
+  const SpallTulerButcher law = {0.4e9, 2.0, 1e9};
+  EXPECT_EQ(law.advance(0.3, 0.4e9, 1e9), 0.3);
+  EXPECT_EQ(law.advance(0.3, -5e9, 1e9), 0.3);
+  EXPECT_GT(law.advance(0.3, 0.4e9 + 1.0, 1e8), 0.3);
+  EXPECT_EQ(law.advance(0.3, 1e300, 1e9), 1.0);    // beyond all numbers
+}
+
+/* ----------------------------------------------------------------------
+   A solid that yields under a sine of tension: its largest principal stress is that and 2/3 Y.  Simpson's
+   rule says how much of K is used up, and until then nothing else changes.
+------------------------------------------------------------------------- */
+
+TEST(SpallTulerButcher, Solid)
+{
+  const auto model = made(EOS + PERFECT + IMPULSE, options(Spall::TULER_BUTCHER));
+  EXPECT_TRUE(model->spall_limited());
+  EXPECT_FALSE(made(EOS + PERFECT, options(Spall::TULER_BUTCHER))->spall_limited());
+  const double T = 1e-6, Y = 0.3e9, PI = 3.14159265358979323846;
+  for (double peak : {0.15e9, 0.5e9, 0.95e9, 1.6e9}) {
+    const int n = 4000;
+    double sum = 0.0;
+    for (int k = 0; k <= n; k++) {
+      const double above = peak * std::sin(PI * k / n) + 2.0 / 3.0 * Y - 0.4e9;
+      const double weight = k == 0 || k == n ? 1.0 : (k % 2 ? 4.0 : 2.0);
+      sum += weight * std::pow(std::max(0.0, above), 2.5);
+    }
+    const double want = sum * T / n / 3.0 / 2e16;
+
+    SolidState s = SolidModel::blank();
+    SolidInput in = {};
+    in.rho = 2703;
+    model->start(s, in, true);
+    for (int k = 0; k < 50; k++) step(*model, s, 0.0, 1e6, 1e-9, k == 0);    // until it yields
+    EXPECT_EQ(s.voids.D, 0.0);
+    EXPECT_NEAR(largest_principal(s.S), 2.0 / 3.0 * Y, 1e-6 * Y);
+    for (int k = 1; k <= n && !s.failed(); k++) {
+      step(*model, s, peak * std::sin(PI * k / n), 1e6, T / n, false);
+      in.p = -1e9;
+      EXPECT_EQ(model->pressure(s, in), s.failed() ? 0.0 : -1e9);
+      if (!s.failed()) { EXPECT_NEAR(von_mises(s.S), Y, 1e-6 * Y); }
+      EXPECT_EQ(s.voids.phi, 0.0);
+    }
+    EXPECT_EQ(s.failed(), want >= 1.0) << want;
+    EXPECT_EQ(s.spalled, s.failed() ? 1.0 : 0.0);
+    if (s.failed()) {
+      EXPECT_EQ(s.voids.D, 1.0);
+      EXPECT_EQ(von_mises(s.S), 0.0);
+    } else {
+      EXPECT_NEAR(s.voids.D, want, 1e-3 * want);
+    }
+  }
+}
+
+// K is stress to the power of lambda times time, in the units of the run; it must not be lost there
+
+TEST(SpallTulerButcher, Units)
+{
+  const Material micro = parsed(EOS + IMPULSE, "micro"), cgs = parsed(EOS + IMPULSE, "cgs");
+  const auto at = [](const Material &m, const char *key) {
+    return m.section("spall", "tuler-butcher")->values.at(key);
+  };
+  EXPECT_DOUBLE_EQ(at(micro, "sigma_0"), 0.4e6);
+  EXPECT_DOUBLE_EQ(at(micro, "K"), 2e16 * 1e6 * std::pow(1e-3, 2.5));
+  EXPECT_DOUBLE_EQ(at(cgs, "K"), 2e16 * std::pow(10.0, 2.5));
+  EXPECT_EQ(at(micro, "lambda"), 2.5);
+  Material material;
+  const auto problem = [&](const std::string &text, const std::string &units) {
+    return parse_material("# UNITS: si\n" + EOS + text, "x.hvi", units, material);
+  };
+  EXPECT_NE(problem("spall tuler-butcher\nsigma_0 1\nlambda 500\nK 1\n", "cgs")
+                .find("K is out of range in units cgs"),
+            std::string::npos);
+  EXPECT_NE(problem("spall tuler-butcher\nsigma_0 1\nlambda 500\nK 1\n", "micro")
+                .find("K is out of range in units micro"),
+            std::string::npos);
+  EXPECT_NE(problem("spall tuler-butcher\nsigma_0 1\nK 1\n", "cgs").find("missing key lambda"),
+            std::string::npos);
+  EXPECT_NE(problem("spall tuler-butcher\nsigma_0 1\nlambda 0\nK 1\n", "si").find("lambda = 0"),
+            std::string::npos);
+}
