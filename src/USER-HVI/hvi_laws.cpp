@@ -91,7 +91,7 @@ namespace {
       strength<StrengthPerfect>(),       strength<StrengthNone>(),
       damage<DamageJohnsonCook>(),       numbers<SpallLimit>("spall"),
       numbers<SpallVoids>("spall"),      numbers<SpallTulerButcher>("spall"),
-      numbers<ThermalWork>("thermal"),
+      numbers<SpallGrady>("spall"),      numbers<ThermalWork>("thermal"),
   };
 
   // the law of a section of the given kind and the values of its parameters; null if something is wrong
@@ -181,5 +181,6 @@ template <class Law> bool make_spall(const Section &section, Law &law, std::stri
 
 template bool make_spall(const Section &, SpallVoids &, std::string &);
 template bool make_spall(const Section &, SpallTulerButcher &, std::string &);
+template bool make_spall(const Section &, SpallGrady &, std::string &);
 
 }    // namespace HVI

@@ -11,6 +11,7 @@
 
 #include "hvi_damage.h"
 #include "hvi_section.h"
+#include "hvi_spall_grady.h"
 #include "hvi_spall_tuler_butcher.h"
 #include "hvi_spall_voids.h"
 #include "hvi_strength.h"

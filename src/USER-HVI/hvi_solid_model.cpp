@@ -10,6 +10,7 @@
 
 #include "hvi_laws.h"
 #include "hvi_mirror.h"
+#include "hvi_strength_perfect.h"
 #include "hvi_vector.h"
 
 #include <algorithm>
@@ -131,11 +132,16 @@ std::string SolidModel::take_spall(const Material &material)
     spall = Spall::NONE;
     return "";
   }
+  if (spall == Spall::GRADY && law->name() == std::string(StrengthNone::name))
+    return "has no yield stress, which spall grady takes its limit from: use another strength or "
+           "spall";
   std::string problem;
   if (spall == Spall::VOIDS)
     with_voids = make_spall(*section, voids, problem);
   else if (spall == Spall::TULER_BUTCHER)
     make_spall(*section, impulse, problem);
+  else if (spall == Spall::GRADY)
+    make_spall(*section, grady, problem);
   else
     sigma_p = section->values.at("sigma_p");
   with_spall = problem.empty();
@@ -144,8 +150,9 @@ std::string SolidModel::take_spall(const Material &material)
 
 // whether it spalls at the end of this step, under the pressure of the law
 
-bool SolidModel::parts(SolidState &s, double p, double dt) const
+bool SolidModel::parts(SolidState &s, double rho, double p, double Y, double dt) const
 {
+  if (spall == Spall::GRADY) return spalls(spall, p, s.S, grady.limit(rho, eos->c0(), Y));
   if (spall == Spall::TULER_BUTCHER)
     s.voids.D = impulse.advance(s.voids.D, principal_above(impulse.sigma_0, p, s.S), dt);
   else if (spall != Spall::VOIDS)
@@ -291,7 +298,7 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     }
     if (s.damage >= 1.0) {
       crush(s);
-    } else if (parts(s, c[k].p, dt)) {
+    } else if (parts(s, in[k].rho, c[k].p, s.yield, dt)) {
       s.spalled = 1.0;
       crush(s);
     }

@@ -12,6 +12,7 @@
 #include "hvi_damage.h"
 #include "hvi_material.h"
 #include "hvi_spall.h"
+#include "hvi_spall_grady.h"
 #include "hvi_spall_tuler_butcher.h"
 #include "hvi_spall_voids.h"
 #include "hvi_strength.h"
@@ -175,6 +176,7 @@ class SolidModel {
   bool with_spall = false, with_voids = false;
   SpallVoids voids = {};
   SpallTulerButcher impulse = {};
+  SpallGrady grady = {};
   double T0 = 0.0, cp = 0.0, chi = 1.0;    // temperature from plastic work
   bool thermal, from_work;
   double weibull;
@@ -182,7 +184,7 @@ class SolidModel {
 
   SolidModel() = default;
   std::string take_spall(const Material &);
-  bool parts(SolidState &, double p, double dt) const;
+  bool parts(SolidState &, double rho, double p, double Y, double dt) const;
 
   // what voids have left of the strength
 

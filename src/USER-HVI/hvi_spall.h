@@ -27,6 +27,10 @@ namespace HVI {
                  exceeds sigma_p
      ZERO        spalled for good once the tension -p exceeds sigma_p
 
+   one whose limit goes with the yield stress, as PRINCIPAL with that:
+
+     GRADY       see hvi_spall_grady.h
+
    and two that take time:
 
      VOIDS            voids grow, at a rate that tension decides; spalled for good once they have done
@@ -38,7 +42,7 @@ namespace HVI {
    tension, but it bears compression.
 ------------------------------------------------------------------------- */
 
-enum class Spall { NONE, PRESSURE, PRINCIPAL, ZERO, VOIDS, TULER_BUTCHER };
+enum class Spall { NONE, PRESSURE, PRINCIPAL, ZERO, VOIDS, TULER_BUTCHER, GRADY };
 
 // what users call them, and the section of material files that each needs
 
@@ -54,7 +58,8 @@ static constexpr SpallModel SPALL_MODELS[] = {
     {"principal", Spall::PRINCIPAL, "limit"},
     {"zero", Spall::ZERO, "limit"},
     {"voids", Spall::VOIDS, "voids"},
-    {"tuler-butcher", Spall::TULER_BUTCHER, "tuler-butcher"}};
+    {"tuler-butcher", Spall::TULER_BUTCHER, "tuler-butcher"},
+    {"grady", Spall::GRADY, "grady"}};
 
 // of a model; of a name, nullptr: none such; all names
 
@@ -106,7 +111,8 @@ inline double principal_above(double limit, double p, const Deviator &S)
 inline bool spalls(Spall model, double p, const Deviator &S, double sigma_p)
 {
   if (model == Spall::ZERO) return -p > sigma_p;
-  return model == Spall::PRINCIPAL && principal_above(sigma_p, p, S) > sigma_p;
+  return (model == Spall::PRINCIPAL || model == Spall::GRADY) &&
+      principal_above(sigma_p, p, S) > sigma_p;
 }
 
 // The least pressure that is borne: -infinity, -sigma_p, or 0 of rubble, which has spalled or failed,

@@ -1,4 +1,4 @@
-"""Spall by an impulse in a scene: restart, data files, ranks, what it does, what is refused."""
+"""Spall by an impulse or at Grady's limit in a scene: restart, data files, ranks, what it does, what is refused."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,8 @@ import test_spall_voids as voids
 from test_solid_forces import MATERIAL, start, state
 from test_solid_state import FIXES, NEIGHBOR, reader
 
-LAWS = {"tuler-butcher": "spall tuler-butcher\n  sigma_0 0.1\n  lambda 2\n  K 0.004\n"}
+LAWS = {"tuler-butcher": "spall tuler-butcher\n  sigma_0 0.1\n  lambda 2\n  K 0.004\n",
+        "grady": "spall grady\n  eps_c 0.02\n"}
 JC = "damage no spall "
 
 
@@ -88,6 +89,28 @@ def test_impulse(lmp, tmp_path, material, words):
     assert n > 100
 
 
+@pytest.mark.parametrize("words", ["viscosity 1 2", "gradient law"])
+def test_grady(lmp, tmp_path, material, words):
+    """who has spalled in a step was at the limit of its yield stress, and who has not is below it; 3 %: rates and energy of the forces are extrapolated"""
+    frames = "".join(f"run 1\n{voids.OUT.format(f'f.{k}')}" for k in range(8))
+    lmp(start(state(seed=23), tmp_path, material, words, steps=10, jc=JC + "grady") + frames)
+    f = [voids.read(tmp_path / f"f.{k}") for k in range(8)]
+    near = parted = 0
+    for one, two in zip(f, f[1:]):
+        stress = np.array([[two["sxx"], two["sxy"], two["sxz"]], [two["sxy"], two["syy"], two["syz"]], [two["sxz"], two["syz"], two["szz"]]])
+        largest = np.linalg.eigvalsh(stress.transpose(2, 0, 1))[:, 2]
+        flows = (two["spalled"] == 0) & (two["eps"] > one["eps"] + 1e-6)  # on the yield surface: Y is von Mises's stress
+        limit = np.sqrt(2 * two["rho"] * 16 * 0.02 * two["vm"])
+        assert (largest[flows] < 1.03 * limit[flows]).all()
+        near += (largest[flows] > 0.8 * limit[flows]).sum()
+        new = (two["spalled"] == 1) & (one["spalled"] == 0)
+        stress = np.array([[one["sxx"], one["sxy"], one["sxz"]], [one["sxy"], one["syy"], one["syz"]], [one["sxz"], one["syz"], one["szz"]]])
+        before = np.linalg.eigvalsh(stress.transpose(2, 0, 1))[:, 2] / np.sqrt(2 * one["rho"] * 16 * 0.02 * 0.25)
+        assert (before[new] > 0.6).all()
+        parted += new.sum()
+    assert near > 5 and parted > 5
+
+
 def test_wrong_input(lmp, tmp_path, material):
     s = state(seed=23)
     lmp(start(s, tmp_path, material, steps=3, jc=JC + "tuler-butcher") + "write_restart half\n")
@@ -98,6 +121,10 @@ def test_wrong_input(lmp, tmp_path, material):
         material.write_text(MATERIAL.format(sigma_p=3.0) + law.replace(wrong, message.replace(" = ", " ") if "=" in message else ""))
         r = lmp(start(s, tmp_path, material, steps=0, jc=JC + "tuler-butcher"), expect_fail=True)
         assert "spall tuler-butcher" in r.error and message in r.error, r.error
+    material.write_text(MATERIAL.format(sigma_p=3.0) + LAWS["grady"])
+    r = lmp(start(s, tmp_path, material, steps=0, jc="strength none spall grady") + "run 0\n", expect_fail=True)
+    assert "has no yield stress, which spall grady takes its limit from" in r.error, r.error
     material.write_text(MATERIAL.format(sigma_p=3.0))
-    r = lmp(start(s, tmp_path, material, steps=1, jc=JC + "tuler-butcher"))
-    assert any("has no section spall tuler-butcher and does not spall" in w for w in r.warnings)
+    for law in LAWS:
+        r = lmp(start(s, tmp_path, material, steps=1, jc=JC + law))
+        assert any(f"has no section spall {law} and does not spall" in w for w in r.warnings)

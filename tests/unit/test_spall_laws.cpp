@@ -4,6 +4,7 @@
 ------------------------------------------------------------------------- */
 
 #include "hvi_solid_model.h"
+#include "hvi_spall_grady.h"
 #include "hvi_spall_tuler_butcher.h"
 
 #include <cmath>
@@ -170,4 +171,57 @@ TEST(SpallTulerButcher, Units)
             std::string::npos);
   EXPECT_NE(problem("spall tuler-butcher\nsigma_0 1\nlambda 0\nK 1\n", "si").find("lambda = 0"),
             std::string::npos);
+}
+
+// 2.69 GPa of 6061-T6 with a yield stress of 0.324 GPa and eps_c 0.15
+
+TEST(SpallGrady, Limit)
+{
+  const SpallGrady law = {0.15};
+  EXPECT_NEAR(law.limit(2703, 5240, 0.324e9), 2.686e9, 0.001e9);
+  EXPECT_EQ(law.limit(2703, 5240, 0.0), 0.0);
+  const double P = law.limit(2703, 5240, 0.324e9);
+  EXPECT_NEAR(P * P / (2.0 * 2703 * 5240.0 * 5240.0), 0.15 * 0.324e9, 1.0);
+}
+
+/* ----------------------------------------------------------------------
+   A solid that hardens as it yields: its limit rises with its yield stress.  It spalls in the step in which
+   the tension and 2/3 Y come to the limit, of the yield stress then.
+------------------------------------------------------------------------- */
+
+TEST(SpallGrady, Solid)
+{
+  const std::string cook = "strength johnson-cook\nG 27.6e9\nA 0.2e9\nB 0.4e9\nn 0.5\nC 0\nm 1\n"
+                           "epsdot0 1\nTref 300\nTm 900\n";
+  SolidOptions o = options(Spall::GRADY);
+  o.strength = "johnson-cook";
+  const auto model = made(EOS + cook + "spall grady\neps_c 0.15\n", o);
+  EXPECT_TRUE(model->spall_limited());
+  for (double strain : {0.01, 0.1, 0.5}) {
+    SolidState s = SolidModel::blank();
+    SolidInput in = {};
+    in.rho = 2703;
+    model->start(s, in, true);
+    for (int k = 0; k < 500; k++) step(*model, s, 0.0, strain * 1e6, 2e-9, k == 0);
+    const double Y = 0.2e9 + 0.4e9 * std::sqrt(s.eps);
+    EXPECT_NEAR(von_mises(s.S), Y, 1e-6 * Y);
+    const double limit = std::sqrt(2.0 * 2703 * 5240.0 * 5240.0 * Y * 0.15);
+    const double tension = limit - 2.0 / 3.0 * Y;
+    step(*model, s, 0.9999 * tension, 0.0, 1e-12, false);
+    EXPECT_FALSE(s.failed()) << strain;
+    step(*model, s, 1.0001 * tension, 0.0, 1e-12, false);
+    EXPECT_EQ(s.spalled, 1.0) << strain;
+    EXPECT_EQ(von_mises(s.S), 0.0);
+  }
+}
+
+TEST(SpallGrady, NeedsAYieldStress)
+{
+  SolidOptions o = options(Spall::GRADY);
+  o.strength = "none";
+  std::string problem;
+  EXPECT_FALSE(SolidModel::make(parsed(EOS + PERFECT + "spall grady\neps_c 0.15\n"), o, problem));
+  EXPECT_NE(problem.find("no yield stress"), std::string::npos) << problem;
+  EXPECT_TRUE(SolidModel::make(parsed(EOS + PERFECT), o, problem));
+  EXPECT_FALSE(SolidModel::make(parsed(EOS + PERFECT), o, problem)->spall_limited());
 }
