@@ -50,6 +50,7 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"damage", STATE, offsetof(Solid, damage)},
     {"spalled", STATE, offsetof(Solid, spalled)},
     {"heat", STATE, offsetof(Solid, heat)},
+    {"expansion", STATE, offsetof(Solid, expansion)},
 
     {"Sxx", FORCES, offsetof(Solid, seen.S.xx)},
     {"Syy", FORCES, offsetof(Solid, seen.S.yy)},
@@ -332,6 +333,12 @@ double FixHVIJohnsonCook::density(int i) const
   return model ? model->density(extra[i], atom->rho[i]) : atom->rho[i];
 }
 
+double FixHVIJohnsonCook::fragments(int i) const
+{
+  const HVI::SolidModel *const model = of(i);
+  return model ? model->fragments(extra[i]) : 0.0;
+}
+
 // what the model of a particle needs of the last forces; before the first there are none
 
 HVI::SolidInput FixHVIJohnsonCook::input(int i, Needs needs) const
@@ -353,6 +360,7 @@ HVI::SolidInput FixHVIJohnsonCook::settled_input(int i) const
 {
   HVI::SolidInput in = input(i, FORCES);
   in.rho = store->fields.density(i);
+  in.expansion = -store->fields.view().rates[i].drho / in.rho;
   return in;
 }
 
@@ -415,7 +423,10 @@ void FixHVIJohnsonCook::second_half(double dt)
 {
   each_solid([this, dt](int n, const int *who, Solid *const *states) {
     HVI::SolidInput in[HVI::LANES];
-    for (int k = 0; k < n; k++) in[k] = input(who[k], GRADIENT);
+    for (int k = 0; k < n; k++) {
+      in[k] = input(who[k], GRADIENT);
+      in[k].expansion = -atom->drho[who[k]] / in[k].rho;
+    }
     return of(who[0])->second_half(n, states, in, dt);
   });
 }

@@ -69,7 +69,8 @@ class FixHVIJohnsonCook :
     in.p = p;
     return model->pressure(extra[i], in);
   }
-  double density(int i) const;                // of the matter around voids
+  double density(int i) const;      // of the matter around voids
+  double fragments(int i) const;    // size of those it has failed into; 0: unknown, or none
   double plastic_work(int) const override;    // energy, from the start on
   double void_work(int) const override;
   bool failed(int i) const { return extra[i].failed(); }

@@ -111,6 +111,7 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
   model->T0 = eos.temperature(eos.rho0(), 0.0);
   const double little = 1.0e-4 * eos.c0() * eos.c0();
   model->cp = little / (eos.temperature(eos.rho0(), little) - model->T0);
+  model->take_energy(material);
   const Section *const heat = material.section("thermal", "work");
   if (heat) model->chi = heat->values.at("chi");
   if (options.from_work && !(model->cp > 0.0)) {
@@ -146,6 +147,22 @@ std::string SolidModel::take_spall(const Material &material)
     sigma_p = section->values.at("sigma_p");
   with_spall = problem.empty();
   return with_spall ? "" : std::string("has a wrong section spall ") + name + ": " + problem;
+}
+
+/* ----------------------------------------------------------------------
+   what parting takes up, per volume: that of the law of spall in force, else of voids, else of
+   Grady's limit with the yield stress of the material at rest
+------------------------------------------------------------------------- */
+
+void SolidModel::take_energy(const Material &material)
+{
+  const Section *const v = material.section("spall", SpallVoids::name);
+  const Section *const g = material.section("spall", SpallGrady::name);
+  if (v && (spall != Spall::GRADY || !g))
+    fragment_energy = 0.5 * v->values.at("sigma") * v->values.at("phi_c");
+  else if (g)
+    fragment_energy = g->values.at("eps_c") *
+        law->yield(0.0, 0.0, {rho0, rho0, 0.0, thermal ? T0 : NOT_A_NUMBER});
 }
 
 // whether it spalls at the end of this step, under the pressure of the law
@@ -260,10 +277,12 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
   Conditions c[LANES] = {};
   Deviator trial[LANES] = {};
   double shear[LANES] = {}, eps[LANES] = {};
+  bool begun[LANES] = {};
   Plastic plastic[LANES];
   for (int k = 0; k < n; k++) {
     SolidState &s = *state[k];
     SolidInput now = in[k];
+    begun[k] = with_voids && s.voids.D > BEGUN;
     if (with_voids && (now.p < 0.0 || s.voids.phi > 0.0))
       voids.advance(s.voids, *eos, now.rho, now.e, now.size, dt);
     now.p = pressure(s, now);
@@ -302,6 +321,8 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
       s.spalled = 1.0;
       crush(s);
     }
+    if (!begun[k] && (s.failed() || (with_voids && s.voids.D > BEGUN)))
+      s.expansion = in[k].expansion;
   }
   return -1;
 }

@@ -20,7 +20,13 @@ namespace HVI {
    stretched has the energy P^2/(2 rho c0^2) per volume, and parts when that would do for plastic flow
    up to eps_c:
 
-     P^2/(2 rho c0^2) = Y eps_c
+     P^2/(2 rho c0^2) = Y eps_c                                  (1)
+
+   If P = rho c0^2 epsdot t, epsdot = -rho'/rho, that is after a time in which sound comes as far as
+
+     2 c0 t = sqrt(8 Y eps_c/rho)/epsdot                         (2)
+
+   which is the size of the fragments.
 ------------------------------------------------------------------------- */
 
 struct SpallGrady {
@@ -37,6 +43,14 @@ struct SpallGrady {
     return c0 * std::sqrt(2.0 * rho * energy(Y));
   }
 };
+
+// (2) with an energy per volume; 0, unknown, without that or of what does not expand
+
+inline double fragment_size(double energy, double rho, double expansion)
+{
+  if (!(energy > 0.0 && expansion > 0.0)) return 0.0;
+  return std::sqrt(8.0 * energy / rho) / expansion;
+}
 
 }    // namespace HVI
 

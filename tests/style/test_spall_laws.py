@@ -111,6 +111,46 @@ def test_grady(lmp, tmp_path, material, words):
     assert near > 5 and parted > 5
 
 
+@pytest.mark.parametrize("words", ["viscosity 1 2", "gradient law"])
+@pytest.mark.parametrize("law", ["principal", "grady", "voids", "damage"])
+def test_fragments(lmp, tmp_path, material, law, words):
+    """size of fragments from the rate at which a particle's density falls when it fails, and from then on; nothing of what is sound"""
+    energy = {"grady": 0.25 * 0.02, "voids": 0.5 * 0.6 * 0.04}
+    text = MATERIAL.format(sigma_p=0.5) + (LAWS["grady"] if law == "grady" else voids.VOIDS)
+    material.write_text(text)
+    jc = "damage yes spall none" if law == "damage" else JC + law
+    frames = "".join(f"run 1\n{voids.OUT.format(f'f.{k}')}" for k in range(25))
+    lmp(start(state(seed=23), tmp_path, material, words, steps=10, jc=jc) + frames)
+    f = [voids.read(tmp_path / f"f.{k}") for k in range(25)]
+    n = 0
+    for k, (one, two) in enumerate(zip(f, f[1:])):
+        failed = two["vm"] == 0  # S of rubble is 0
+        assert (two["fragsize"][~failed] == 0).all()
+        old = failed & (one["vm"] == 0)
+        assert np.array_equal(one["fragsize"][old], two["fragsize"][old])
+        new = failed & (one["vm"] != 0)
+        if law == "voids":
+            began = [next((j for j in range(k + 1) if f[j]["void_damage"][i] > 0.01), k + 1) for i in np.flatnonzero(new)]
+            new[np.flatnonzero(new)[np.array(began, dtype=int) == 0]] = False
+            began = [j for j in began if j]
+        else:
+            began = [k + 1] * new.sum()
+        for i, j in zip(np.flatnonzero(new), began):
+            rate = -np.log(f[j]["rho"][i] / f[j - 1]["rho"][i]) / 0.004
+            want = np.sqrt(8 * energy.get(law, energy["voids"])) / rate if rate > 0 else 0.0
+            assert two["fragsize"][i] == pytest.approx(want, rel=0.05, abs=0.0 if abs(rate) > 0.05 else np.inf), (i, j, rate)
+        n += new.sum()
+    assert n > 5
+
+
+def test_unknown_fragments(lmp, tmp_path, material):
+    """of a material without an energy of spall the size is 0, unknown"""
+    material.write_text(MATERIAL.format(sigma_p=0.5))
+    lmp(start(state(seed=23), tmp_path, material, steps=40, jc=JC + "principal") + voids.OUT.format("f"))
+    f = voids.read(tmp_path / "f")
+    assert f["spalled"].sum() > 5 and not f["fragsize"].any()
+
+
 def test_wrong_input(lmp, tmp_path, material):
     s = state(seed=23)
     lmp(start(s, tmp_path, material, steps=3, jc=JC + "tuler-butcher") + "write_restart half\n")

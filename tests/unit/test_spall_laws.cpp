@@ -52,7 +52,7 @@ void step(const SolidModel &model, SolidState &s, double tension, double rate, d
   in.rho = 2703;
   in.p = -tension;
   in.size = 1.0;
-  in.L.xx = rate;
+  in.L.xx = in.expansion = rate;
   if (begin || !model.ready(s)) model.prepare(s, in, begin);
   model.first_half(s, in, dt);
   SolidState *const list[] = {&s};
@@ -224,4 +224,90 @@ TEST(SpallGrady, NeedsAYieldStress)
   EXPECT_NE(problem.find("no yield stress"), std::string::npos) << problem;
   EXPECT_TRUE(SolidModel::make(parsed(EOS + PERFECT), o, problem));
   EXPECT_FALSE(SolidModel::make(parsed(EOS + PERFECT), o, problem)->spall_limited());
+}
+
+/* ----------------------------------------------------------------------
+   Size of fragments: with P = rho c0^2 epsdot t what is stretched has the energy P^2/(2 rho c0^2) after t;
+   sound has come 2 c0 t when that is the energy of parting
+------------------------------------------------------------------------- */
+
+TEST(Fragments, Size)
+{
+  const double rho = 2703, c = 5240;
+  for (double energy : {4.5e7, 2e6})
+    for (double rate : {1e3, 1e5, 1e7}) {
+      double lo = 0.0, hi = 1.0;
+      for (int k = 0; k < 200; k++) {
+        const double t = 0.5 * (lo + hi), P = rho * c * c * rate * t;
+        (P * P / (2.0 * rho * c * c) < energy ? lo : hi) = t;
+      }
+      EXPECT_NEAR(fragment_size(energy, rho, rate) / (2.0 * c * lo), 1.0, 1e-9);
+    }
+  EXPECT_NEAR(fragment_size(0.3e9 * 0.15, rho, 1e5), 3.65e-3, 0.01e-3);
+  EXPECT_EQ(fragment_size(4.5e7, rho, 0.0), 0.0);
+  EXPECT_EQ(fragment_size(4.5e7, rho, -1e5), 0.0);
+  EXPECT_EQ(fragment_size(0.0, rho, 1e5), 0.0);
+}
+
+// the energy that a material's fragments are made with; what it failed by matters only where it has several
+
+TEST(Fragments, Energy)
+{
+  const std::string limit = "spall limit\nsigma_p 1.2e9\n", grady = "spall grady\neps_c 0.15\n";
+  const std::string voids = "spall voids\nsigma 1.2e9\nrate 1e5\nm 0.2\nphi_c 0.05\n";
+  const auto size = [](const std::string &text, Spall spall) {
+    const auto model = made(EOS + PERFECT + text, options(spall));
+    SolidState s = SolidModel::blank();
+    s.expansion = 1e5;
+    EXPECT_EQ(model->fragments(s), 0.0);    // not failed
+    s.spalled = 1.0;
+    return model->fragments(s);
+  };
+  const double by_grady = std::sqrt(8.0 * 0.3e9 * 0.15 / 2703) / 1e5;
+  const double by_voids = std::sqrt(8.0 * 0.5 * 1.2e9 * 0.05 / 2703) / 1e5;
+  for (Spall spall : {Spall::PRINCIPAL, Spall::NONE, Spall::GRADY, Spall::VOIDS}) {
+    EXPECT_EQ(size(limit, spall), 0.0);
+    EXPECT_DOUBLE_EQ(size(limit + grady, spall), by_grady);
+    EXPECT_DOUBLE_EQ(size(limit + voids, spall), by_voids);
+    EXPECT_DOUBLE_EQ(size(limit + voids + grady, spall),
+                     spall == Spall::GRADY ? by_grady : by_voids);
+  }
+}
+
+// the rate of expansion of the step in which it fails; with voids of that in which they have done 1 %
+
+TEST(Fragments, RateThen)
+{
+  const std::string voids = "spall voids\nsigma 1.2e9\nrate 1e5\nm 0.2\nphi_c 0.05\n";
+  const auto by_limit =
+      made(EOS + PERFECT + "spall limit\nsigma_p 1.2e9\n" + voids, options(Spall::PRINCIPAL));
+  SolidState s = SolidModel::blank();
+  SolidInput in = {};
+  in.rho = 2703;
+  by_limit->start(s, in, true);
+  for (int k = 0; k < 20; k++) step(*by_limit, s, 0.1e9 * k + 0.05e9, 1e5 * (k + 1), 1e-8, k == 0);
+  ASSERT_TRUE(s.failed());
+  EXPECT_EQ(s.expansion, 11e5);    // 1.05e9 and 2/3 of 0.3e9
+  EXPECT_GT(by_limit->fragments(s), 0.0);
+
+  const auto by_voids = made(EOS + PERFECT + voids, options(Spall::VOIDS));
+  s = SolidModel::blank();
+  by_voids->start(s, in, true);
+  double want = 0.0;
+  for (int k = 0; k < 4000 && !s.failed(); k++) {
+    in.rho = 2703 * (1.0 - 2e-5 * k);
+    double p, csq;
+    parsed(EOS).eos->evaluate(in.rho, 0.0, p, csq);
+    in.p = p;
+    in.L.xx = in.expansion = 1e5 + k;
+    in.size = 1.0;
+    if (k == 0 || !by_voids->ready(s)) by_voids->prepare(s, in, k == 0);
+    by_voids->first_half(s, in, 1e-9);
+    SolidState *const list[] = {&s};
+    EXPECT_EQ(by_voids->second_half(1, list, &in, 1e-9), -1);
+    if (want == 0.0 && s.voids.D > 0.01) want = in.L.xx;
+    EXPECT_EQ(s.expansion, want);
+  }
+  ASSERT_TRUE(s.failed());
+  EXPECT_GT(in.L.xx, want + 100.0);
 }
