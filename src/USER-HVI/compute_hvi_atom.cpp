@@ -32,8 +32,9 @@ using namespace LAMMPS_NS;
 // in the order of Value
 
 static const char *const NAMES[] = {
-    "p",           "e",  "T",   "c",   "h",   "eps", "epsdot", "damage", "spalled", "voids",
-    "void_damage", "vm", "sxx", "syy", "szz", "sxy", "sxz",    "syz",    "asleep",  "nbonds"};
+    "p",      "e",       "T",     "c",           "h",        "eps",    "epsdot",
+    "damage", "spalled", "voids", "void_damage", "fragsize", "vm",     "sxx",
+    "syy",    "szz",     "sxy",   "sxz",         "syz",      "asleep", "nbonds"};
 
 /* ---------------------------------------------------------------------- */
 
@@ -143,6 +144,8 @@ double ComputeHVIAtom::solid_value(Value value, int i, double p) const
       return s.voids.phi;
     case VOID_DAMAGE:
       return std::min(s.voids.D, 1.0);
+    case FRAGSIZE:
+      return strength->fragments(i);
     case MISES:
       return HVI::von_mises(s.S);
     case SXX:

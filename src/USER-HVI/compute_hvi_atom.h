@@ -44,6 +44,7 @@ class ComputeHVIAtom : public Compute {
     SPALLED,
     VOIDS,
     VOID_DAMAGE,
+    FRAGSIZE,
     MISES,
     SXX,
     SYY,

@@ -50,6 +50,7 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"damage", STATE, offsetof(Solid, damage)},
     {"spalled", STATE, offsetof(Solid, spalled)},
     {"heat", STATE, offsetof(Solid, heat)},
+    {"expansion", STATE, offsetof(Solid, expansion)},
 
     {"Sxx", FORCES, offsetof(Solid, seen.S.xx)},
     {"Syy", FORCES, offsetof(Solid, seen.S.yy)},
@@ -86,7 +87,7 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces", "_voids"}),
-    spall_name("principal"), store(nullptr), fresh(true), checked(false)
+    store(nullptr), fresh(true), checked(false)
 {
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
   bool damage_given = false;
@@ -119,22 +120,11 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
         error->all(FLERR, "Fix hvi/johnson-cook temperature must be energy or work, not {}", value);
       options.from_work = value == "work";
     } else if (key == "spall") {
-      spall_name = value;
-      if (value == "none")
-        options.spall = HVI::Spall::NONE;
-      else if (value == "pressure")
-        options.spall = HVI::Spall::PRESSURE;
-      else if (value == "principal")
-        options.spall = HVI::Spall::PRINCIPAL;
-      else if (value == "zero")
-        options.spall = HVI::Spall::ZERO;
-      else if (value == "voids")
-        options.spall = HVI::Spall::VOIDS;
-      else
-        error->all(FLERR,
-                   "Fix hvi/johnson-cook spall must be none, pressure, principal, zero or voids, "
-                   "not {}",
+      const HVI::SpallModel *const spall = HVI::find_spall(value);
+      if (!spall)
+        error->all(FLERR, "Fix hvi/johnson-cook spall must be {}, not {}", HVI::spall_names(),
                    value);
+      options.spall = spall->model;
     } else if (key == "weibull") {
       options.weibull = utils::numeric(FLERR, value, false, lmp);
       options.seed = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
@@ -159,7 +149,8 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     error->all(FLERR, "Fix hvi/johnson-cook weibull scatters damage: it needs damage yes");
   if (options.weibull > 0.0 && !atom->tag_enable)
     error->all(FLERR, "Fix hvi/johnson-cook weibull needs IDs of particles");
-  if (options.spall != HVI::Spall::VOIDS) wd_section = VOIDS;    // without this one, the last
+  if (options.spall != HVI::Spall::VOIDS && options.spall != HVI::Spall::TULER_BUTCHER)
+    wd_section = VOIDS;    // without this one, the last
   begin();
 }
 
@@ -224,9 +215,10 @@ std::string FixHVIJohnsonCook::settings() const
       damage += (damage.empty() ? "" : ",") + law;
   }
   if (damage.empty()) damage = options.damage ? "yes" : "no";
-  std::string text = fmt::format(
-      "strength {} damage {} spall {} temperature {} thermal {}", options.strength, damage,
-      spall_name, options.from_work ? "work" : "energy", options.thermal ? "yes" : "no");
+  std::string text =
+      fmt::format("strength {} damage {} spall {} temperature {} thermal {}", options.strength,
+                  damage, HVI::spall_model(options.spall).name,
+                  options.from_work ? "work" : "energy", options.thermal ? "yes" : "no");
   if (options.weibull > 0.0) text += fmt::format(" weibull {} {}", options.weibull, options.seed);
   return text;
 }
@@ -261,8 +253,7 @@ void FixHVIJohnsonCook::make_models()
       error->warning(FLERR,
                      "Fix hvi/johnson-cook: material {} (type {}) has no section spall {} and "
                      "does not spall",
-                     material->name, itype,
-                     options.spall == HVI::Spall::VOIDS ? HVI::SpallVoids::name : "limit");
+                     material->name, itype, HVI::spall_model(options.spall).section);
   }
   if (!anywhere || (liquids && !here))
     error->all(FLERR,
@@ -321,7 +312,8 @@ std::string FixHVIJohnsonCook::laws_of(int itype) const
   if (!model) return "liquid";
   std::string words = fmt::format("strength {}", model->strength().name());
   if (model->damage()) words += fmt::format(", damage {}", model->damage()->name());
-  if (options.spall != HVI::Spall::NONE && model->spall_limited()) words += ", spall " + spall_name;
+  if (options.spall != HVI::Spall::NONE && model->spall_limited())
+    words += std::string(", spall ") + HVI::spall_model(options.spall).name;
   return words;
 }
 
@@ -339,6 +331,12 @@ double FixHVIJohnsonCook::density(int i) const
 {
   const HVI::SolidModel *const model = of(i);
   return model ? model->density(extra[i], atom->rho[i]) : atom->rho[i];
+}
+
+double FixHVIJohnsonCook::fragments(int i) const
+{
+  const HVI::SolidModel *const model = of(i);
+  return model ? model->fragments(extra[i]) : 0.0;
 }
 
 // what the model of a particle needs of the last forces; before the first there are none
@@ -362,6 +360,7 @@ HVI::SolidInput FixHVIJohnsonCook::settled_input(int i) const
 {
   HVI::SolidInput in = input(i, FORCES);
   in.rho = store->fields.density(i);
+  in.expansion = -store->fields.view().rates[i].drho / in.rho;
   return in;
 }
 
@@ -424,7 +423,10 @@ void FixHVIJohnsonCook::second_half(double dt)
 {
   each_solid([this, dt](int n, const int *who, Solid *const *states) {
     HVI::SolidInput in[HVI::LANES];
-    for (int k = 0; k < n; k++) in[k] = input(who[k], GRADIENT);
+    for (int k = 0; k < n; k++) {
+      in[k] = input(who[k], GRADIENT);
+      in[k].expansion = -atom->drho[who[k]] / in[k].rho;
+    }
     return of(who[0])->second_half(n, states, in, dt);
   });
 }

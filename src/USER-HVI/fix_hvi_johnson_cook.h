@@ -69,7 +69,8 @@ class FixHVIJohnsonCook :
     in.p = p;
     return model->pressure(extra[i], in);
   }
-  double density(int i) const;                // of the matter around voids
+  double density(int i) const;      // of the matter around voids
+  double fragments(int i) const;    // size of those it has failed into; 0: unknown, or none
   double plastic_work(int) const override;    // energy, from the start on
   double void_work(int) const override;
   bool failed(int i) const { return extra[i].failed(); }
@@ -80,7 +81,6 @@ class FixHVIJohnsonCook :
   static const Field FIELDS[];
 
   HVI::SolidOptions options;
-  std::string spall_name;
   std::vector<std::unique_ptr<HVI::SolidModel>> models;    // of types; null: no solid
   std::vector<bigint> inside, outside;                     // of the group: particles of types
   std::vector<int> warned;                                 // of types that do not spall

@@ -90,7 +90,8 @@ namespace {
       strength<StrengthCowperSymonds>(), strength<StrengthZerilliArmstrong>(),
       strength<StrengthPerfect>(),       strength<StrengthNone>(),
       damage<DamageJohnsonCook>(),       numbers<SpallLimit>("spall"),
-      numbers<SpallVoids>("spall"),      numbers<ThermalWork>("thermal"),
+      numbers<SpallVoids>("spall"),      numbers<SpallTulerButcher>("spall"),
+      numbers<SpallGrady>("spall"),      numbers<ThermalWork>("thermal"),
   };
 
   // the law of a section of the given kind and the values of its parameters; null if something is wrong
@@ -170,12 +171,16 @@ std::unique_ptr<Damage> make_damage(const Section &section, std::string &problem
   return law ? law->damage(values.data()) : nullptr;
 }
 
-bool make_voids(const Section &section, SpallVoids &voids, std::string &problem)
+template <class Law> bool make_spall(const Section &section, Law &law, std::string &problem)
 {
   std::vector<double> values;
-  const LawEntry *const law = read_law("spall", section, values, problem);
-  if (law) voids = SpallVoids::make(values.data());
-  return law;
+  const bool good = read_law("spall", section, values, problem);
+  if (good) law = Law::make(values.data());
+  return good;
 }
+
+template bool make_spall(const Section &, SpallVoids &, std::string &);
+template bool make_spall(const Section &, SpallTulerButcher &, std::string &);
+template bool make_spall(const Section &, SpallGrady &, std::string &);
 
 }    // namespace HVI

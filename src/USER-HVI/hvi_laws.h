@@ -11,6 +11,8 @@
 
 #include "hvi_damage.h"
 #include "hvi_section.h"
+#include "hvi_spall_grady.h"
+#include "hvi_spall_tuler_butcher.h"
 #include "hvi_spall_voids.h"
 #include "hvi_strength.h"
 
@@ -44,7 +46,10 @@ std::string law_names(const std::string &kind);    // "johnson-cook, ..."
 
 std::unique_ptr<Strength> make_strength(const Section &, std::string &problem);
 std::unique_ptr<Damage> make_damage(const Section &, std::string &problem);
-bool make_voids(const Section &, SpallVoids &, std::string &problem);    // of a section spall voids
+
+// a law of spall that is a plain struct, likewise; false if something is wrong
+
+template <class Law> bool make_spall(const Section &, Law &, std::string &problem);
 
 }    // namespace HVI
 

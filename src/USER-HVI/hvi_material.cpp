@@ -84,6 +84,16 @@ namespace {
     bool table() const { return kind == "eos" && law == EOS_TABLE; }
   };
 
+  // of a value of that parameter; exponents come before what they are of
+
+  double convert(double x, const Parameter &par, const std::vector<double> &values,
+                 const std::string &from, const std::string &to)
+  {
+    x = HVI::convert(x, par.dim, from, to);
+    if (par.exponent < 0) return x;
+    return x * std::pow(HVI::convert(1.0, par.base, from, to), values[par.exponent]);
+  }
+
   // fills in presets and converts; says what is missing
 
   std::string finish(Open &open, const std::string &units, const std::string &run_units)
@@ -91,13 +101,13 @@ namespace {
     for (int i = 0; i < open.n; i++) {
       const Parameter &par = open.params[i];
       if (open.lines[i]) {
-        open.values[i] = convert(open.values[i], par.dim, units, run_units);
-        if (!std::isfinite(open.values[i]))
+        open.values[i] = convert(open.values[i], par, open.values, units, run_units);
+        if (!par.range.holds(open.values[i]))
           return std::string(par.key) + " is out of range in units " + run_units;
       } else if (std::isnan(par.preset))
         return "missing key " + std::string(par.key);
       else if (convertible("si", run_units))
-        open.values[i] = convert(par.preset, par.dim, "si", run_units);
+        open.values[i] = convert(par.preset, par, open.values, "si", run_units);
       else if (par.preset == 0.0 || par.dim.none())
         open.values[i] = par.preset;
       else

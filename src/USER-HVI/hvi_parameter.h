@@ -56,7 +56,8 @@ static constexpr Range NOT_NEGATIVE = {0.0, NO_LIMIT, false};
 static constexpr Range FRACTION = {0.0, 1.0, false};
 static constexpr Range ABOVE_ONE = {1.0, NO_LIMIT, true};
 
-// the preset is the value of a parameter that is not given, in SI; NaN: it must be given
+// the preset is the value of a parameter that is not given, in SI; NaN: it must be given.  A dimension
+// may have the power of a quantity in it whose exponent is a parameter, too, one before this one
 
 static constexpr double REQUIRED = std::numeric_limits<double>::quiet_NaN();
 
@@ -65,6 +66,8 @@ struct Parameter {
   Dimension dim;
   Range range;
   double preset;
+  int exponent = -1;    // its place in the table
+  Dimension base = NUMBER;
 };
 
 // what is wrong with a value, or nothing

@@ -10,6 +10,7 @@
 
 #include "hvi_laws.h"
 #include "hvi_mirror.h"
+#include "hvi_strength_perfect.h"
 #include "hvi_vector.h"
 
 #include <algorithm>
@@ -35,13 +36,6 @@ namespace {
     s.xy += dt * r.xy;
     s.xz += dt * r.xz;
     s.yz += dt * r.yz;
-  }
-
-  // what voids have left of the strength
-
-  double intact(const SolidState &s)
-  {
-    return std::max(0.0, 1.0 - s.voids.D);
   }
 
   void crush(SolidState &s)
@@ -110,24 +104,14 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
     }
   }
 
-  if (options.spall == Spall::VOIDS) {
-    model->sigma_p = NO_LIMIT;
-    if (const Section *const s = material.section("spall", SpallVoids::name)) {
-      model->with_voids = make_voids(*s, model->voids, problem);
-      if (!model->with_voids) {
-        problem = "has a wrong section spall voids: " + problem;
-        return nullptr;
-      }
-    }
-  } else if (options.spall != Spall::NONE) {
-    const Section *const s = material.section("spall", "limit");
-    model->sigma_p = s ? s->values.at("sigma_p") : NO_LIMIT;
-  }
+  problem = model->take_spall(material);
+  if (!problem.empty()) return nullptr;
 
   const Eos &eos = *material.eos;
   model->T0 = eos.temperature(eos.rho0(), 0.0);
   const double little = 1.0e-4 * eos.c0() * eos.c0();
   model->cp = little / (eos.temperature(eos.rho0(), little) - model->T0);
+  model->take_energy(material);
   const Section *const heat = material.section("thermal", "work");
   if (heat) model->chi = heat->values.at("chi");
   if (options.from_work && !(model->cp > 0.0)) {
@@ -135,6 +119,62 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
     return nullptr;
   }
   return model;
+}
+
+/* ----------------------------------------------------------------------
+   the law of spall; without its section the material does not spall.  Returns what is wrong.
+------------------------------------------------------------------------- */
+
+std::string SolidModel::take_spall(const Material &material)
+{
+  const char *const name = spall_model(spall).section;
+  const Section *const section = name ? material.section("spall", name) : nullptr;
+  if (!section) {
+    spall = Spall::NONE;
+    return "";
+  }
+  if (spall == Spall::GRADY && law->name() == std::string(StrengthNone::name))
+    return "has no yield stress, which spall grady takes its limit from: use another strength or "
+           "spall";
+  std::string problem;
+  if (spall == Spall::VOIDS)
+    with_voids = make_spall(*section, voids, problem);
+  else if (spall == Spall::TULER_BUTCHER)
+    make_spall(*section, impulse, problem);
+  else if (spall == Spall::GRADY)
+    make_spall(*section, grady, problem);
+  else
+    sigma_p = section->values.at("sigma_p");
+  with_spall = problem.empty();
+  return with_spall ? "" : std::string("has a wrong section spall ") + name + ": " + problem;
+}
+
+/* ----------------------------------------------------------------------
+   what parting takes up, per volume: that of the law of spall in force, else of voids, else of
+   Grady's limit with the yield stress of the material at rest
+------------------------------------------------------------------------- */
+
+void SolidModel::take_energy(const Material &material)
+{
+  const Section *const v = material.section("spall", SpallVoids::name);
+  const Section *const g = material.section("spall", SpallGrady::name);
+  if (v && (spall != Spall::GRADY || !g))
+    fragment_energy = 0.5 * v->values.at("sigma") * v->values.at("phi_c");
+  else if (g)
+    fragment_energy = g->values.at("eps_c") *
+        law->yield(0.0, 0.0, {rho0, rho0, 0.0, thermal ? T0 : NOT_A_NUMBER});
+}
+
+// whether it spalls at the end of this step, under the pressure of the law
+
+bool SolidModel::parts(SolidState &s, double rho, double p, double Y, double dt) const
+{
+  if (spall == Spall::GRADY) return spalls(spall, p, s.S, grady.limit(rho, eos->c0(), Y));
+  if (spall == Spall::TULER_BUTCHER)
+    s.voids.D = impulse.advance(s.voids.D, principal_above(impulse.sigma_0, p, s.S), dt);
+  else if (spall != Spall::VOIDS)
+    return spalls(spall, p, s.S, sigma_p);
+  return s.voids.D >= 1.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -237,10 +277,12 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
   Conditions c[LANES] = {};
   Deviator trial[LANES] = {};
   double shear[LANES] = {}, eps[LANES] = {};
+  bool begun[LANES] = {};
   Plastic plastic[LANES];
   for (int k = 0; k < n; k++) {
     SolidState &s = *state[k];
     SolidInput now = in[k];
+    begun[k] = with_voids && s.voids.D > BEGUN;
     if (with_voids && (now.p < 0.0 || s.voids.phi > 0.0))
       voids.advance(s.voids, *eos, now.rho, now.e, now.size, dt);
     now.p = pressure(s, now);
@@ -248,11 +290,12 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     shear[k] = s.shear = law->shear_modulus(c[k]);
     eps[k] = s.eps;
     trial[k] = trial_of(s, in[k]);
-    if (s.voids.D == 0.0) continue;
+    const double left = intact(s);
+    if (left == 1.0) continue;
 
     // with the yield stress times 1 - D all is as without, if stress and modulus are over that
 
-    const double whole = s.voids.D < 1.0 ? 1.0 / intact(s) : 0.0;
+    const double whole = left > 0.0 ? 1.0 / left : 0.0;
     trial[k] = scaled(trial[k], whole);
     shear[k] *= whole;
   }
@@ -274,10 +317,12 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     }
     if (s.damage >= 1.0) {
       crush(s);
-    } else if (s.voids.D >= 1.0 || spalls(spall, c[k].p, s.S, sigma_p)) {
+    } else if (parts(s, in[k].rho, c[k].p, s.yield, dt)) {
       s.spalled = 1.0;
       crush(s);
     }
+    if (!begun[k] && (s.failed() || (with_voids && s.voids.D > BEGUN)))
+      s.expansion = in[k].expansion;
   }
   return -1;
 }

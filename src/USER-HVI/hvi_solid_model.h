@@ -12,9 +12,12 @@
 #include "hvi_damage.h"
 #include "hvi_material.h"
 #include "hvi_spall.h"
+#include "hvi_spall_grady.h"
+#include "hvi_spall_tuler_butcher.h"
 #include "hvi_spall_voids.h"
 #include "hvi_strength.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -49,7 +52,9 @@ struct SolidState {
   double rate;       // of plastic strain
   double yield;      // von Mises's stress on the yield surface of S
 
-  SpallVoids::State voids;
+  double expansion;    // -rho'/rho when it began to fail
+
+  SpallVoids::State voids;    // with the impulse of Tuler & Butcher only D, the part of K used up
 
   bool failed() const { return damage >= 1.0 || spalled != 0.0; }
 };
@@ -59,8 +64,9 @@ struct SolidState {
 struct SolidInput {
   double rho, e, p;    // e per mass; p of the equation of state
   VelocityGradient L;
-  std::int64_t id;    // of the scatter of damage
-  double size;        // spacing, for an opening at failure; see has_size()
+  std::int64_t id;           // of the scatter of damage
+  double size;               // spacing, for an opening at failure; see has_size()
+  double expansion = 0.0;    // -rho'/rho
 };
 
 struct SolidOptions {
@@ -104,7 +110,7 @@ class SolidModel {
 
   const Strength &strength() const { return *law; }
   const Damage *damage() const { return fracture.get(); }    // null: none
-  bool spall_limited() const { return sigma_p < NO_LIMIT || with_voids; }
+  bool spall_limited() const { return with_spall; }
   bool has_size() const { return with_voids && voids.delta_c > 0.0; }
 
   // of something new, without stress; of something that has no model any more: a liquid
@@ -156,6 +162,14 @@ class SolidModel {
     return with_voids && !s.failed() ? rho / (1.0 - s.voids.phi) : rho;
   }
 
+  // of what has failed, into what it has: from the energy of its spall, whichever law it failed by; 0:
+  // unknown, or it has not failed
+
+  double fragments(const SolidState &s) const
+  {
+    return s.failed() ? fragment_size(fragment_energy, rho0, s.expansion) : 0.0;
+  }
+
   // in the directions of op (see hvi_mirror.h)
 
   static void reflect(SolidState &, int op);
@@ -163,6 +177,7 @@ class SolidModel {
  private:
   static constexpr double UNKNOWN = -1.0;    // yield
   static constexpr double UNSEEN = -1.0;     // seen.shear, before the first forces
+  static constexpr double BEGUN = 0.01;      // damage by voids from which on it fails
 
   std::unique_ptr<Strength> law;
   std::unique_ptr<Damage> fracture;
@@ -170,14 +185,27 @@ class SolidModel {
   double rho0;
   Spall spall;
   double sigma_p = 0.0;    // limit of tension
-  bool with_voids = false;
+  bool with_spall = false, with_voids = false;
   SpallVoids voids = {};
+  SpallTulerButcher impulse = {};
+  SpallGrady grady = {};
+  double fragment_energy = 0.0;            // per volume, 0: unknown
   double T0 = 0.0, cp = 0.0, chi = 1.0;    // temperature from plastic work
   bool thermal, from_work;
   double weibull;
   int seed;
 
   SolidModel() = default;
+  std::string take_spall(const Material &);
+  void take_energy(const Material &);
+  bool parts(SolidState &, double rho, double p, double Y, double dt) const;
+
+  // what voids have left of the strength
+
+  double intact(const SolidState &s) const
+  {
+    return with_voids && s.voids.D > 0.0 ? std::max(0.0, 1.0 - s.voids.D) : 1.0;
+  }
   Conditions conditions(const SolidState &, const SolidInput &) const;
   void show(SolidState &, const Deviator &, const SolidInput &) const;
   template <class Trial>

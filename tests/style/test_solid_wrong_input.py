@@ -22,7 +22,7 @@ def refused(lmp, tmp_path):
 
 @pytest.mark.parametrize("words, message", [
     ("spall", "Illegal fix hvi/johnson-cook spall command: missing argument"),
-    ("spall tension", "spall must be none, pressure, principal, zero or voids, not tension"),
+    ("spall tension", "spall must be none, pressure, principal, zero, voids, tuler-butcher or grady, not tension"),
     ("temperature hot", "temperature must be energy or work, not hot"),
     ("damage maybe", "maybe"),
     ("weibull 3", "Illegal fix hvi/johnson-cook weibull command: missing argument"),

@@ -10,7 +10,7 @@ from test_solid_state import FIXES, NEIGHBOR, reader
 
 JC = "damage no spall voids"
 VOIDS = "spall voids\n  sigma 0.6\n  rate 1.0\n  m 0.2\n  phi_c 0.04\n"
-NAMES = "p T eps spalled voids void_damage vm sxx syy szz sxy sxz syz".split()
+NAMES = "p T eps spalled voids void_damage fragsize vm sxx syy szz sxy sxz syz".split()
 OUT = f"""compute S all hvi/atom {' '.join(NAMES)}
 compute R all property/atom drho desph rho esph
 dump d all custom 1 {{0}} id x y z vx vy vz fx fy fz c_R[*] c_S[*]

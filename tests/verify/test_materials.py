@@ -251,4 +251,6 @@ def test_voids(file):
     yields = [x["Y0"][0] if "Y0" in x else x["A"][0] for k, x in sections.items() if k[0] == "strength"]
     phi_c = [2 * Y * 0.15 / v["sigma"] for Y in yields]
     assert 0.99 * min(phi_c) <= v["phi_c"] <= 1.01 * max(phi_c)
+    if ("spall", "grady") in sections:  # aluminum only
+        assert sections["spall", "grady"]["eps_c"][0] == 0.15 and file.name.startswith("Al")
     assert 0.01 <= v["m"] <= 0.25 and 1e9 < v["sigma"] < 1e10 and 1e4 < v["rate"] < 1e6
