@@ -317,14 +317,9 @@ std::string FixHVIJohnsonCook::laws_of(int itype) const
   return words;
 }
 
-double FixHVIJohnsonCook::plastic_work(int i) const
+double FixHVIJohnsonCook::mass(int i) const
 {
-  return (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * extra[i].heat;
-}
-
-double FixHVIJohnsonCook::void_work(int i) const
-{
-  return (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * extra[i].voids.work;
+  return atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
 }
 
 double FixHVIJohnsonCook::density(int i) const
@@ -345,7 +340,7 @@ HVI::SolidInput FixHVIJohnsonCook::input(int i, Needs needs) const
 {
   HVI::SolidInput in = {};
   in.rho = atom->rho[i];
-  in.e = atom->esph[i] / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
+  in.e = atom->esph[i] / mass(i);
   if (needs >= FORCES) in.p = store->fields.pressure(i);
   if (needs >= GRADIENT) in.L = store->fields.velocity_gradient(i);
   if (options.weibull > 0.0) in.id = atom->tag[i];
@@ -366,8 +361,7 @@ HVI::SolidInput FixHVIJohnsonCook::settled_input(int i) const
 
 double FixHVIJohnsonCook::spacing(int i) const
 {
-  const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
-  const double V = m / store->materials.of(atom->type[i])->eos->rho0();
+  const double V = mass(i) / store->materials.of(atom->type[i])->eos->rho0();
   const int dim = store->fields.settings.laws.dim;
   return dim == 3 ? std::cbrt(V) : (dim == 2 ? std::sqrt(V) : V);
 }
@@ -378,7 +372,7 @@ HVI::SolidInput FixHVIJohnsonCook::extrapolated(int i, double dt) const
 {
   HVI::SolidInput in = input(i, STATE);
   in.rho += dt * atom->drho[i];
-  in.e += dt * atom->desph[i] / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
+  in.e += dt * atom->desph[i] / mass(i);
   return in;
 }
 
@@ -404,7 +398,7 @@ void FixHVIJohnsonCook::first_half(double dt)
     const HVI::SolidModel *const model = of(i);
     if (!model) continue;
     if (whole) {
-      model->present(extra[i], input(i, STATE));
+      model->present(extra[i], model->open(extra[i]) ? input(i, STATE) : HVI::SolidInput());
       continue;
     }
     if (fresh || !model->ready(extra[i])) {
@@ -412,7 +406,7 @@ void FixHVIJohnsonCook::first_half(double dt)
       if (fresh && store->fields.asleep(i))
         HVI::SolidModel::rest(extra[i]);    // as in second_half()
     }
-    model->first_half(extra[i], extrapolated(i, dt), dt);
+    model->first_half(extra[i], model->has_voids() ? extrapolated(i, dt) : HVI::SolidInput(), dt);
   }
   fresh = false;
 }
@@ -486,7 +480,8 @@ HVI::SphStress FixHVIJohnsonCook::settled(int i) const
 {
   const Solid &s = extra[i];
   const HVI::SolidModel *const model = of(i);
-  const double p_min = model ? model->p_min(s, settled_input(i)) : -HVI::NO_LIMIT;
+  double p_min = -HVI::NO_LIMIT;
+  if (model) p_min = model->p_min(s, model->open(s) ? settled_input(i) : HVI::SolidInput());
   return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, p_min, s.shear};
 }
 

@@ -65,14 +65,17 @@ class FixHVIJohnsonCook :
   {
     const HVI::SolidModel *const model = of(i);
     if (!model) return p;
-    HVI::SolidInput in = input(i, STATE);
+    HVI::SolidInput in = model->open(extra[i]) ? input(i, STATE) : HVI::SolidInput();
     in.p = p;
     return model->pressure(extra[i], in);
   }
   double density(int i) const;      // of the matter around voids
   double fragments(int i) const;    // size of those it has failed into; 0: unknown, or none
-  double plastic_work(int) const override;    // energy, from the start on
-  double void_work(int) const override;
+  double plastic_work(int i) const override
+  {
+    return mass(i) * extra[i].heat;
+  }    // energy, from the start on
+  double void_work(int i) const override { return mass(i) * extra[i].voids.work; }
   bool failed(int i) const { return extra[i].failed(); }
   bool can_fail() const;                   // collective: has failed, or may fail in this run
   std::string laws_of(int itype) const;    // in words
@@ -95,6 +98,7 @@ class FixHVIJohnsonCook :
   const HVI::SolidModel *of(int) const;      // null: no solid
   enum Needs { STATE, FORCES, GRADIENT };    // each with those before it
   HVI::SolidInput input(int, Needs) const;
+  double mass(int) const;
   HVI::SolidInput settled_input(int) const;
   HVI::SolidInput extrapolated(int, double) const;
   double spacing(int) const;

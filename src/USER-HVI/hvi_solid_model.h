@@ -111,6 +111,7 @@ class SolidModel {
   const Strength &strength() const { return *law; }
   const Damage *damage() const { return fracture.get(); }    // null: none
   bool spall_limited() const { return with_spall; }
+  bool has_voids() const { return with_voids; }
   bool has_size() const { return with_voids && voids.delta_c > 0.0; }
 
   // of something new, without stress; of something that has no model any more: a liquid
@@ -142,13 +143,16 @@ class SolidModel {
 
   double temperature(const SolidState &, const SolidInput &) const;    // NaN: unknown
 
+  // has voids: else nothing of the input but p counts below
+
+  bool open(const SolidState &s) const { return with_voids && s.voids.phi > 0.0 && !s.failed(); }
+
   // the least pressure borne, and what is left of p; see clip_tension()
 
   double p_min(const SolidState &s, const SolidInput &in) const
   {
-    const bool open = with_voids && s.voids.phi > 0.0 && !s.failed();
-    return open ? SpallVoids::least(s.voids.phi, *eos, in.rho, in.e)
-                : least_pressure(spall, s.failed(), sigma_p);
+    return open(s) ? SpallVoids::least(s.voids.phi, *eos, in.rho, in.e)
+                   : least_pressure(spall, s.failed(), sigma_p);
   }
   double pressure(const SolidState &s, const SolidInput &in) const
   {
