@@ -16,6 +16,8 @@ ROW = np.dtype([("id", np.int64), ("count", np.int64), ("mass", float), ("x", fl
 COLUMN_QUANTITIES = {"mass": "mass", "x": "distance", "y": "distance", "z": "distance", "vx": "velocity",
                      "vy": "velocity", "vz": "velocity", "ke": "energy", "size": "distance"}
 
+FAILED = ("damage", "spalled")  # columns of compute hvi/atom
+
 
 @dataclasses.dataclass
 class Fragments:
@@ -56,7 +58,7 @@ class Fragments:
         return pandas.DataFrame(self.table).set_index("id")
 
 
-def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, where=None):
+def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, where=None, failed=None):
     """Fragments of a frame, by one of three rules; only particles that count connect others.
 
     source: a Frame, or a Universe or AtomGroup of hvi.open()
@@ -65,6 +67,8 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
     distance: particles closer than this hang together, also across periodic boundaries
     axis, plane: only particles beyond the plane (coordinate > plane), the debris cloud
     where: mask of particles that count, (n,) of bool, instead of axis and plane
+    failed: with distance: particles that stay alone, as with damage yes, so that fragments are the sound pieces: a mask, (n,) of bool, or
+        names of columns, see has_failed(); else fragments are what has come apart
 
     With a column, pieces that hang together only through particles that do not count are still one fragment: the column
     does not tell.
@@ -76,19 +80,41 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
         raise HVIError("fragments are found by a column, by bonds or by distance: give one of them")
     if where is not None and (axis is not None or plane is not None):
         raise HVIError("give a mask or an axis and a plane, not both")
+    if failed is not None and distance is None:
+        raise HVIError("sound pieces are found by distance: by bonds or by a column there are no failed particles")
     if axis is not None or plane is not None:
         where = beyond(frame, axis, plane)
+    if failed is not None and len(failed) and isinstance(failed[0], str):
+        failed = has_failed(frame, failed)
     if where is not None:
         frame = frame.select(where)
+        failed = None if failed is None else failed[where]
     if column is not None:
         frame = frame.select(frame[column] != 0)
         label = _whole_ids(frame, column)
     else:
         pairs = _close_pairs(frame, distance) if bonds is None else _bonded_pairs(frame, bonds)
+        if failed is not None:
+            pairs = pairs[~failed[pairs].any(axis=1)]
         label = components(frame.ids, pairs)
     mass = frame.m
     same = len(mass) and mass.min() == mass.max()
     return Fragments(frame, label, tabulate(frame, label), float(mass[0]) if same else None)
+
+
+def has_failed(frame, columns=FAILED):
+    """Mask of the particles that have failed: 1 or more in one of the columns, (n,) of bool."""
+    return np.any([np.asarray(frame[name]) >= 1.0 for name in columns], axis=0)
+
+
+def both(source, failed=None, **rule):
+    """Fragments by a rule of find(), and their summary; if failed particles are known, of the sound pieces, with two numbers of what has come
+    apart in the summary: pieces_apart, largest_apart_mass_fraction."""
+    found = find(source, failed=failed, **rule)
+    if failed is None:
+        return found, found.summary
+    apart = find(source, **rule).summary
+    return found, {**found.summary, "pieces_apart": apart["fragments"], "largest_apart_mass_fraction": apart["largest_fragment_mass_fraction"]}
 
 
 def components(ids, pairs):

@@ -70,12 +70,18 @@ def field(source, axis, plane=None, bins=(200, 100)):
 
 @dataclasses.dataclass
 class Impacts:
-    """momentum (along the axis) and energy per area, (n, n) of the edges x (n + 1,) in both directions; summary: dict of totals"""
+    """momentum (along the axis) and energy per area, (n, n) of the edges x (n + 1,) in both directions; summary: dict of totals
+
+    frame: the particles on their way, (k,) without mirror images; kinetic: energy of each, (k,); copies: 4 with images, else 1
+    """
 
     momentum: np.ndarray
     energy: np.ndarray
     x: np.ndarray
     summary: dict
+    frame: object
+    kinetic: np.ndarray
+    copies: int
 
 
 def impacts(source, axis, plane, bins=80, after=None, reach=None, quarter=False):
@@ -97,6 +103,7 @@ def impacts(source, axis, plane, bins=80, after=None, reach=None, quarter=False)
     flight = (plane - frame.x[:, along]) / v[:, along]
     x = frame.x[:, across] + flight[:, None] * v[:, across]
     p, e = m * v[:, along], 0.5 * frame.mvv2e * m * np.einsum("ij,ij->i", v, v)
+    kinetic, copies = e, 4 if quarter else 1
     if quarter:
         x = np.concatenate([x * sign for sign in ((1, 1), (1, -1), (-1, 1), (-1, -1))])
         p, e, m, flight = (np.tile(values, 4) for values in (p, e, m, flight))
@@ -111,7 +118,8 @@ def impacts(source, axis, plane, bins=80, after=None, reach=None, quarter=False)
     return Impacts(*both, edges, {
         "particles": len(m), "mass": m.sum(), "momentum": p.sum(), "kinetic_energy": e.sum(), "first_arrival_in": flight.min(),
         "radius_of_half_the_energy": r[order][np.searchsorted(share, 0.5)],
-        "largest_momentum_per_area": both[0].max(), "largest_energy_per_area": both[1].max()})
+        "largest_momentum_per_area": both[0].max(), "largest_energy_per_area": both[1].max()},
+        frame, kinetic, copies)
 
 
 def _ratio(a, b):
