@@ -43,8 +43,11 @@ def count(result, frame):
     return len(hvi.find(hvi.Frame(columns), distance=1.5 * result.dx, where=~failed).table), failed
 
 
-def bar(lmp, root, folder, rate, across, fragments=24, modulus=20.0, seed=1, grains=None, strain=0.4, style="cubic dim 1 dissipation riemann", name="bar"):
-    """a bar as long as that many of Grady's fragments, that many particles in each, stretched from rest with v = rate x; held sideways"""
+def bar(lmp, root, folder, rate, across, fragments=24, modulus=20.0, seed=1, grains=None, strain=0.4, eta=1.5, style="cubic dim 1 dissipation riemann", name="bar"):
+    """a bar as long as that many of Grady's fragments, that many particles in each, stretched from rest with v = rate x; held sideways
+
+    eta: h in spacings; rows with 1.2 clump in tension, see Howto_sph
+    """
     n = across * fragments
     dx = grady(rate) / across
     s = row(n * dx, n, margin=1.2 * strain * n * dx, rho=RHO)
@@ -52,16 +55,16 @@ def bar(lmp, root, folder, rate, across, fragments=24, modulus=20.0, seed=1, gra
     kinds = materials(folder, root, modulus)
     grains = across if grains is None else grains
     s.type = np.repeat(np.random.default_rng(seed).integers(1, kinds + 1, fragments * grains), across // grains)
-    s.mass, s.h = {k: RHO * dx for k in range(1, kinds + 1)}, {k: 1.2 * dx for k in range(1, kinds + 1)}
+    s.mass, s.h = {k: RHO * dx for k in range(1, kinds + 1)}, {k: 1.2 * dx for k in range(1, kinds + 1)}  # run() takes the spacing from it
     dt = 0.3 * dx / CL
     steps = int(strain / rate / dt)
-    r = run(lmp, folder, s, pair_lines(kinds, style, 1.2 * dx), "damage no spall voids", steps, dt=dt, frames=steps, units="si", name=name)
+    r = run(lmp, folder, s, pair_lines(kinds, style, eta * dx), "damage no spall voids", steps, dt=dt, frames=steps, units="si", name=name)
     r.dx = dx
     return r, r.frames[-1]
 
 
 def ring(lmp, root, folder, rate, dx=0.25e-3, radius=20e-3, layers=4, modulus=20.0, seed=1, strain=0.8, words="damage no spall voids",
-         style="cubic dim 2 dissipation riemann", frames=8, name="ring"):
+         style="cubic dim 2 dissipation riemann", eta=1.5, frames=8, name="ring"):
     """a ring in plane strain, thin against its radius, that expands at one radial speed, rate times its radius; faces free"""
     around = int(round(2 * np.pi * radius / dx))
     edges = np.sqrt(radius**2 + 2 * radius * layers * dx * (np.arange(layers + 1) / layers - 0.5))  # layers of one area
@@ -76,6 +79,6 @@ def ring(lmp, root, folder, rate, dx=0.25e-3, radius=20e-3, layers=4, modulus=20
               {k: 1.2 * dx for k in range(1, kinds + 1)}, np.array([2 * half, 2 * half, 20 * dx]), (False, False, True), 2)
     dt = 0.3 * dx / CL
     steps = int(strain / rate / dt)
-    result = run(lmp, folder, s, pair_lines(kinds, style, 1.2 * dx), words, steps, dt=dt, frames=max(steps // frames, 1), units="si", name=name)
+    result = run(lmp, folder, s, pair_lines(kinds, style, eta * dx), words, steps, dt=dt, frames=max(steps // frames, 1), units="si", name=name)
     result.dx = dx
     return result, result.frames[-1]

@@ -19,12 +19,12 @@ def test_bars(lmp, root, tmp_path):
         number[rate, across] = n / length
         sizes = f["fragsize"][failed]
         print(f"{rate:g}/s, {across} particles in a Grady size: {n / length:.2f} pieces, failed {failed.mean():.3f}, fragsize/s {np.median(sizes) / grady(rate):.2f}")
-        assert 2 < n / length < 5 and 0.05 < failed.mean() < 0.4
+        assert 1.5 < n / length < 5 and 0.05 < failed.mean() < 0.6
         assert np.abs(r.thermo["c_book[9]"] - 1).max() < 1e-6
         assert np.median(sizes) == pytest.approx(grady(rate), rel=0.15)  # what particles say of themselves is the theory
     rates = [number[rate, 20] for rate in (1e4, 1e5, 1e6)]
     assert max(rates) / min(rates) < 1.15  # over a factor of a hundred in size
-    assert 1 < number[1e5, 20] / number[1e5, 10] < 1.7 and 1 < number[1e5, 40] / number[1e5, 20] < 1.7
+    assert 1 < number[1e5, 20] / number[1e5, 10] < 2 and 1 < number[1e5, 40] / number[1e5, 20] < 1.5
 
 
 def test_bar_without_scatter(lmp, root, tmp_path):
@@ -43,9 +43,9 @@ def test_ring_does_not_spall(lmp, root, tmp_path):
             n, failed = count(r, f)
             print(f"{5e4 * f['time']:.3f}: tension {tension:.3g}, pieces {n}, failed {failed.mean():.4f}, D {np.median(f['void_damage']):.4f}")
             assert failed.mean() < 0.01 and np.median(f["void_damage"]) < 0.01
-        if 0.05 < f["time"] * 5e4 < 0.22:
+        if 0.05 < f["time"] * 5e4 < 0.32:
             Y = 3**0.5 * tension
-            assert n == 1 and f["void_damage"].max() < 0.01 and np.median(f["vm"]) == pytest.approx(Y, rel=0.06)
+            assert n == 1 and f["void_damage"].max() < 0.02 and np.median(f["vm"]) == pytest.approx(Y, rel=0.06)
 
 
 def test_ring_with_johnson_cook(lmp, root, tmp_path):
