@@ -27,7 +27,7 @@ root = os.environ.get("HVI_ROOT", os.path.join(here, "..", ".."))
 sys.path.insert(0, os.path.join(root, "tests"))
 from reference import voids
 
-NS = (8, 16, 32, 64, 128, 256)
+NS = (8, 16, 32, 64, 128, 256, 512)
 THICK = ("20", "6.3", "2", "0.63", "0.2", "0.063")
 COLOR = {"voids": "C0", "principal": "C3", "none": "0.5"}
 
