@@ -49,10 +49,13 @@ def test_ring_does_not_spall(lmp, root, tmp_path):
 
 
 def test_ring_with_johnson_cook(lmp, root, tmp_path):
-    """strain breaks it: damage johnson-cook with scatter, artificial stress against clumping; the number is Grady's within a factor of five"""
-    r, f = ring(lmp, root, tmp_path, 5e4, words="damage johnson-cook spall voids weibull 20 7", style=ART, strain=0.5)
-    n, failed = count(r, f)
-    want = 2 * np.pi * 20e-3 / grady(5e4)
-    print("pieces", n, "Grady", want, "failed", failed.mean())
-    assert 1 < n / want < 5 and 0.02 < failed.mean() < 0.2
-    assert np.abs(r.thermo["c_book[9]"] - 1).max() < 1e-6
+    """strain breaks it: damage johnson-cook with scatter, artificial stress against clumping; the number is Grady's within a factor of five at any rate"""
+    ratio = []
+    for rate in (5e4, 1e5):
+        r, f = ring(lmp, root, tmp_path, rate, words="damage johnson-cook spall voids weibull 20 7", style=ART, strain=0.5)
+        n, failed = count(r, f)
+        ratio.append(n / (2 * np.pi * 20e-3 / grady(rate)))
+        print(f"{rate:g}/s: pieces {n}, over Grady's {ratio[-1]:.2f}, failed {failed.mean():.3f}")
+        assert 1 < ratio[-1] < 5 and 0.02 < failed.mean() < 0.4
+        assert np.abs(r.thermo["c_book[9]"] - 1).max() < 1e-6
+    assert ratio[1] == pytest.approx(ratio[0], rel=0.25)
