@@ -8,15 +8,18 @@ import numpy as np
 from . import bonds as bond_sources
 from . import cloud as clouds
 from . import compare as comparison
-from . import distribution, fragments as pieces, progress, tables
+from . import distribution, fragments as pieces, mirror, progress, tables
 from .dump import Dump
 from .errors import HVIError
 from .scan import open_binary
 
 
 def _open(args, paths=None, data=None):
-    return Dump(paths or args.files, data=data or args.data, masses=dict(args.mass or ()), units=args.units, dt=args.dt,
-                interval=args.interval, progress=progress.bar)
+    dump = Dump(paths or args.files, data=data or args.data, masses=dict(args.mass or ()), units=args.units,
+                mirror=args.mirror, dt=args.dt, interval=args.interval, progress=progress.bar)
+    if dump.mirror(-1):
+        print(f"model: {mirror.text(dump.mirror(-1))}; what follows is of the whole")
+    return dump
 
 
 def _moment(frame):
@@ -52,6 +55,7 @@ def info(args):
     first = dump.headers[0]
     print(f"{len(dump)} frames, {first.n} {(first.label or '').lower()} in the first, units {first.units or 'not said'}")
     print(f"columns: {' '.join(dump.columns)}")
+    print(f"model: {mirror.text(dump.mirror(0))}")
     rows = [(k, h.step, "-" if h.time is None else h.time, h.n) for k, h in enumerate(dump.headers)]
     print(tables.text(("frame", "step", "time", "rows"), rows))
 
@@ -125,7 +129,7 @@ def _fits(args, found):
     laws = {None: (), "both": distribution.LAWS}.get(args.fit, (args.fit,))
     fits, start = [], args.mmin
     for law in laws:
-        fits.append(distribution.fit(found.table["mass"], law, start, args.mmax, found.unit))
+        fits.append(distribution.fit(found.table["mass"], law, start, args.mmax, found.unit, found.images))
         start = fits[0].m_min
     return fits
 
@@ -157,7 +161,7 @@ def impacts(args):
     from . import maps
 
     frame = _open(args)[args.frame]
-    found = maps.impacts(frame, args.axis, args.plane, args.bins, args.after, args.reach, args.quarter)
+    found = maps.impacts(frame, args.axis, args.plane, args.bins, args.after, args.reach)
     print(_moment(frame))
     for name, value in found.summary.items():
         print(f"{name}: {tables.number(value)}")

@@ -6,6 +6,7 @@ import dataclasses
 import numpy as np
 
 from . import bonds as bond_sources
+from . import mirror as mirrors
 from .cloud import beyond
 from .errors import HVIError
 from .frame import as_frame
@@ -25,12 +26,14 @@ class Fragments:
     label: fragment ID of each of them, (n,) of int64
     table: one row per fragment, dtype ROW, largest mass first, equal masses in order of ID; pandas.DataFrame(table)
     unit: mass of a particle if all have the same, else None
+    images: how many of the fragments there are for each that is not merely the image of another: 1 without mirror planes
     """
 
     frame: object
     label: np.ndarray
     table: np.ndarray
     unit: float
+    images: float = 1.0
 
     @property
     def summary(self):
@@ -68,27 +71,80 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
 
     With a column, pieces that hang together only through particles that do not count are still one fragment: the column
     does not tell.
+
+    Between mirror planes all are fragments of the whole: what touches a plane is one piece with its image, all else is there
+    as often as there are images. A column and bonds know nothing of images, so give the distance too: a particle that is
+    closer to its image than that hangs together with it, unless it is a fragment by itself that has failed (columns damage,
+    spalled).
     """
     frame = as_frame(source)
     if column is None and bonds is None and distance is None:
         bonds = getattr(getattr(getattr(source, "universe", None), "trajectory", None), "bonds", None)
-    if sum(rule is not None for rule in (column, bonds, distance)) != 1:
-        raise HVIError("fragments are found by a column, by bonds or by distance: give one of them")
-    if where is not None and (axis is not None or plane is not None):
-        raise HVIError("give a mask or an axis and a plane, not both")
-    if axis is not None or plane is not None:
-        where = beyond(frame, axis, plane)
+    _check_rule(column, bonds, distance, frame.planes)
     if where is not None:
+        if axis is not None or plane is not None:
+            raise HVIError("give a mask or an axis and a plane, not both")
         frame = frame.select(where)
     if column is not None:
         frame = frame.select(frame[column] != 0)
+    whole = cloud = frame.whole()
+    keep = slice(None)
+    if axis is not None or plane is not None:
+        keep = beyond(whole, axis, plane)
+        cloud = whole.select(keep)
+    if column is not None:
         label = _whole_ids(frame, column)
+        if frame.planes:
+            label = components(whole.ids, bond_sources.rows_of(_image_pairs(frame, _chains(frame.ids, label), distance), whole.ids))
+        label = label[keep]
+    elif bonds is not None:
+        pairs = bond_sources.source(bonds).at(frame.step)
+        if frame.planes:
+            pairs = _image_pairs(frame, frame.ids[bond_sources.rows_of(pairs, frame.ids)], distance)
+        label = components(cloud.ids, bond_sources.rows_of(pairs, cloud.ids))
     else:
-        pairs = _close_pairs(frame, distance) if bonds is None else _bonded_pairs(frame, bonds)
-        label = components(frame.ids, pairs)
-    mass = frame.m
+        label = components(cloud.ids, _close_pairs(cloud, distance))
+    mass, table = cloud.m, tabulate(cloud, label)
     same = len(mass) and mass.min() == mass.max()
-    return Fragments(frame, label, tabulate(frame, label), float(mass[0]) if same else None)
+    own = np.sum(table["id"] <= frame.id_step) if frame.planes else len(table)
+    return Fragments(cloud, label, table, float(mass[0]) if same else None, len(table) / own if own else 1.0)
+
+
+def _check_rule(column, bonds, distance, planes):
+    given = sum(rule is not None for rule in (column, bonds, distance))
+    if planes and given == 1 and distance is None:
+        raise HVIError(f"{'a column' if bonds is None else 'bonds'} of a {mirrors.text(planes)} does not tell what hangs together "
+                       "with its image: give the distance, too")
+    if given != 1 and not (planes and given == 2 and distance is not None):
+        raise HVIError("fragments are found by a column, by bonds or by distance: give one of them")
+
+
+def _chains(ids, label):
+    """Pairs of IDs that connect all particles of a label, (k, 2)."""
+    order = np.argsort(label, kind="stable")
+    ids, label = ids[order], label[order]
+    same = label[1:] == label[:-1]
+    return np.column_stack([ids[:-1][same], ids[1:][same]])
+
+
+def _image_pairs(frame, pairs, distance):
+    """Pairs of IDs in frame.whole(): those given, (k, 2), in all images, and of particles with images closer than distance.
+
+    If any two particles on either side of a plane are closer than that, one of the two is that close to its own image.
+    """
+    if not (distance > 0.0 and np.isfinite(distance)):
+        raise HVIError(f"distance must be > 0, not {distance}")
+    failed = np.zeros(len(frame), dtype=bool)
+    for name, limit in (("damage", 1.0), ("spalled", 1e-300)):
+        if name in frame:
+            failed |= frame[name] >= limit
+    able = ~failed | np.isin(frame.ids, pairs)  # else alone, and hangs together with nothing
+    images, step = [bits for bits, _ in mirrors.images(frame.planes)], frame.id_step
+    found = [pairs + bits * step for bits in images]
+    for b, plane in enumerate(frame.planes):
+        ids = frame.ids[able & (2.0 * plane.depth(frame.x) < distance)]
+        found += [np.column_stack([ids + bits * step, ids + (bits | 1 << b) * step]) for bits in images if not bits >> b & 1]
+    return np.concatenate(found)
 
 
 def components(ids, pairs):
@@ -107,10 +163,6 @@ def components(ids, pairs):
     lowest = np.empty(number, dtype=np.int64)
     lowest[component[::-1]] = ids[::-1]  # the last one written is the lowest
     return lowest[component]
-
-
-def _bonded_pairs(frame, bonds):
-    return bond_sources.rows_of(bond_sources.source(bonds).at(frame.step), frame.ids)
 
 
 def _close_pairs(frame, distance):

@@ -155,7 +155,7 @@ dump_modify 1 format float %.17g
 thermo_style custom step c_t[*]
 run 0
 """).thermo
-        frame = hvi.Dump(tmp_path / "a.dump", data=tmp_path / "s.data", units="lj")[0]
+        frame = hvi.Dump(tmp_path / "a.dump", data=tmp_path / "s.data", units="lj", mirror="none")[0]
         found = hvi.find(frame, distance=0.85)
         assert np.array_equal(found.label, frame["c_f"])
         assert 5 < len(found.table) == thermo["c_t[1]"][0] < 60
