@@ -17,6 +17,8 @@ ROW = np.dtype([("id", np.int64), ("count", np.int64), ("mass", float), ("x", fl
 COLUMN_QUANTITIES = {"mass": "mass", "x": "distance", "y": "distance", "z": "distance", "vx": "velocity",
                      "vy": "velocity", "vz": "velocity", "ke": "energy", "size": "distance"}
 
+FAILED = ("damage", "spalled")  # columns of compute hvi/atom
+
 
 @dataclasses.dataclass
 class Fragments:
@@ -59,7 +61,7 @@ class Fragments:
         return pandas.DataFrame(self.table).set_index("id")
 
 
-def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, where=None):
+def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, where=None, failed=None):
     """Fragments of a frame, by one of three rules; only particles that count connect others.
 
     source: a Frame, or a Universe or AtomGroup of hvi.open()
@@ -68,25 +70,32 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
     distance: particles closer than this hang together, also across periodic boundaries
     axis, plane: only particles beyond the plane (coordinate > plane), the debris cloud
     where: mask of particles that count, (n,) of bool, instead of axis and plane
+    failed: with distance: particles that stay alone, as with damage yes, so that fragments are the sound pieces: a mask, (n,) of bool, or
+        names of columns, see has_failed(); else fragments are what has come apart
 
     With a column, pieces that hang together only through particles that do not count are still one fragment: the column
     does not tell.
 
     Between mirror planes all are fragments of the whole: what touches a plane is one piece with its image, all else is there
     as often as there are images. A column and bonds know nothing of images, so give the distance too: a particle that is
-    closer to its image than that hangs together with it, unless it is a fragment by itself that has failed (columns damage,
-    spalled).
+    closer to its image than that hangs together with it. For a column that was found with damage yes say who has failed, too.
     """
     frame = as_frame(source)
     if column is None and bonds is None and distance is None:
         bonds = getattr(getattr(getattr(source, "universe", None), "trajectory", None), "bonds", None)
     _check_rule(column, bonds, distance, frame.planes)
+    if failed is not None and distance is None:
+        raise HVIError("sound pieces are found by distance: by bonds or by a column there are no failed particles")
+    if failed is not None and len(failed) and isinstance(failed[0], str):
+        failed = has_failed(frame, failed)
+    failed = np.zeros(len(frame), dtype=bool) if failed is None else failed
     if where is not None:
         if axis is not None or plane is not None:
             raise HVIError("give a mask or an axis and a plane, not both")
-        frame = frame.select(where)
+        frame, failed = frame.select(where), failed[where]
     if column is not None:
-        frame = frame.select(frame[column] != 0)
+        counts = frame[column] != 0
+        frame, failed = frame.select(counts), failed[counts]
     whole = cloud = frame.whole()
     keep = slice(None)
     if axis is not None or plane is not None:
@@ -95,19 +104,26 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
     if column is not None:
         label = _whole_ids(frame, column)
         if frame.planes:
-            label = components(whole.ids, bond_sources.rows_of(_image_pairs(frame, _chains(frame.ids, label), distance), whole.ids))
+            label = components(whole.ids, bond_sources.rows_of(_image_pairs(frame, _chains(frame.ids, label), distance, failed), whole.ids))
         label = label[keep]
     elif bonds is not None:
         pairs = bond_sources.source(bonds).at(frame.step)
         if frame.planes:
-            pairs = _image_pairs(frame, frame.ids[bond_sources.rows_of(pairs, frame.ids)], distance)
+            pairs = _image_pairs(frame, frame.ids[bond_sources.rows_of(pairs, frame.ids)], distance, failed)
         label = components(cloud.ids, bond_sources.rows_of(pairs, cloud.ids))
     else:
-        label = components(cloud.ids, _close_pairs(cloud, distance))
+        pairs = _close_pairs(cloud, distance)
+        alone = np.tile(failed, 1 << len(frame.planes))[keep]
+        label = components(cloud.ids, pairs[~alone[pairs].any(axis=1)])
     mass, table = cloud.m, tabulate(cloud, label)
     same = len(mass) and mass.min() == mass.max()
     own = np.sum(table["id"] <= frame.id_step) if frame.planes else len(table)
     return Fragments(cloud, label, table, float(mass[0]) if same else None, len(table) / own if own else 1.0)
+
+
+def has_failed(frame, columns=FAILED):
+    """Mask of the particles that have failed: 1 or more in one of the columns, (n,) of bool."""
+    return np.any([np.asarray(frame[name]) >= 1.0 for name in columns], axis=0)
 
 
 def _check_rule(column, bonds, distance, planes):
@@ -127,22 +143,17 @@ def _chains(ids, label):
     return np.column_stack([ids[:-1][same], ids[1:][same]])
 
 
-def _image_pairs(frame, pairs, distance):
-    """Pairs of IDs in frame.whole(): those given, (k, 2), in all images, and of particles with images closer than distance.
+def _image_pairs(frame, pairs, distance, failed):
+    """Pairs of IDs in frame.whole(): those given, (k, 2), in all images, and of sound particles with images closer than distance.
 
     If any two particles on either side of a plane are closer than that, one of the two is that close to its own image.
     """
     if not (distance > 0.0 and np.isfinite(distance)):
         raise HVIError(f"distance must be > 0, not {distance}")
-    failed = np.zeros(len(frame), dtype=bool)
-    for name, limit in (("damage", 1.0), ("spalled", 1e-300)):
-        if name in frame:
-            failed |= frame[name] >= limit
-    able = ~failed | np.isin(frame.ids, pairs)  # else alone, and hangs together with nothing
     images, step = [bits for bits, _ in mirrors.images(frame.planes)], frame.id_step
     found = [pairs + bits * step for bits in images]
     for b, plane in enumerate(frame.planes):
-        ids = frame.ids[able & (2.0 * plane.depth(frame.x) < distance)]
+        ids = frame.ids[~failed & (2.0 * plane.depth(frame.x) < distance)]
         found += [np.column_stack([ids + bits * step, ids + (bits | 1 << b) * step]) for bits in images if not bits >> b & 1]
     return np.concatenate(found)
 
