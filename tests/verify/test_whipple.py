@@ -43,7 +43,7 @@ def test_two_walls(shield, nranks):
 def verdict(frame, layer, front, rear, near):
     """as in Howto_shield, from a dump: masses of what passed, of spall, of the largest fragment; types layer is the wall"""
     kind, v = frame["type"], frame.v[:, 2]
-    failed = (frame["c_state[2]"] >= 1) | (frame["c_state[3]"] > 0)
+    failed = hvi.fragments.has_failed(frame)
 
     def pieces(where, sound):
         f = frame.select(where)
