@@ -18,7 +18,7 @@ from .units import MVV2E
 _COLUMN = re.compile(r"mirror_(?:none|([xyz])_(lo|hi))")
 _TITLE = re.compile(r"\bmirror (?:none|([xyz]) (\S+) (lo|hi))\b")
 _NAMES = ("whole", "half", "quarter", "eighth")
-LAYER = 0.05  # a face has at least this share of n^(2/3) particles, n of them in all
+LAYER = 0.1  # a face has at least this share of n^(2/3) particles, n of them in all
 
 
 @dataclasses.dataclass(frozen=True)
