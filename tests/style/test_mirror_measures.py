@@ -6,6 +6,7 @@ import hvi
 import numpy as np
 import pytest
 from hvi import cli, mirror
+from hvi.box import Box
 from hvi.cloud import MEASURES
 from hvi.fragments import ROW
 from test_mirror import ROOM, material, start  # noqa: F401
@@ -157,6 +158,32 @@ def test_its_own_image(runs):
     n = len(part)
     assert np.array_equal(shear["sxy"][n:2 * n], -part["p"]) and np.array_equal(shear["sxy"][3 * n:], part["p"])
     assert np.array_equal(shear["sxz"][2 * n:3 * n], part["p"])
+
+
+def test_pictures(runs):
+    """show the whole, as do those of fragments"""
+    part = frame(runs, "xy")
+    for color, found in (("type", None), ("fragment", hvi.find(part, distance=REACH))):
+        left, right = hvi.figures.side(part, "z", "x", color, fragments=found).axes[0].get_ylim()
+        assert left == pytest.approx(-right) and right > part.x[:, 0].max()
+
+
+def test_planes_anywhere():
+    """an upper plane and one that is not at 0: places, box, what touches; columns of coordinates of all kinds"""
+    box = Box.parse("ff ff pp", ["-3 2", "1 9", "0 1"])
+    x = np.array([[1.8, 1.1, 0.5], [-2.0, 4.0, 0.5], [1.0, 3.0, 0.5]])
+    columns = {"id": np.array([2, 5, 9]), "mass": np.ones(3), **dict(zip(("xs", "ys", "zs"), box.to_scaled(x).T)), "vx": np.ones(3),
+               "vy": np.zeros(3), "vz": np.zeros(3), "q": np.arange(3.0)}
+    whole = hvi.Frame(columns, box=box, mirror=mirror.of_words(["x=2,hi", "y=1"])).whole()
+    assert whole.x[3:6] == pytest.approx(x * [-1, 1, 1] + [4, 0, 0]) and whole.x[9:] == pytest.approx(x * [-1, -1, 1] + [4, 2, 0])
+    assert whole.v[:, 0].tolist() == [1] * 3 + [-1] * 3 + [1] * 3 + [-1] * 3 and whole["q"].tolist() == 4 * [0, 1, 2]
+    assert whole.box.origin.tolist() == [-3, -7, 0] and whole.box.vectors.diagonal().tolist() == [10, 16, 1]
+    assert whole.ids.tolist() == [2, 5, 9, 11, 14, 18, 20, 23, 27, 29, 32, 36]
+    found = hvi.find(hvi.Frame(columns, box=box, mirror=mirror.of_words(["x=2,hi", "y=1"])), column="id", distance=0.5)
+    assert len(found.table) == 1 + 4 + 4 and found.table["count"].tolist() == [4] + 8 * [1]
+    assert (found.table["x"][0], found.table["y"][0]) == pytest.approx((2, 1)) and found.table["vx"][0] == 0
+    few = hvi.Frame({name: column[:0] for name, column in columns.items()}, box=box, mirror=mirror.of_words("x=2,hi"))
+    assert len(few.whole()) == 0 and len(hvi.find(few, distance=1.0).table) == 0
 
 
 def test_whole_models_agree(runs):
