@@ -21,12 +21,15 @@ LAWS = ("power", "exponential")
 FEWEST = 10  # fragments that a fit needs
 
 
-def cumulative(masses):
+def cumulative(masses, number=None):
     """N(>m) as a step function: (m, above, from_here), one entry per different mass, rising.
 
+    number: how many there are of each mass, (k,), default: one
     above: number of fragments heavier than m; from_here: number of those that are at least as heavy
     """
-    m, count = np.unique(np.asarray(masses, dtype=float), return_counts=True)
+    m, place, count = np.unique(np.asarray(masses, dtype=float), return_inverse=True, return_counts=True)
+    if number is not None:
+        count = np.bincount(place, number, minlength=len(m))
     from_here = np.cumsum(count[::-1])[::-1]
     return m, from_here - count, from_here
 
@@ -162,7 +165,7 @@ def fit(masses, law="power", m_min=None, m_max=np.inf, unit=None, images=1.0):
     FEWEST fragments); the standard error does not contain the uncertainty of this choice
     unit: particle mass, if all masses are multiples of it
     images: how many of the masses there are for each that is not merely that of an image behind mirror planes
-    (Fragments.images): error, likelihood and how many a fit needs are those of the others
+    (Fragments.images()): error, likelihood and how many a fit needs are those of the others
 
     Raises HVIError if there are too few fragments or the law cannot be fitted.
     """

@@ -28,14 +28,14 @@ class Fragments:
     label: fragment ID of each of them, (n,) of int64
     table: one row per fragment, dtype ROW, largest mass first, equal masses in order of ID; pandas.DataFrame(table)
     unit: mass of a particle if all have the same, else None
-    images: how many of the fragments there are for each that is not merely the image of another: 1 without mirror planes
+    own: rows that are not merely images of others behind mirror planes, (fragments,) of bool
     """
 
     frame: object
     label: np.ndarray
     table: np.ndarray
     unit: float
-    images: float = 1.0
+    own: np.ndarray
 
     @property
     def summary(self):
@@ -53,6 +53,11 @@ class Fragments:
         """Row in the table of each particle's fragment, (n,)."""
         order = np.argsort(self.table["id"])
         return order[np.searchsorted(self.table["id"], self.label, sorter=order)]
+
+    def images(self, rows=slice(None)):
+        """How many of the rows there are for each that is not merely the image of another; 1 without mirror planes."""
+        own = self.own[rows]
+        return len(own) / own.sum() if own.any() else 1.0
 
     def dataframe(self):
         """The table as a pandas.DataFrame, indexed by fragment ID."""
@@ -117,8 +122,8 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
         label = components(cloud.ids, pairs[~alone[pairs].any(axis=1)])
     mass, table = cloud.m, tabulate(cloud, label)
     same = len(mass) and mass.min() == mass.max()
-    own = np.sum(table["id"] <= frame.id_step) if frame.planes else len(table)
-    return Fragments(cloud, label, table, float(mass[0]) if same else None, len(table) / own if own else 1.0)
+    own = table["id"] <= frame.id_step if frame.planes else np.ones(len(table), dtype=bool)
+    return Fragments(cloud, label, table, float(mass[0]) if same else None, own)
 
 
 def has_failed(frame, columns=FAILED):
@@ -156,6 +161,16 @@ def _image_pairs(frame, pairs, distance, failed):
         ids = frame.ids[~failed & (2.0 * plane.depth(frame.x) < distance)]
         found += [np.column_stack([ids + bits * step, ids + (bits | 1 << b) * step]) for bits in images if not bits >> b & 1]
     return np.concatenate(found)
+
+
+def both(source, failed=None, **rule):
+    """Fragments by a rule of find(), and their summary; if failed particles are known, of the sound pieces, with two numbers of what has come
+    apart in the summary: pieces_apart, largest_apart_mass_fraction."""
+    found = find(source, failed=failed, **rule)
+    if failed is None or rule.get("column") is not None or rule.get("bonds") is not None:
+        return found, found.summary
+    apart = find(source, **rule).summary
+    return found, {**found.summary, "pieces_apart": apart["fragments"], "largest_apart_mass_fraction": apart["largest_fragment_mass_fraction"]}
 
 
 def components(ids, pairs):

@@ -149,6 +149,15 @@ class Frame:
         """energy = 0.5 mvv2e m v^2"""
         return unit_systems.MVV2E[self.units]
 
+    def by_type(self, values, what):
+        """A number for each particle, (n,), from {type: number}; HVIError that names a type without one."""
+        types, place = np.unique(self["type"], return_inverse=True)
+        unknown = [str(t) for t in types if t not in values]
+        if unknown:
+            known = ", ".join(f"{t}={value:g}" for t, value in values.items())
+            raise HVIError(f"{self.where}: no {what} for type {' '.join(unknown)}; known are {known}")
+        return np.array([values[t] for t in types], dtype=float)[place]
+
     def _vectors(self, names):
         vectors = np.stack([self[name] for name in names], axis=1)
         self.require_finite(vectors, names)
@@ -181,12 +190,7 @@ class Frame:
         elif not self.type_masses:
             raise HVIError(f"{self.where} has no masses: give a data file, the mass of each type, or dump the column mass")
         else:
-            types, place = np.unique(self["type"], return_inverse=True)
-            unknown = [str(t) for t in types if t not in self.type_masses]
-            if unknown:
-                known = ", ".join(f"{t}={m:g}" for t, m in self.type_masses.items())
-                raise HVIError(f"{self.where}: no mass for type {' '.join(unknown)}; known are {known}")
-            m = np.array([self.type_masses[t] for t in types], dtype=float)[place]
+            m = self.by_type(self.type_masses, "mass")
         self.require_finite(m[:, None], ("mass",))
         if len(m) and not m.min() > 0.0:
             raise HVIError(f"{self.where}: a mass is {m.min():g}; masses must be > 0")

@@ -70,12 +70,17 @@ def field(source, axis, plane=None, bins=(200, 100)):
 
 @dataclasses.dataclass
 class Impacts:
-    """momentum (along the axis) and energy per area, (n, n) of the edges x (n + 1,) in both directions; summary: dict of totals"""
+    """momentum (along the axis) and energy per area, (n, n) of the edges x (n + 1,) in both directions; summary: dict of totals
+
+    frame: the particles on their way, k of the whole; kinetic: energy of each, (k,)
+    """
 
     momentum: np.ndarray
     energy: np.ndarray
     x: np.ndarray
     summary: dict
+    frame: object
+    kinetic: np.ndarray
 
 
 def impacts(source, axis, plane, bins=80, after=None, reach=None):
@@ -107,7 +112,8 @@ def impacts(source, axis, plane, bins=80, after=None, reach=None):
     return Impacts(*both, edges, {
         "particles": len(m), "mass": m.sum(), "momentum": p.sum(), "kinetic_energy": e.sum(), "first_arrival_in": flight.min(),
         "radius_of_half_the_energy": r[order][np.searchsorted(share, 0.5)],
-        "largest_momentum_per_area": both[0].max(), "largest_energy_per_area": both[1].max()})
+        "largest_momentum_per_area": both[0].max(), "largest_energy_per_area": both[1].max()},
+        frame, e)
 
 
 def _ratio(a, b):

@@ -137,7 +137,7 @@ def test_fragments(runs, name):
             assert t["mass"].sum() == pytest.approx(2 ** len(planes) * part.m[there].sum(), rel=CLOSE)
             assert t["ke"].sum() == pytest.approx(want[:, 8].sum(), rel=1e-8)
             own = len(np.unique(found.label[found.label <= part.ids[-1]]))
-            assert found.images == pytest.approx(len(t) / own) and 1 < found.images < 2 ** len(planes)
+            assert found.images() == pytest.approx(len(t) / own) and 1 < found.images() < 2 ** len(planes)
 
 
 def test_its_own_image(runs):
