@@ -194,6 +194,16 @@ def test_whole_models_agree(runs):
                                        **{key: other[key] for key in other if key.startswith("largest")}}, rel=1e-8)
 
 
+def test_compare(runs, capsys):
+    """cloud and fragments of quarter and whole, side by side: nothing differs; of the part without its record nearly all does"""
+    words = ["compare", *(str(runs[planes][0] / "atoms.dump") for planes in ("", "xy")), "--plane", str(ROOM + HEIGHT), "--distance", str(REACH),
+             "--rtol", "1e-8"]
+    assert cli.main(words) == 0
+    assert cli.main([*words, "--mirror", "none"]) == 1
+    differ = capsys.readouterr().out.split("larger than 1e-08: ")[1]
+    assert all(key in differ for key in ("diameter", "mass", "fragmentation"))
+
+
 def test_record(runs, capsys):
     """time, units and planes from the columns; said by the command"""
     for planes, text in (("", "whole"), ("x", "half (mirror x 0 lo)"), ("xy", "quarter (mirror x 0 lo, mirror y 0 lo)")):
