@@ -9,7 +9,7 @@ import yaml
 from hvi import mirror
 
 ALWAYS = ["id", "type", "mass", "x", "y", "z", "vx", "vy", "vz", "time_si"]
-STATE = ["p", "damage", "spalled", "vm"]
+STATE = ["p", "damage", "spalled", "vm", "fragsize"]
 # input, variables (seconds each), dumps, columns, model
 CASES = {
     "plate": ("single-plate/in.plate", dict(dx=1.25, Rplate=15, frame=[0.5, 1], tstop=1), "frame.*.dump", STATE, "whole"),
