@@ -50,6 +50,7 @@ def check_variables(folder, words, where):
 
 def check(folder, words):
     where = f"{folder.name}/README.md: {shlex.join(words)}"
+    assert "&" not in words, f"{where}: a line goes on after \\ in a shell"
     if words[0] == "export":
         for value in (word.partition("=")[2] for word in words[1:]):
             assert all((folder / path.replace("$PWD", str(folder))).is_dir() for path in value.split(":")), where
@@ -89,7 +90,7 @@ def test_variables(folder):
 
 
 @pytest.mark.parametrize("wrong, name", [("../../build/lmp -in in.nothing", "layered-shock"), ("lmp -in in.layers", "layered-shock"),
-                                         ("../../build/lmp -in in.layers -var gaps 1", "layered-shock"), ("python3 draw.py", "layered-shock"),
+                                         ("../../build/lmp -in in.layers -var gaps 1", "layered-shock"), ("../../build/lmp -in in.layers &", "layered-shock"), ("python3 draw.py", "layered-shock"),
                                          ("export LAMMPS_POTENTIALS=$PWD/potentials", "spall")])
 def test_a_wrong_one_is_found(wrong, name):
     with pytest.raises(AssertionError):
