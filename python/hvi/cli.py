@@ -24,6 +24,7 @@ EXAMPLES = {
       --fit both --figure masses --out fragments.csv
   python3 -m hvi fragments debris.dump --data debris.data --bonds bonds.dump --axis z --plane 4.05e-3 --all --out f.csv
   python3 -m hvi fragments sph.dump --column c_frag --frame 3
+  python3 -m hvi fragments quarter.dump --column c_frag --distance 6e-4 --mirror x=0 --mirror y=0
   python3 -m hvi fragments sph.dump --distance 0.45 --units lj --mass 1=1
   python3 -m hvi fragments frame.40.dump --distance 7.15e-4 --sound --density 1=2790 --density 2=2703 --plane 0.953e-3""",
     "map": """  python3 -m hvi map debris.dump --data debris.data --axis z --figure phase
@@ -36,8 +37,8 @@ EXAMPLES = {
   python3 -m hvi plate far.data --radius 140e-3 --thickness 0.8e-3 --spacing 0.2e-3 --zones 20e-3 40e-3 80e-3 \\
       --density 2785 --quarter""",
     "impacts": """  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --figure witness
-  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --quarter --after 0 --bins 60 --figure witness.png
-  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --quarter --after 0.8e-3 --distance 0.6e-3 --sound \\
+  python3 -m hvi impacts old.dump --axis z --plane 60.8e-3 --quarter --after 0 --bins 60 --figure witness.png
+  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --after 0.8e-3 --distance 0.6e-3 --sound \\
       --density 1=2785 --density 2=2785""",
     "compare": """  python3 -m hvi compare run1/result.yaml run2/result.yaml
   python3 -m hvi compare run1 run2 --rtol 0.05 --keys length_ratio fragmentation
@@ -83,6 +84,10 @@ def _reading(parser, several=False):
                        help="mass of the particles of a type; repeat")
     group.add_argument("--units", choices=sorted(MVV2E),
                        help="LAMMPS units (default: the dump's or the data file's, else si)")
+    group.add_argument("--mirror", action="append", metavar="D=C[,SIDE]",
+                       help="mirror plane of a half or quarter model, like x=0 or y=1e-3,hi (all is above it: lo, default; below "
+                       "it: hi); repeat; or none (default: what the dump or the data file says)")
+    group.add_argument("--quarter", action="store_const", const=["x=0", "y=0"], dest="mirror", help="--mirror x=0 --mirror y=0")
     group.add_argument("--dt", type=positive, metavar="T", help="time per step, for dumps without time")
     group.add_argument("--interval", type=positive, metavar="T", help="time between frames (dump_modify every/time)")
 
@@ -97,7 +102,7 @@ def _cloud(parser, needed, plane=True):
 
 
 def _rules(parser, several=False):
-    group = parser.add_argument_group("what is a fragment (one of)")
+    group = parser.add_argument_group("what is a fragment (one of; at mirror planes --distance, too)")
     group.add_argument("--column", metavar="NAME", help="column with fragment IDs (compute hvi/fragment/atom)")
     group.add_argument("--bonds", metavar="FILE", nargs=2 if several else None,
                        help="dump local with batom1 batom2 of every frame, or a data file")
@@ -217,7 +222,6 @@ def options():
     sub.add_argument("--after", type=float, metavar="X", help="only particles beyond this coordinate (default: all before the wall)")
     sub.add_argument("--bins", type=int, default=80, metavar="N", help="bins across the map (default: 80)")
     sub.add_argument("--reach", type=positive, metavar="R", help="half width of the map (default: where 99 %% of the energy is)")
-    sub.add_argument("--quarter", action="store_true", help="the dump is of a quarter model: add the mirror images")
     _rules(sub)
     _debris(sub)
     _reading(sub)

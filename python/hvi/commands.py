@@ -9,15 +9,18 @@ from . import bonds as bond_sources
 from . import cloud as clouds
 from . import compare as comparison
 from . import debris as below
-from . import distribution, fragments as pieces, progress, tables
+from . import distribution, fragments as pieces, mirror, progress, tables
 from .dump import Dump
 from .errors import HVIError
 from .scan import open_binary
 
 
 def _open(args, paths=None, data=None):
-    return Dump(paths or args.files, data=data or args.data, masses=dict(args.mass or ()), units=args.units, dt=args.dt,
-                interval=args.interval, progress=progress.bar)
+    dump = Dump(paths or args.files, data=data or args.data, masses=dict(args.mass or ()), units=args.units,
+                mirror=args.mirror, dt=args.dt, interval=args.interval, progress=progress.bar)
+    if dump.mirror(-1):
+        print(f"model: {mirror.text(dump.mirror(-1))}; what follows is of the whole")
+    return dump
 
 
 def _moment(frame):
@@ -78,6 +81,7 @@ def info(args):
     first = dump.headers[0]
     print(f"{len(dump)} frames, {first.n} {(first.label or '').lower()} in the first, units {first.units or 'not said'}")
     print(f"columns: {' '.join(dump.columns)}")
+    print(f"model: {mirror.text(dump.mirror(0))}")
     rows = [(k, h.step, "-" if h.time is None else h.time, h.n) for k, h in enumerate(dump.headers)]
     print(tables.text(("frame", "step", "time", "rows"), rows))
 
@@ -124,7 +128,7 @@ def fragments(args):
         print()
         print(tables.text(names, rows[:args.top], pieces.COLUMN_QUANTITIES, dump.units))
     resolved = found.table["mass"][kind == 0]
-    fits = _fits(args, resolved, found.unit)
+    fits = _fits(args, resolved, found.unit, found.images(kind == 0))
     if fits:
         print()
     for fit in fits:
@@ -159,12 +163,12 @@ def _all_fragments(args, dump, rule):
         tables.write_csv(args.out, names, rows)
 
 
-def _fits(args, masses, unit):
+def _fits(args, masses, unit, images):
     """Both laws on the same range, so that their likelihoods can be compared"""
     laws = {None: (), "both": distribution.LAWS}.get(args.fit, (args.fit,))
     fits, start = [], args.mmin
     for law in laws:
-        fits.append(distribution.fit(masses, law, start, args.mmax, unit))
+        fits.append(distribution.fit(masses, law, start, args.mmax, unit, images))
         start = fits[0].m_min
     return fits
 
@@ -196,7 +200,7 @@ def impacts(args):
     from . import maps
 
     frame = _open(args)[args.frame]
-    found = maps.impacts(frame, args.axis, args.plane, args.bins, args.after, args.reach, args.quarter)
+    found = maps.impacts(frame, args.axis, args.plane, args.bins, args.after, args.reach)
     debris, missing = _debris(args, found.frame)
     print(_moment(frame))
     _print(found.summary)
@@ -206,7 +210,7 @@ def impacts(args):
     if debris:
         summary = debris.summary
         shares = {f"{kind}_kinetic_energy": share for kind, share in zip(below.KINDS, debris.shares(found.kinetic))}
-        _print({name: value * (1 if name == "subparticle_size" else found.copies) for name, value in {**summary, **shares}.items()})
+        _print({**summary, **shares})
     _print({}, missing)
     if args.figure:
         from . import figures

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from . import units as unit_systems
 from .errors import HVIError
-from .frame import as_frame, axis_number
+from .frame import as_frame, axis_number, whole
 
 WIDTH = 6.4  # inches
 BODIES = ("#c8373a", "#2f62a8", "#5a9a57", "#8a5aa3", "#d8892f", "#6b6b6b")  # types 1, 2, ...
@@ -114,7 +114,7 @@ def side(source, axis="z", up=None, color="type", thickness=None, fragments=None
     thickness: of a slice: only particles within half of it from the center of mass, in the direction of view
     diameter: of the dots; default: spacing()
     """
-    frame = as_frame(source)
+    frame = whole(source)
     up = up or "yzx"[axis_number(axis)]
     a, b = axis_number(axis), axis_number(up)
     if a == b:
