@@ -14,8 +14,8 @@
 
 #include "comm.h"
 #include "error.h"
+#include "hvi_variable_list.h"
 #include "input.h"
-#include "library.h"
 #include "variable.h"
 
 #include <algorithm>
@@ -35,61 +35,50 @@ static std::string joined(const std::vector<std::string> &list)
   return text;
 }
 
+// as a word of an input
+
+static std::string quoted(const std::string &value)
+{
+  const bool more = value.find('\n') != std::string::npos;
+  if (!more && value.find('"') == std::string::npos) return "\"" + value + "\"";
+  if (!more && value.find('\'') == std::string::npos) return "'" + value + "'";
+  return "\"\"\"" + value + "\"\"\"";
+}
+
 /* ---------------------------------------------------------------------- */
 
 void HVIRecall::command(int narg, char **arg)
 {
   if (narg < 2) utils::missing_cmd_args(FLERR, "hvi/recall", error);
   const std::string word = arg[0];
-  const std::vector<std::string> rest(arg + 2, arg + narg);
+  std::vector<std::string> rest(arg + 2, arg + narg);
 
-  if (word == "write") {
-    if (!rest.empty() && rest[0] != "except")
-      error->all(FLERR, "hvi/recall write: unknown keyword {}", rest[0]);
-    write(arg[1], {rest.begin() + (rest.empty() ? 0 : 1), rest.end()});
-    return;
-  }
-  if (word != "variable")
-    error->all(FLERR, "hvi/recall: must be followed by write or variable, not {}", word);
-  if (rest.empty()) utils::missing_cmd_args(FLERR, "hvi/recall variable", error);
-
-  const std::string name = arg[1];
-  if (input->variable->find(name.c_str()) < 0) {
-    define(name, rest);
-    return;
-  }
-  if (!is_in(names(), name))
-    error->all(FLERR, "hvi/recall: variable {} is not of style index", name);
-  const auto now = values(name);
-  if (now != rest)
-    error->all(FLERR,
-               "This run cannot be gone on with, for a variable has changed: {} was '{}', and is "
-               "'{}' now; leave it out, or start anew",
-               name, joined(rest), joined(now));
+  if (word == "variable") {
+    if (rest.empty()) utils::missing_cmd_args(FLERR, "hvi/recall variable", error);
+    recall(arg[1], rest);
+  } else if (word == "given" || word == "state") {
+    if (!rest.empty()) {
+      if (rest[0] != "except")
+        error->all(FLERR, "hvi/recall {}: unknown keyword {}", word, rest[0]);
+      rest.erase(rest.begin());
+    }
+    write(arg[1], word == "given" ? given(rest) : state(rest));
+  } else
+    error->all(FLERR, "hvi/recall: must be followed by given, state or variable, not {}", word);
 }
 
-/* ----------------------------------------------------------------------
-   LAMMPS tells styles of variables in text only:
-   Variable[  0]: dx,                style = index,            def = 0.4
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-std::vector<std::string> HVIRecall::names() const
+bool HVIRecall::is_index(const std::string &name) const
 {
-  std::vector<std::string> list;
-  char text[512];
-  for (int i = 0; lammps_variable_info(lmp, i, text, sizeof(text)) == 1; i++) {
-    text[sizeof(text) - 1] = '\0';
-    const std::string info = text;
-    const size_t from = info.find("]: "), to = info.find(','), style = info.find("style = index,");
-    if (from < to && to < style && style != std::string::npos)
-      list.push_back(info.substr(from + 3, to - from - 3));
-  }
-  return list;
+  for (const auto &variable : HVI::variable_list(lmp))
+    if (variable.name == name) return variable.style == "index";
+  return false;
 }
 
 /* ----------------------------------------------------------------------
-   and values of a list one by one: it is gone through, which removes it, and
-   made again
+   LAMMPS tells values of a list one by one only: it is gone through, which
+   removes it, and made again
 ------------------------------------------------------------------------- */
 
 std::vector<std::string> HVIRecall::values(const std::string &name) const
@@ -116,23 +105,65 @@ void HVIRecall::define(const std::string &name, const std::vector<std::string> &
 
 /* ---------------------------------------------------------------------- */
 
-void HVIRecall::write(const std::string &file, const std::vector<std::string> &except) const
+void HVIRecall::recall(const std::string &name, const std::vector<std::string> &was) const
 {
-  std::string text = "# variables of this run, by hvi/recall write\n";
-  for (const auto &name : names()) {
-    if (is_in(except, name)) continue;
-    text += "hvi/recall variable " + name;
-    for (const auto &value : values(name)) {
-      const char *quote = value.find('"') == std::string::npos ? "\"" : "'";
-      if (value.find('"') != std::string::npos && value.find('\'') != std::string::npos)
-        quote = "\"\"\"";
-      text += " " + (quote + value) + quote;
-    }
+  if (input->variable->find(name.c_str()) < 0) {
+    define(name, was);
+    return;
+  }
+  if (!is_index(name)) error->all(FLERR, "hvi/recall: variable {} is not of style index", name);
+  const auto now = values(name);
+  if (now != was)
+    error->all(FLERR,
+               "This run cannot be gone on with, for a variable has changed: {} was '{}', and is "
+               "'{}' now; leave it out, or start anew",
+               name, joined(was), joined(now));
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string HVIRecall::given(const std::vector<std::string> &except) const
+{
+  std::string text = "# variables that this run was given, by hvi/recall given\n";
+  for (const auto &variable : HVI::variable_list(lmp)) {
+    if (variable.style != "index" || is_in(except, variable.name)) continue;
+    text += "hvi/recall variable " + variable.name;
+    for (const auto &value : values(variable.name)) text += " " + quoted(value);
     text += "\n";
   }
+  return text;
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string HVIRecall::state(const std::vector<std::string> &except) const
+{
+  std::string text = "# variables of this run as they are, by hvi/recall state\n";
+  for (const auto &variable : HVI::variable_list(lmp)) {
+    const std::string &name = variable.name;
+    if (is_in(except, name)) continue;
+    if (variable.style == "index") {
+      text += "variable " + name + " delete\nvariable " + name + " index";
+      for (const auto &value : values(name)) text += " " + quoted(value);
+      text += "\n";
+    } else if (variable.style == "string" || variable.style == "equal") {
+      text += "variable " + name + " " + variable.style + " " + quoted(variable.value) + "\n";
+    }
+  }
+  return text;
+}
+
+/* ----------------------------------------------------------------------
+   under its name the file is whole: the one before, or this
+------------------------------------------------------------------------- */
+
+void HVIRecall::write(const std::string &file, const std::string &text) const
+{
   if (comm->me != 0) return;
-  FILE *fp = fopen(file.c_str(), "w");
+  const std::string part = file + ".part";
+  FILE *fp = fopen(part.c_str(), "w");
   bool whole = fp && fputs(text.c_str(), fp) >= 0;
   if (fp && fclose(fp) != 0) whole = false;
-  if (!whole) error->one(FLERR, "hvi/recall: cannot write file {}: {}", file, utils::getsyserror());
+  if (!whole || rename(part.c_str(), file.c_str()) != 0)
+    error->one(FLERR, "hvi/recall: cannot write file {}: {}", file, utils::getsyserror());
 }

@@ -23,8 +23,8 @@ CommandStyle(hvi/recall,HVIRecall);
 namespace LAMMPS_NS {
 
 /* ----------------------------------------------------------------------
-   The variables that a run was given: written by the run, taken up again by
-   one that goes on with it, which must not have been given others.
+   The variables of a run for one that goes on with it: those that it was
+   given, which the other must have too, and their later state.
 ------------------------------------------------------------------------- */
 
 class HVIRecall : public Command {
@@ -33,10 +33,13 @@ class HVIRecall : public Command {
   void command(int, char **) override;
 
  private:
-  std::vector<std::string> names() const;                        // of index-style variables
+  bool is_index(const std::string &) const;
   std::vector<std::string> values(const std::string &) const;    // those not yet used up
   void define(const std::string &, const std::vector<std::string> &) const;
-  void write(const std::string &, const std::vector<std::string> &) const;
+  void recall(const std::string &, const std::vector<std::string> &) const;
+  std::string given(const std::vector<std::string> &) const;
+  std::string state(const std::vector<std::string> &) const;
+  void write(const std::string &, const std::string &) const;
 };
 
 }    // namespace LAMMPS_NS
