@@ -133,6 +133,7 @@ def test_lists_of_walls(shield, root, tmp_path):
     (dict(D=40, radius1=15), "wall 1: with a radius of 15 mm a projectile of 40 mm at 0 degrees strikes beside it: at least 30 is needed"),
     (dict(angle=60, D=6, spacing=100, radius2=45), "wall 2: with a radius of 45 mm a projectile of 6 mm at 60 degrees strikes beside it"),
     (dict(v0=3000, spacing=100, tstop=30), "tstop = 30 us: over before anything can have struck wall 2 and crossed it: at least 36.3 is needed"),
+    (dict(angle=89.9, D=2), "more than LAMMPS can number"), (dict(D=1e5), "more than LAMMPS can number"),
     (dict(thicknes=[1, 3.2]), "Unknown variable thicknes: did you mean thickness?")], ids=str)
 def test_wrong_input(shield, variables, message):
     r = shield(fails=True, **{"quarter": "no", "dx": 0.8, **variables})
