@@ -366,13 +366,19 @@ double FixHVIJohnsonCook::spacing(int i) const
   return dim == 3 ? std::cbrt(V) : (dim == 2 ? std::sqrt(V) : V);
 }
 
-// at the end of the step that begins, as fix hvi/sph extrapolates it
+/* ----------------------------------------------------------------------
+   At the end of the step that begins, as fix hvi/sph extrapolates it.  The pressure is that of the last forces, less what it may fall by, twice: only its sign counts.
+------------------------------------------------------------------------- */
 
 HVI::SolidInput FixHVIJohnsonCook::extrapolated(int i, double dt) const
 {
-  HVI::SolidInput in = input(i, STATE);
-  in.rho += dt * atom->drho[i];
-  in.e += dt * atom->desph[i] / mass(i);
+  static constexpr double GAMMA = 4.0;    // dp/de/rho of solids is less
+  HVI::SolidInput in = input(i, FORCES);
+  const double drho = dt * atom->drho[i], de = dt * atom->desph[i] / mass(i);
+  const double c = store->fields.view().state[i].c;
+  in.p -= 2.0 * (c * c * std::fabs(drho) + GAMMA * in.rho * std::fabs(de));
+  in.rho += drho;
+  in.e += de;
   return in;
 }
 
@@ -398,7 +404,7 @@ void FixHVIJohnsonCook::first_half(double dt)
     const HVI::SolidModel *const model = of(i);
     if (!model) continue;
     if (whole) {
-      model->present(extra[i], model->open(extra[i]) ? input(i, STATE) : HVI::SolidInput());
+      model->present(extra[i]);
       continue;
     }
     if (fresh || !model->ready(extra[i])) {
@@ -479,9 +485,7 @@ template <class Step> void FixHVIJohnsonCook::each_solid(const Step &step)
 HVI::SphStress FixHVIJohnsonCook::settled(int i) const
 {
   const Solid &s = extra[i];
-  const HVI::SolidModel *const model = of(i);
-  double p_min = -HVI::NO_LIMIT;
-  if (model) p_min = model->p_min(s, model->open(s) ? settled_input(i) : HVI::SolidInput());
+  const double p_min = of(i) ? s.seen.p_min : -HVI::NO_LIMIT;
   return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, p_min, s.shear};
 }
 

@@ -202,7 +202,7 @@ void SolidModel::start(SolidState &s, SolidInput in, bool anew) const
   in.p = 0.0;    // there is no pressure yet
   if (s.shear == 0.0 && !s.failed()) s.shear = law->shear_modulus(conditions(s, in));
   s.yield = UNKNOWN;
-  show(s, s.S, in);
+  s.seen = {s.S, p_min(s, in), s.shear};
 }
 
 // begin: a run begins, so the rate of S is not that of the step before
@@ -227,14 +227,25 @@ void SolidModel::first_half(SolidState &s, const SolidInput &end, double dt) con
     if (stress > s.yield) ahead = scaled(ahead, s.yield / stress);
   }
   const SpallVoids::State kept = s.voids;
-  if (with_voids && !s.failed()) voids.advance(s.voids, *eos, end.rho, end.e, end.size, dt);
-  show(s, ahead, end);
+  const double least = open_voids(s, end, dt);
   s.voids = kept;
+  s.seen = {ahead, least, s.shear};
 }
 
-void SolidModel::present(SolidState &s, const SolidInput &in) const
+void SolidModel::present(SolidState &s) const
 {
-  show(s, s.S, in);
+  s.seen = {s.S, least_pressure(spall, s.failed(), sigma_p), s.shear};
+}
+
+// returns the least pressure borne after it, as p_min()
+
+double SolidModel::open_voids(SolidState &s, const SolidInput &in, double dt) const
+{
+  if (with_voids && !s.failed() && (in.p < 0.0 || s.voids.phi > 0.0)) {
+    const double least = voids.advance(s.voids, *eos, in.rho, in.e, in.size, dt);
+    if (open(s)) return least;
+  }
+  return least_pressure(spall, s.failed(), sigma_p);
 }
 
 void SolidModel::rest(SolidState &s)
@@ -245,12 +256,14 @@ void SolidModel::rest(SolidState &s)
 
 int SolidModel::second_half(int n, SolidState *const *state, const SolidInput *in, double dt) const
 {
-  return settle(n, state, in, dt, [dt](SolidState &s, const SolidInput &input) {
+  double least[LANES];
+  const auto trial_of = [dt](SolidState &s, const SolidInput &input) {
     Deviator trial = s.carried;
     s.carried = elastic_rate(s, input);
     add(trial, 0.5 * dt, s.carried);
     return trial;
-  });
+  };
+  return settle(n, state, in, dt, trial_of, least);
 }
 
 // S turns with that of the middle of the step: so it keeps its size to fourth order
@@ -265,14 +278,19 @@ void SolidModel::try_out(SolidState &s, const VelocityGradient &L, double dt) co
 
 int SolidModel::whole_step(int n, SolidState *const *state, const SolidInput *in, double dt) const
 {
-  return settle(n, state, in, dt, [](SolidState &s, const SolidInput &) {
+  double least[LANES];
+  const auto trial_of = [](SolidState &s, const SolidInput &) {
     return s.carried;
-  });
+  };
+  const int wrong = settle(n, state, in, dt, trial_of, least);
+  for (int k = 0; k < n && wrong < 0; k++)
+    state[k]->seen.p_min = state[k]->failed() ? 0.0 : least[k];
+  return wrong;
 }
 
 template <class Trial>
 int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, double dt,
-                       const Trial &trial_of) const
+                       const Trial &trial_of, double *least) const
 {
   Conditions c[LANES] = {};
   Deviator trial[LANES] = {};
@@ -283,9 +301,8 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     SolidState &s = *state[k];
     SolidInput now = in[k];
     begun[k] = with_voids && s.voids.D > BEGUN;
-    if (with_voids && (now.p < 0.0 || s.voids.phi > 0.0))
-      voids.advance(s.voids, *eos, now.rho, now.e, now.size, dt);
-    now.p = pressure(s, now);
+    least[k] = open_voids(s, now, dt);
+    now.p = clip_tension(now.p, least[k]);
     c[k] = conditions(s, now);
     shear[k] = s.shear = law->shear_modulus(c[k]);
     eps[k] = s.eps;
@@ -337,13 +354,6 @@ double SolidModel::temperature(const SolidState &s, const SolidInput &in) const
 Conditions SolidModel::conditions(const SolidState &s, const SolidInput &in) const
 {
   return {density(s, in.rho), rho0, in.p, thermal ? temperature(s, in) : NOT_A_NUMBER};
-}
-
-// what others will see
-
-void SolidModel::show(SolidState &s, const Deviator &S, const SolidInput &in) const
-{
-  s.seen = {S, p_min(s, in), s.shear};
 }
 
 void SolidModel::reflect(SolidState &s, int op)
