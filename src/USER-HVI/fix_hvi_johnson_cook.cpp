@@ -367,13 +367,15 @@ double FixHVIJohnsonCook::spacing(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   At the end of the step that begins, as fix hvi/sph extrapolates it.  The pressure is that of the last forces, less what it may fall by, twice: only its sign counts.
+   At the end of the step that begins, as fix hvi/sph extrapolates what it integrates; others stay as they
+   are.  The pressure is that of the last forces, less what it may fall by, twice: only its sign counts.
 ------------------------------------------------------------------------- */
 
-HVI::SolidInput FixHVIJohnsonCook::extrapolated(int i, double dt) const
+HVI::SolidInput FixHVIJohnsonCook::extrapolated(int i, double dt, int integrated) const
 {
   static constexpr double GAMMA = 4.0;    // dp/de/rho of solids is less
   HVI::SolidInput in = input(i, FORCES);
+  if (!(atom->mask[i] & integrated)) return in;
   const double drho = dt * atom->drho[i], de = dt * atom->desph[i] / mass(i);
   const double c = store->fields.view().state[i].c;
   in.p -= 2.0 * (c * c * std::fabs(drho) + GAMMA * in.rho * std::fabs(de));
@@ -397,7 +399,7 @@ void FixHVIJohnsonCook::start(int i, bool anew)
 
 /* ---------------------------------------------------------------------- */
 
-void FixHVIJohnsonCook::first_half(double dt)
+void FixHVIJohnsonCook::first_half(double dt, int integrated)
 {
   const bool whole = store->fields.settings.whole;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -412,7 +414,8 @@ void FixHVIJohnsonCook::first_half(double dt)
       if (fresh && store->fields.asleep(i))
         HVI::SolidModel::rest(extra[i]);    // as in second_half()
     }
-    model->first_half(extra[i], model->has_voids() ? extrapolated(i, dt) : HVI::SolidInput(), dt);
+    model->first_half(extra[i],
+                      model->has_voids() ? extrapolated(i, dt, integrated) : HVI::SolidInput(), dt);
   }
   fresh = false;
 }

@@ -162,6 +162,23 @@ def test_opening_at_failure(lmp, tmp_path, material, words):
         assert (f["voids"] <= critical * (f["void_damage"] + 1e-9))[~failed].all()
 
 
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_not_integrated(lmp, tmp_path, material, nranks):
+    """what fix hvi/sph does not integrate keeps density and energy: the tension it is seen with does not depend on what flies off"""
+    s = state(seed=23)
+    s.rho[:] = 0.97
+    jc = f"fix jc all hvi/johnson-cook {JC}\n"
+    pair = PAIR.format(kernel="cubic", words="gradient law", path=material) + "pair_coeff 1 2 tension yes\n"
+    lines = scene(s, tmp_path / "s.data", pair, fix="group ours type 1\ngroup walls type 2\nfix sph ours hvi/sph walls walls\n") + jc
+    lmp(lines + "timestep 0.004\nrun 3\nwrite_data half.data\n", nranks=nranks)
+    section = (tmp_path / "half.data").read_text().split("\njc_forces # ")[1].split("\n\n")
+    names, rows = section[0].split(), np.array([line.split() for line in section[1].splitlines()], float)
+    seen = rows[np.argsort(rows[:, 0]), names.index("p_min")]
+    walls = s.type == 2
+    assert np.ptp(seen[~walls]) > 1e-3 and (seen[walls] < -0.1).all() and (seen[walls] > -0.47).all()
+    assert np.ptp(seen[walls]) < 1e-12, np.ptp(seen[walls])
+
+
 @pytest.mark.parametrize("words", ["viscosity 1 2", "gradient law"])
 def test_books(lmp, tmp_path, material, words):
     """energy is kept; the work of opening voids is a part of the internal one, and only grows"""
