@@ -80,6 +80,8 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
   model->from_work = options.from_work;
   model->weibull = options.weibull;
   model->seed = options.seed;
+  model->reference = options.weibull > 0.0 ? options.reference : 0.0;
+  model->dim = options.dim;
 
   const Section none = {"strength", "none", {}};
   const Section *const strength =
@@ -102,6 +104,7 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
       problem = "has a wrong section damage " + damage->law + ": " + problem;
       return nullptr;
     }
+    model->u_f = model->fracture->displacement();
   }
 
   problem = model->take_spall(material);
@@ -165,16 +168,44 @@ void SolidModel::take_energy(const Material &material)
         law->yield(0.0, 0.0, {rho0, rho0, 0.0, thermal ? T0 : NOT_A_NUMBER});
 }
 
-// whether it spalls at the end of this step, under the pressure of the law
+// Whether it spalls at the end of this step, under the pressure of the law.  limit: the factor of
+// thresholds, which is to an impulse as if stress were divided by it.
 
-bool SolidModel::parts(SolidState &s, double rho, double p, double Y, double dt) const
+bool SolidModel::parts(SolidState &s, double rho, double p, double Y, double limit, double dt) const
 {
-  if (spall == Spall::GRADY) return spalls(spall, p, s.S, grady.limit(rho, eos->c0(), Y));
-  if (spall == Spall::TULER_BUTCHER)
-    s.voids.D = impulse.advance(s.voids.D, principal_above(impulse.sigma_0, p, s.S), dt);
-  else if (spall != Spall::VOIDS)
-    return spalls(spall, p, s.S, sigma_p);
+  if (spall == Spall::GRADY) return spalls(spall, p, s.S, limit * grady.limit(rho, eos->c0(), Y));
+  if (spall == Spall::TULER_BUTCHER) {
+    const double sigma_1 = principal_above(limit * impulse.sigma_0, p, s.S);
+    s.voids.D = impulse.advance(s.voids.D, sigma_1 / limit, dt);
+  } else if (spall != Spall::VOIDS)
+    return spalls(spall, p, s.S, limit * sigma_p);
   return s.voids.D >= 1.0;
+}
+
+// where there are voids or may be; returns p_min() of the end
+
+double SolidModel::grow_voids(SolidState &s, const SolidInput &in, double limit, double dt) const
+{
+  if (with_voids && !s.failed() && (in.p < 0.0 || s.voids.phi > 0.0)) {
+    SpallVoids own = voids;
+    own.sigma *= limit;
+    const double least = own.advance(s.voids, *eos, in.rho, in.e, in.size, dt);
+    if (open(s)) return least;
+  }
+  return p_min(s, in);
+}
+
+// with the stress of the end of the step; with softening its plastic strain counts in the next
+
+void SolidModel::grow_damage(SolidState &s, const SolidInput &in, const Conditions &c, double d_eps,
+                             double dt) const
+{
+  if (softens() && s.initiation >= 1.0) {
+    s.damage += in.size * d_eps / u_f;
+    return;
+  }
+  double &D = softens() ? s.initiation : s.damage;
+  D += fracture->increment(d_eps, dt, c.p, s.yield, law->homologous_temperature(c), scatter(in));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -227,7 +258,7 @@ void SolidModel::first_half(SolidState &s, const SolidInput &end, double dt) con
     if (stress > s.yield) ahead = scaled(ahead, s.yield / stress);
   }
   const SpallVoids::State kept = s.voids;
-  const double least = open_voids(s, end, dt);
+  const double least = grow_voids(s, end, with_voids ? threshold(end) : 1.0, dt);
   s.voids = kept;
   s.seen = {ahead, least, s.shear};
 }
@@ -235,17 +266,6 @@ void SolidModel::first_half(SolidState &s, const SolidInput &end, double dt) con
 void SolidModel::present(SolidState &s) const
 {
   s.seen = {s.S, least_pressure(spall, s.failed(), sigma_p), s.shear};
-}
-
-// returns the least pressure borne after it, as p_min()
-
-double SolidModel::open_voids(SolidState &s, const SolidInput &in, double dt) const
-{
-  if (with_voids && !s.failed() && (in.p < 0.0 || s.voids.phi > 0.0)) {
-    const double least = voids.advance(s.voids, *eos, in.rho, in.e, in.size, dt);
-    if (open(s)) return least;
-  }
-  return least_pressure(spall, s.failed(), sigma_p);
 }
 
 void SolidModel::rest(SolidState &s)
@@ -295,13 +315,15 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
   Conditions c[LANES] = {};
   Deviator trial[LANES] = {};
   double shear[LANES] = {}, eps[LANES] = {};
+  double limit[LANES] = {};
   bool begun[LANES] = {};
   Plastic plastic[LANES];
   for (int k = 0; k < n; k++) {
     SolidState &s = *state[k];
     SolidInput now = in[k];
     begun[k] = with_voids && s.voids.D > BEGUN;
-    least[k] = open_voids(s, now, dt);
+    limit[k] = threshold(now);
+    least[k] = grow_voids(s, now, limit[k], dt);
     now.p = clip_tension(now.p, least[k]);
     c[k] = conditions(s, now);
     shear[k] = s.shear = law->shear_modulus(c[k]);
@@ -310,7 +332,7 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     const double left = intact(s);
     if (left == 1.0) continue;
 
-    // with the yield stress times 1 - D all is as without, if stress and modulus are over that
+    // with the yield stress times what is left all is as without, if stress and modulus are over that
 
     const double whole = left > 0.0 ? 1.0 / left : 0.0;
     trial[k] = scaled(trial[k], whole);
@@ -327,14 +349,10 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     s.eps += plastic[k].d_eps;
     s.heat += left * plastic[k].work / in[k].rho;
     s.rate = plastic[k].d_eps / dt;
-    if (fracture && plastic[k].d_eps > 0.0) {
-      const double scatter = weibull > 0.0 ? weibull_factor(seed, in[k].id, weibull) : 1.0;
-      s.damage += fracture->increment(plastic[k].d_eps, dt, c[k].p, s.yield,
-                                      law->homologous_temperature(c[k]), scatter);
-    }
+    if (fracture && plastic[k].d_eps > 0.0) grow_damage(s, in[k], c[k], plastic[k].d_eps, dt);
     if (s.damage >= 1.0) {
       crush(s);
-    } else if (parts(s, in[k].rho, c[k].p, s.yield, dt)) {
+    } else if (parts(s, in[k].rho, c[k].p, s.yield, limit[k], dt)) {
       s.spalled = 1.0;
       crush(s);
     }
