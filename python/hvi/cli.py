@@ -18,6 +18,10 @@ DESCRIPTION = """Asks whether a shield holds, runs studies, and looks at what LA
 velocity maps, side views."""
 
 EXAMPLES = {
+    "shield": """  python3 -m hvi shield emi.yaml --dry-run
+  python3 -m hvi shield emi.yaml --jobs 2 --ranks 1""",
+    "limit": """  python3 -m hvi limit emi.yaml --on D
+  python3 -m hvi limit emi.yaml --on thickness2 --from 0.5 --to 3 --step 0.1 --jobs 2 --ranks 1""",
     "sweep": """  python3 -m hvi sweep studies/parameters.yaml
   python3 -m hvi sweep studies/*.yaml --jobs 2 --ranks 1""",
     "info": "  python3 -m hvi info debris.dump",
@@ -136,6 +140,11 @@ def _runs(parser):
     group.add_argument("--dry-run", action="store_true", help="show what would be run")
 
 
+def _case(parser):
+    parser.add_argument("case", metavar="CASE.yaml", help="projectile, speed, angle, walls, spacings")
+    parser.add_argument("--input", metavar="FILE", help="LAMMPS input (default: examples/whipple-shield/in.whipple of the source tree)")
+
+
 def _main_of(name, args):
     """main() of the module of that name, which needs PyYAML"""
     return importlib.import_module("." + name, __package__).main(args)
@@ -154,6 +163,20 @@ def options():
                                  formatter_class=argparse.RawDescriptionHelpFormatter)
         sub.set_defaults(run=getattr(commands, name, None) or functools.partial(_main_of, name))
         return sub
+
+    sub = command("shield", "does the wall hold? A case at several spacings and shifts of the lattice, one verdict; exit status 0 holds, "
+                  "3 fails, 4 undecided")
+    _case(sub)
+    _runs(sub)
+
+    sub = command("limit", "up to where does the wall hold? The limit over diameter, speed or the thickness of a wall; exit status 0 found, "
+                  "4 not in the range")
+    _case(sub)
+    sub.add_argument("--on", required=True, metavar="WHAT", help="D, speed, thickness1, thickness2, ...")
+    for name, text in (("from", "lowest value"), ("to", "highest value"), ("step", "between values that are tried")):
+        default = {"from": "half of the case's", "to": "twice the case's", "step": "a 20th of the case's"}[name]
+        sub.add_argument("--" + name, dest=name + "_", type=positive, metavar="X", help=f"{text}, mm or km/s (default: {default})")
+    _runs(sub)
 
     sub = command("sweep", "a LAMMPS input for many values of its variables, as study files say, with a table of all results")
     sub.add_argument("study", nargs="+", metavar="STUDY.yaml", help="input, variables, and the grid of what varies")

@@ -54,6 +54,11 @@ class Input:
                 self.known[name] = self.known.get(name, False) or len(values.split()) > 1
             for name in re.findall(r"\bis_defined\(variable,(\w+)\)", text):  # lists that have no default
                 self.known.setdefault(name, True)
+        joined = re.sub(r"&[ \t]*\n", " ", "\n".join(self.texts.values()))
+        said = [line.split() for line in re.findall(r"^\s*hvi/variables\s+known\s(.*)", joined, re.M)]
+        if said:  # the input itself says which; what it names as optional may be lists
+            named = {name for line in said for name in line} - {"optional"}
+            self.known = {name: self.known.get(name, True) for name in named}
 
     def _read(self, name):
         try:
@@ -95,9 +100,11 @@ def job_name(case):
 class Job:
     """One run of an input in its own folder."""
 
-    def __init__(self, source, name, variables, folder, restart=None, remove=(), weight=1.0):
+    def __init__(self, source, name, variables, folder, restart=None, remove=(), weight=1.0,
+                 product="result.yaml", last=LAST):
         self.input, self.name, self.variables, self.folder = source, name, variables, pathlib.Path(folder)
         self.restart, self.remove, self.weight = restart, remove, weight  # weight: how much of all work this is
+        self.product, self.last = product, last  # the file that it is run for, and the last key in it
         self.record = {"input": source.checksum(), "variables": variables}
         if files := self._files():
             self.record["files"] = files
@@ -117,8 +124,8 @@ class Job:
         """the results if the job is done with these variables, input and files, else None"""
         if not self.begun():
             return None
-        result = read_yaml(self.folder / "result.yaml")
-        return result if result and LAST in result else None
+        result = read_yaml(self.folder / self.product)
+        return result if result and self.last in result else None
 
     def begun(self):
         """True if it was started before, with these variables, input and files"""
@@ -162,7 +169,7 @@ class Job:
         if not self.resumed:
             shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True, exist_ok=True)
-        (self.folder / "result.yaml").unlink(missing_ok=True)
+        (self.folder / self.product).unlink(missing_ok=True)
         self.input.copy_to(self.folder)
         (self.folder / "job.yaml").write_text(yaml.safe_dump(self.record, sort_keys=False))
         environment = {"LAMMPS_POTENTIALS": os.pathsep.join(map(str, potentials())), **os.environ}
@@ -195,7 +202,7 @@ class Job:
         elif status != 0:
             self.problem = f"exit status {status}"
         elif self.result() is None:
-            self.problem = "no complete result.yaml"
+            self.problem = f"no complete {self.product}"
         if self.problem and self.resumed and status is not None:  # what it went on from may be what is wrong: the next try begins anew
             for path in self.restart_files():
                 path.unlink()
@@ -241,6 +248,8 @@ class Runner:
         self.lmp = self.lmp.resolve()
         if not shutil.which(self.mpirun):
             raise HVIError(f"{self.mpirun} is not there: install MPI, or give --mpirun FILE")
+        if os.sep in self.mpirun:
+            self.mpirun = os.path.abspath(self.mpirun)  # runs have folders of their own
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C
 
     def command(self, job):
