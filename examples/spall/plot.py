@@ -24,7 +24,7 @@ root = os.environ.get("HVI_ROOT", os.path.join(here, "..", ".."))
 sys.path.insert(0, os.path.join(root, "tests"))
 from reference import voids
 
-NS = (8, 16, 32, 64, 128, 256)
+NS = (8, 16, 32, 64, 128, 256, 512)
 THICK = ("20", "6.3", "2", "0.63", "0.2", "0.063")
 RHO_C = {"Al6061": (2703.0, 5240.0), "Cu": (8930.0, 3940.0)}
 FILE = {"Al6061": "Al6061-T6", "Cu": "Cu-OFHC"}

@@ -1,5 +1,5 @@
 #!/bin/sh
-# All runs of README.md, one folder each under runs/: sh run.sh [LAMMPS command, default: lmp]. Two minutes.
+# All runs of README.md, one folder each under runs/: sh run.sh [LAMMPS command, default: lmp]. Some minutes.
 here=$(cd "$(dirname "$0")" && pwd)
 lmp=${*:-lmp}
 export LAMMPS_POTENTIALS="$here/../../potentials:$here"
@@ -8,8 +8,9 @@ run() { # name, variables
   mkdir -p runs/"$name"
   $lmp -in "$here"/in.spall -var out runs/"$name" -log runs/"$name"/log.lammps "$@" >runs/"$name"/screen </dev/null || exit 1
 }
+for n in 64 128 256 512; do run n$n-clumps -var n $n -var eta 1.2; done
 for s in voids principal; do
-  for n in 8 16 32 64 128 256; do run n$n-$s -var n $n -var spall $s; done
+  for n in 8 16 32 64 128 256 512; do run n$n-$s -var n $n -var spall $s; done
   while read -r hf ht; do
     for n in 64 128; do run h$hf-$n-$s -var hf "$hf" -var ht "$ht" -var n $n -var spall $s; done
   done <<THICK

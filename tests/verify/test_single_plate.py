@@ -52,7 +52,10 @@ def test_variants(lmp, root, tmp_path, variables):
 @pytest.mark.parametrize("variables,message", [
     (dict(quarter="half"), "quarter must be yes or no"), (dict(quarter="yes", angle=10), "angle must be 0"),
     (dict(shape="cube"), "shape must be"), (dict(edge="glued"), "edge must be"), (dict(plate="no-such.data"), "plate must be plain or a file"),
-    (dict(material_p="Unobtainium.hvi"), "Unobtainium.hvi"), (dict(damage="maybe"), "maybe"), (dict(spall="often"), "often")], ids=str)
+    (dict(material_p="Unobtainium.hvi"), "Unobtainium.hvi"), (dict(damage="maybe"), "maybe"), (dict(spall="often"), "often"),
+    (dict(dx=0), "dx must be above 0"), (dict(v0=0), "v0 must be above 0"), (dict(D=-1), "D must be above 0"), (dict(dx=6), "two particles across"),
+    (dict(angle=90), "angle must be from 0 to less than 90"), (dict(Rplate=4), "the plate must be wider than the projectile"),
+    (dict(tstopp=3), "did you mean tstop?")], ids=str)
 def test_wrong_input(lmp, root, tmp_path, variables, message):
     r = plate(lmp, root, tmp_path, fails=True, **variables)
     assert message in r.log + r.stdout

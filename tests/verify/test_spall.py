@@ -120,25 +120,32 @@ def test_a_record_without_spall(shot):
 
 
 def test_convergence(shot):
-    """pull-back velocity by voids changes by less than 5 % from each spacing to the next, 32 to 128 particles per flyer; that of the limit does not
+    """pull-back velocity by voids changes by less from each spacing to the next, by 2 % from 128 to 256 particles per flyer; that of the limit is without order
 
-    It has not converged for all that: with 256 it is less by 13 % again (examples/spall). Energy per area goes down with the spacing: softening
-    is local, so damage goes into thinner layers. No regime was found in which it stays.
+    Energy per area goes down with the spacing: softening is local, so damage goes into thinner layers.
     """
-    n = (16, 32, 64, 128)
+    n = (16, 32, 64, 128, 256)
     du, energy, instant = (np.array([shot(n=k, **how)[0][key] for k in n])
                            for key, how in (("pull_back_m_s", {}), ("void_work_J_m2", {}), ("pull_back_m_s", dict(spall="principal"))))
     print("du", du, "energy", energy, "instant", instant)
-    assert np.abs(du[1:] / du[:-1] - 1).max() < 0.05
+    change = du[2:] / du[1:-1] - 1
+    assert np.all(change < 0) and np.all(np.abs(change) < 0.035) and np.all(np.diff(np.abs(change)) < 0)
+    assert abs(change[-1]) < 0.02
     assert np.abs(instant[1:] / instant[:-1] - 1).max() > 0.15
     assert np.all((0.75 < energy[1:] / energy[:-1]) & (energy[1:] / energy[:-1] < 0.9))
+
+
+def test_rows_that_clump(shot):
+    """with h = 1.2 spacings nearest neighbors lie where the kernel gets steeper: 256 particles per flyer clump in tension, and part too soon"""
+    assert shot(n=64, eta=1.2)[0]["pull_back_m_s"] == pytest.approx(shot(n=64)[0]["pull_back_m_s"], rel=0.02)
+    assert shot(n=256, eta=1.2)[0]["pull_back_m_s"] < 0.9 * shot(n=256)[0]["pull_back_m_s"]
 
 
 def test_rates(shot, root):
     """the same plates 0.1 to 10 times as thick: strength by voids goes with the strain rate, the instant limit knows none
 
     Beside the exponent m of the law, that of the law's own strength is less by a tenth (test_stretched_at_a_constant_rate), and that read off
-    records less again: 0.84 of sigma at 1e6/s with 64 particles per flyer, 0.70 with 128 (examples/spall).
+    records less again (examples/spall).
     """
     k = constants(root)
     slopes = []
@@ -167,6 +174,6 @@ def test_place_of_first_failure(shot, V):
     shallow = C0 * ((ht + hf + C0 * ht / Us + a * hf / Us) / (a + C0) - ht / Us)
     instant, voids = (shot(n=n, v0=V, spall=spall)[0]["spall_plane_mm"] for spall in ("principal", "voids"))
     print(V, "bounds", shallow, deep, "instant", instant, "voids", voids)
-    reach = 2.4 * hf / n  # of the kernel
+    reach = 3.0 * hf / n  # of the kernel
     assert shallow - reach < instant < deep + reach
     assert instant < voids < hf
