@@ -1,7 +1,7 @@
 """Stands in for mpirun and LAMMPS:  fake_lammps.py -np N LMP -in in.whipple -log FILE -var NAME VALUE ... [-var ...]
 
 The shield holds up to a diameter of FAKE_LIMIT + dx + shift / 10, then is undecided, and fails from FAKE_UNSURE more on; a
-thickness of wall 2 adds to the limit what it has more than 0.8. FAKE_SLEEP: seconds that it takes; FAKE_FAIL: fails in
+thickness of wall 2 adds to the limit what it has more than 1.2 mm. FAKE_SLEEP: seconds that it takes; FAKE_FAIL: fails in
 folders whose name has this in it; FAKE_PLAN: what plan.yaml says.
 """
 
@@ -31,12 +31,12 @@ if variables.get("dry") == ["yes"]:
     sys.exit(0)
 
 D, dx, shift = (float(variables[name][0]) for name in ("D", "dx", "shift"))
-limit = float(os.environ.get("FAKE_LIMIT", "4")) + dx + 0.1 * shift + float(variables["thickness"][-1]) - 0.8
+limit = float(os.environ.get("FAKE_LIMIT", "4")) + dx + 0.1 * shift + float(variables["thickness"][-1]) - 1.2
 unsure = float(os.environ.get("FAKE_UNSURE", "0"))
 verdict = "holds" if D <= limit else "undecided" if D <= limit + unsure else "fails"
 if "outside" in variables:
     verdict = "undecided"
-reason = {"holds": "'wall 2: no hole, no detached spall'", "fails": "'wall 2: perforated'", "undecided": "'wall 2: it still moves'"}[verdict]
+reason = {"holds": "'wall 2: no hole, no detached spall'", "fails": "'wall 2: perforated'", "undecided": "'wall 2: it still moves -- take -var tstop 40.5'"}[verdict]
 pathlib.Path("result.yaml").write_text(f"""verdict: {verdict}
 reasons:
   - {reason}

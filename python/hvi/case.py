@@ -5,13 +5,15 @@ import dataclasses
 import difflib
 import math
 import pathlib
+import warnings
 
 import yaml
 
 from . import runs
-from .errors import HVIError
+from .errors import HVIError, HVIWarning
 
 REQUIRED = object()
+LAYERS = 3  # that in.whipple needs in the wall that decides
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,8 +48,8 @@ class Case:
                  "material": [wall.material for wall in walls]}
         if any(wall.spacings_mm for wall in walls):
             found["spacings"] = [(wall.spacings_mm or self.spacings_mm)[which] for wall in walls]
-        if walls[0].radius_mm:
-            found["radius"] = [wall.radius_mm for wall in walls]
+        if any(wall.radius_mm for wall in walls):
+            found["radius"] = [wall.radius_mm or 0 for wall in walls]
         if self.not_modelled:
             found["outside"] = ", ".join(self.not_modelled)
         return {**found, **self.settings}
@@ -209,8 +211,6 @@ def read(path, source):
     for k, wall in enumerate(case.walls, 1):
         if wall.spacings_mm and len(wall.spacings_mm) != len(order):
             reader.wrong(f"wall {k}: spacings_mm", f"must be {len(order)} values, one for each of spacings_mm of the case")
-        if bool(wall.radius_mm) != bool(case.walls[0].radius_mm):
-            reader.wrong(f"wall {k}", "radius_mm must be given for all walls or for none")
     walls = tuple(dataclasses.replace(wall, spacings_mm=wall.spacings_mm and tuple(wall.spacings_mm[k] for k in order)) for wall in case.walls)
     case = dataclasses.replace(case, walls=walls, spacings_mm=tuple(case.spacings_mm[k] for k in order))
     reader.at.update({"diameter_mm": reader.at["projectile: diameter_mm"]})
@@ -225,4 +225,9 @@ def read(path, source):
         except HVIError as problem:
             reader.wrong(key, str(problem).partition(": ")[2])
     source.check(own, reader.path)
+    last, coarse = case.walls[-1], (case.walls[-1].spacings_mm or case.spacings_mm)[0]
+    if math.ceil(last.thickness_mm / coarse - 0.01) < LAYERS and "layers" not in case.settings:
+        node = reader.at.get(f"wall {len(case.walls)}: spacings_mm") or reader.at["spacings_mm"]
+        warnings.warn(f"{path}, line {node.start_mark.line + 1}: {coarse:g} mm leaves fewer than {LAYERS} layers of particles in the last wall: if that "
+                      "decides, the verdict will be undecided", HVIWarning, stacklevel=2)
     return case

@@ -142,7 +142,7 @@ class Job:
         for name, value in self.variables.items():
             options += ["-var", name, *words(value)]
         if files := self.restart_files():
-            options += ["-var", "resume", files[-1].suffix[1:]]
+            options += ["-var", "resume", files[-1].suffix[1:] if "*" in self.restart else "yes"]
         return options
 
     def take(self):
@@ -225,6 +225,20 @@ class Job:
             self.process.wait()
         self.leave()
 
+    def stage(self):
+        """(part of the run that is done, words on it) from the last line of its thermo output, if that has stage and togo"""
+        try:
+            with open(self.folder / "output.txt", "rb") as out:
+                out.seek(max(0, os.path.getsize(self.folder / "output.txt") - 20000))
+                lines = [line.split() for line in out.read().decode(errors="replace").splitlines()]
+            head = next(line for line in reversed(lines) if "v_togo" in line and "v_stage" in line)
+            row = next(line for line in reversed(lines) if len(line) == len(head) and line[0].isdigit())
+            togo, stage = (float(row[head.index(name)]) for name in ("v_togo", "v_stage"))
+        except (OSError, StopIteration, ValueError):
+            return 0.0, ""
+        spent = time.monotonic() - self.start
+        return spent / (spent + togo), f" stage {stage:g}, {duration(togo)} to go"
+
     def last_lines(self, n=8):
         """the end of what LAMMPS and mpirun said, from the first error on if there is one"""
         try:
@@ -264,7 +278,7 @@ class Runner:
         Ctrl-C ends what runs and is passed on.
         """
         waiting, running, failed, over, work = list(jobs), [], [], 0, 0.0
-        start = time.monotonic()
+        start, look = time.monotonic(), 0.0
         form = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}{postfix}"
         with progress.bar(1, what, sys.stdout, bar_format=form) as bar:
             try:
@@ -285,8 +299,12 @@ class Runner:
                         left = sum(j.weight for j in waiting + running)
                         bar.write(f"[{over}/{over + len(waiting) + len(running)}] {self._line(job)}"
                                   + (f"   about {duration((time.monotonic() - start) / work * left)} left" if left else ""))
-                    bar.total, bar.n = work + sum(j.weight for j in waiting + running), work
-                    bar.set_postfix_str(", ".join(job.name for job in running))
+                    if not isinstance(bar, progress.Silent) and time.monotonic() > look:
+                        stages = [job.stage() for job in running]
+                        bar.total = work + sum(j.weight for j in waiting + running)
+                        bar.n = work + sum(part * job.weight for (part, _), job in zip(stages, running))
+                        bar.set_postfix_str("; ".join(job.name + text for (_, text), job in zip(stages, running)))
+                        look = time.monotonic() + 0.5
                     time.sleep(0.05)
             except KeyboardInterrupt:
                 print("interrupted: call again to go on", file=sys.stderr)

@@ -2,6 +2,7 @@
 """python3 -m hvi shield: does the wall hold?  One case at several spacings and shifts of the lattice, one verdict."""
 
 import pathlib
+import re
 
 import yaml
 
@@ -29,9 +30,10 @@ def member_name(case, member):
     return runs.job_name({"dx": case.spacings_mm[member[0]], "shift": member[1]})
 
 
-def job(case, source, member, folder, name=None, **words):
+def job(case, source, member, folder, name=None):
     weight = (case.spacings_mm[0] / case.spacings_mm[member[0]]) ** 4  # particles and steps
-    return runs.Job(source, name or member_name(case, member), case.variables(*member), folder, weight=weight, **words)
+    return runs.Job(source, name or member_name(case, member), case.variables(*member), folder, weight=weight,
+                    restart="shield.state" if "resume" in source.known else None)
 
 
 def verdict(job):
@@ -40,7 +42,13 @@ def verdict(job):
     said, reasons = result.get("verdict"), result.get("reasons") or []
     if said not in STATUS:
         raise HVIError(f"{job.folder / 'result.yaml'}: no verdict, holds, fails or undecided, but {said}")
-    return said, [str(reason) for reason in (reasons if isinstance(reasons, list) else [reasons])]
+    return said, [as_key(str(reason)) for reason in (reasons if isinstance(reasons, list) else [reasons])]
+
+
+def as_key(reason):
+    """a remedy of in.whipple, -var NAME VALUE, as a key of the case"""
+    reason = re.sub(r"-var dx ([\d.]+)", r"spacings_mm of \1", reason)
+    return re.sub(r"-var (\w+) ([\d.]+)", r"settings: {\1: \2}", reason)
 
 
 def decide(case, said):
@@ -54,16 +62,16 @@ def decide(case, said):
     per = {which: {said[which, shift][0] for shift in case.shifts} for which in range(len(case.spacings_mm))}
     for which, found in per.items():
         if len(found) > 1:
-            reasons.append(f"the shift of the lattice decides at {where(which)}: " + ", ".join(
+            reasons.append(f"the verdict differs over the shift of the lattice at {where(which)}: " + ", ".join(
                 f"{said[which, shift][0]} with {shift:g}" for shift in case.shifts))
     if len({frozenset(found) for found in per.values()}) > 1:
-        reasons.append("the spacing decides: " + ", ".join(f"{' or '.join(sorted(found))} at {where(which)}" for which, found in per.items()))
-    if reasons and len(set.union(*per.values())) > 1:
-        reasons.append("that near the limit finer spacings_mm may decide; python3 -m hvi limit says how near it is")
-    texts = {}
+        reasons.append("the verdict differs over the spacing: " + ", ".join(f"{' or '.join(sorted(found))} at {where(which)}" for which, found in per.items()))
+    if {"holds", "fails"} <= set.union(*per.values()):
+        reasons.append("so near the limit finer spacings_mm may decide; python3 -m hvi limit says how near it is")
+    texts = {}  # why runs are undecided; if all agree on another verdict, what the finest says of it
     for member, (verdict, why) in said.items():
         for text in why:
-            if verdict == "undecided" or not reasons and member[0] == len(case.spacings_mm) - 1:
+            if verdict == "undecided" or not reasons and member == (len(case.spacings_mm) - 1, case.shifts[-1]):
                 texts.setdefault(text, []).append(member_name(case, member))
     told = [f"{text} ({', '.join(names)})" for text, names in texts.items()]
     if reasons or per[0] == {"undecided"}:
@@ -118,16 +126,23 @@ def plan(case, source, runner, folder):
     """what would be run: particles, steps, time and memory of each spacing, by in.whipple itself, and a sketch"""
     from . import figures, sketch
 
-    jobs = [runs.Job(source, f"dx-{dx:g}", {**case.variables(which, case.shifts[0]), "dry": "yes"}, folder / "plan" / f"dx-{dx:g}",
-                     product="plan.yaml", last="memory_MB") for which, dx in enumerate(case.spacings_mm)]
+    jobs = [runs.Job(source, f"dx-{dx:g}", {**case.variables(which, case.shifts[0]), "dry": "yes"},
+                     folder / "plan" / f"dx-{dx:g}", product="plan.yaml", last="disk_MB") for which, dx in enumerate(case.spacings_mm)]
     source.check(jobs[0].variables, "--dry-run")
+    for made in jobs:  # times are of this moment and these ranks
+        (made.folder / made.product).unlink(missing_ok=True)
     failed = runner.run(jobs, "plan")
-    print(runs.overview(jobs, jobs[-1].result() or ()))
+    keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, len(case.walls) + 1) for what in ("particles", "layers")),
+            "tstop_us", "steps", "seconds", "memory_MB", "disk_MB"]
+    print(tables.text(("each run", *(j.name for j in jobs)), [(key, *((j.result() or {}).get(key, "-") for j in jobs)) for key in keys]))
     if failed:
         raise HVIError(f"no plan: {', '.join(j.name for j in failed)} failed")
     seconds = sum(j.result().get("seconds", 0) for j in jobs) * len(case.shifts)
     print(f"{len(members(case))} runs, {len(case.shifts)} of each spacing: about {runs.duration(seconds / runner.jobs)}, "
           f"{runner.jobs} at a time on {runner.ranks} ranks each")
-    for path in figures.save(sketch.draw(case, jobs[-1].result()), str(folder / "sketch.png")):
+    plan = jobs[-1].result()
+    print(tables.text(("wall", "front_mm", "radius_mm", "middle_mm", "struck_at_mm"), [
+        (k, sketch.faces(case)[k - 1][0], *(plan[f"wall{k}_{what}"] for what in ("radius_mm", "middle_mm", "struck_at_mm"))) for k in range(1, len(case.walls) + 1)]))
+    for path in figures.save(sketch.draw(case, plan), str(folder / "sketch.png")):
         print(f"sketch: {path}")
     return 0
