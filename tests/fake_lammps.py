@@ -21,7 +21,7 @@ for word in sys.argv[sys.argv.index("-in") + 4:]:
         variables[name].append(word)
 
 with open("tries", "a") as tries:
-    tries.write("x\n")
+    tries.write(f"{variables.get('resume', ['no'])[0]}\n")
 if os.environ.get("FAKE_FAIL", "nothing") in os.getcwd():
     print("ERROR: Lost atoms (as told to)")
     sys.exit(1)

@@ -68,7 +68,7 @@ def draw(case, plan):
     axes.set(aspect="equal", xlim=(left, stop), ylim=(low - 0.14 * (high - low), high + 0.16 * (high - low)), xlabel="z (mm)", ylabel="x (mm)")
     axes.spines[["top", "right"]].set_visible(False)
     axes.set_title(f"{case.name}, to scale", fontsize=9)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=4, fontsize=7, frameon=False)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=4, fontsize=7, frameon=False)
     return figure
 
 

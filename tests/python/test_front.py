@@ -236,6 +236,19 @@ def test_goes_on(folder, capsys, monkeypatch):
     assert front("shield") == 3 and "4 runs, 0 done before" in capsys.readouterr().out
 
 
+def test_run_goes_on_from_what_it_left(folder, capsys):
+    """a run that was stopped is told to go on, in the folder that it has; not if it had other variables"""
+    assert front("shield") == 3
+    stopped = folder / "runs/emi/dx-0.2_shift-0.0"
+    (stopped / "result.yaml").unlink()
+    (stopped / "shield.state").write_text("")
+    assert front("shield") == 3 and tries(folder)[stopped.name] == 2
+    assert (stopped / "tries").read_text().split() == ["no", "yes"] and (stopped / "shield.state").exists()
+    (stopped / "result.yaml").unlink()
+    (folder / "emi.yaml").write_text(change("speed_km_s: 7.1", "speed_km_s: 7"))
+    assert front("shield") == 3 and (stopped / "tries").read_text().split() == ["no"] and not (stopped / "shield.state").exists()
+
+
 def test_result_without_verdict_is_an_error(folder, capsys):
     assert front("shield") == 3
     path = folder / "runs/emi/dx-0.4_shift-0.0/result.yaml"
