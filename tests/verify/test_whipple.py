@@ -130,9 +130,10 @@ def test_lists_of_walls(shield, root, tmp_path):
     (dict(spacings=[0.8, 0]), "wall 2: thickness and spacing must be above 0"), (dict(layers=[0, 2]), "wall 1: layers must be a whole number"),
     (dict(spacing=-3), "wall 2: its gap must not be below 0"), (dict(angle=90), "angle must be from 0 to less than 90"),
     (dict(angle=-10), "angle must be from 0"), (dict(dry="maybe"), "dry must be yes or no"),
-    (dict(D=40, radius1=15), "wall 1: with a radius of 15 mm a projectile of 40 mm at 0 degrees strikes beside it: at least 30 is needed"),
-    (dict(angle=60, D=6, spacing=100, radius2=45), "wall 2: with a radius of 45 mm a projectile of 6 mm at 60 degrees strikes beside it"),
+    (dict(D=40, radius1=15), "wall 1: with a radius of 15 mm a projectile of 40 mm at 0 degrees strikes its edge or beside it: at least 30 is needed"),
+    (dict(angle=60, D=6, spacing=100, radius2=45), "wall 2: with a radius of 45 mm a projectile of 6 mm at 60 degrees strikes its edge or beside it"),
     (dict(v0=3000, spacing=100, tstop=30), "tstop = 30 us: over before anything can have struck wall 2 and crossed it: at least 36.3 is needed"),
+    (dict(angle=89.9, D=2), "more than LAMMPS can number"), (dict(D=1e5), "more than LAMMPS can number"),
     (dict(thicknes=[1, 3.2]), "Unknown variable thicknes: did you mean thickness?")], ids=str)
 def test_wrong_input(shield, variables, message):
     r = shield(fails=True, **{"quarter": "no", "dx": 0.8, **variables})
@@ -180,6 +181,13 @@ def test_over_before_the_cloud_arrives(shield):
     r = shield(**COARSE, t1=4, v0=3000, spacing=20, tstop=11)
     undecided(r, "the cloud of wall 1 has not arrived")
     assert r["decided_by"] == "none" and r["wall2_reached"] is False and r["wall2_perforated"] is False
+
+
+def test_wall_1_holds(shield):
+    """nothing comes to wall 2, which is never made; wall 1 is the one that decides"""
+    r = shield(**COARSE, t1=8, v0=1500, radius1=8, spacing=8, t2=3.2, tstop=20)
+    assert r["verdict"] == "holds" and r["decided_by"] == "wall1" and r["wall2_reached"] is False
+    assert any("what has passed wall 1" in reason for reason in r["reasons"])
 
 
 def test_still_pushed(shield):
