@@ -154,6 +154,11 @@ class Limit:
             found.append((self.case.spacings_mm[which], shift, value(a), unsure, value(d), len(search.said)))
         return found
 
+    def undecided(self):
+        """{run: its reasons} of those that are undecided themselves"""
+        found = {job.name: shield.verdict(job) for member, place, job in self.jobs.values() if place in self.searches[member].said}
+        return {name: reasons for name, (verdict, reasons) in found.items() if verdict == "undecided"}
+
     def answer(self):
         """The mapping of limit.yaml; limit is None where it is not in the range, reasons say why."""
         borders = {member: (s.borders()[0], s.borders()[3]) for member, s in self.searches.items()}
@@ -161,7 +166,8 @@ class Limit:
         outside = [f"{shield.member_name(self.case, member)}: " + ", ".join(f"{s.said[place]} at {self.values[place]:g} {self.unit}" for place in sorted(s.said))
                    for member, s in self.searches.items() if None in borders[member]]
         if outside:
-            return {**result, "reasons": ["no limit in the range: widen it by --from and --to", *outside]}
+            return {**result, "reasons": ["an end of the range neither holds nor fails as it should: choose --from and --to on both sides of the limit, and mend "
+                                          "what makes runs undecided", *outside]}
         if len({s.turned for s in self.searches.values()}) > 1:
             return {**result, "reasons": ["what holds and what fails is not on the same side at all spacings and shifts"]}
         middle = {member: 0.5 * (self.values[a] + self.values[d]) for member, (a, d) in borders.items()}
@@ -199,7 +205,7 @@ def main(args):
     print()
     print(tables.text(("spacing_mm", "shift", "holds", "undecided", "fails", "runs"), limit.rows()))
     done = [job.result() for _, _, job in limit.jobs.values()]
-    answer = {**limit.answer(), "runs": len(done), "core_s": round(sum(result.get("core_s", 0) for result in done), 1)}
+    answer = {**limit.answer(), "undecided_runs": limit.undecided(), "runs": len(done), "core_s": round(sum(result.get("core_s", 0) for result in done), 1)}
     shield.save(limit.folder / "limit.yaml", answer)
     print("\n".join(said(answer)))
     print(f"table: {limit.folder / 'runs.csv'}, answer: {limit.folder / 'limit.yaml'}")
@@ -208,11 +214,12 @@ def main(args):
 
 def said(answer):
     """lines for the eye"""
-    unit, cost = answer["unit"], f"cost: {answer['runs']} runs, {answer['core_s']:g} core-seconds"
+    unit, cost = answer["unit"], [f"cost: {answer['runs']} runs, {answer['core_s']:g} core-seconds"]
+    cost = [line for name, reasons in answer["undecided_runs"].items() for line in (f"undecided: {name}", *(f"  - {reason}" for reason in reasons))] + cost
     if answer["limit"] is None:
-        return ["limit: not found", *(f"  - {reason}" for reason in answer["reasons"]), cost]
+        return ["limit: not found", *(f"  - {reason}" for reason in answer["reasons"]), *cost]
     spacing, shifts = answer["change_by_spacing"], answer["range_over_shifts"]
     return [f"limit on {answer['on']}: {answer['limit']:g} {unit}, holds {answer['holds']}, fails {answer['fails']}, between them undecided",
             f"band: the last refinement moved it by {spacing:+g} {unit}" if spacing is not None else "band: one spacing only, nothing says how much it matters",
             f"      shifts of the lattice by up to {shifts:g} {unit}" if shifts is not None else "      one shift of the lattice only",
-            f"      steps of {answer['step']:g} {unit}", cost]
+            f"      steps of {answer['step']:g} {unit}", *cost]

@@ -301,6 +301,8 @@ def test_limit_with_an_undecided_region(folder, capsys, monkeypatch):
     found, out = answer(folder), capsys.readouterr().out
     assert found["undecided"] == [4.2, 5.2]  # holds up to 4.2 at least at all, fails beyond 4 + 0.4 + 0.05 + 0.73 at all
     assert re.search(r"^ *0.2 +0 +4.2 +4.3 to 4.9 +5 ", out, re.M)
+    assert "dx-0.2_shift-0.0_D-4.3" in found["undecided_runs"] and "dx-0.2_shift-0.0_D-4.2" not in found["undecided_runs"]
+    assert "undecided: dx-0.2_shift-0.0_D-4.3\n  - wall 2: it still moves -- take settings: {tstop: 40.5}\n" in out
 
 
 @pytest.mark.parametrize("words, limit", [(("thickness2", "--from", "0.8", "--to", "2.8", "--step", "0.2"), 1.9), (("D",), 4.25)])
@@ -317,7 +319,7 @@ def test_limit_on_what_holds_when_it_is_more(folder, monkeypatch, words, limit):
 def test_no_limit_in_the_range(folder, capsys):
     assert front("limit", "--on", "D", "--from", "5", "--to", "9") == 4
     out = capsys.readouterr().out
-    assert "limit: not found\n  - no limit in the range: widen it by --from and --to\n" in out and "dx-0.2_shift-0.0: fails at 5 mm, fails at 9 mm" in out
+    assert "limit: not found\n  - an end of the range neither holds nor fails as it should: choose --from and --to" in out and "dx-0.2_shift-0.0: fails at 5 mm, fails at 9 mm" in out
     assert answer(folder)["limit"] is None
 
 
