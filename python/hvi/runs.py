@@ -232,8 +232,9 @@ class Job:
                 out.seek(max(0, os.path.getsize(self.folder / "output.txt") - 20000))
                 lines = [line.split() for line in out.read().decode(errors="replace").splitlines()]
             head = next(line for line in reversed(lines) if "v_togo" in line and "v_stage" in line)
-            row = next(line for line in reversed(lines) if len(line) == len(head) and line[0].isdigit())
-            togo, stage = (float(row[head.index(name)]) for name in ("v_togo", "v_stage"))
+            togo, stage = head.index("v_togo"), head.index("v_stage")
+            row = next(line for line in reversed(lines) if len(line) == len(head) and line[0].isdigit() and float(line[togo]) > 0)  # 0: a run begins
+            togo, stage = float(row[togo]), float(row[stage])
         except (OSError, StopIteration, ValueError):
             return 0.0, ""
         spent = time.monotonic() - self.start

@@ -83,8 +83,8 @@ def decide(case, said):
 
 def shown(case):
     """columns of the table of runs"""
-    each = ("hole{}_diameter_mm", "wall{}_spall_mass_mg")
-    return ["verdict", *(name.format(k) for k in range(1, len(case.walls) + 1) for name in each), "particles", "time_us", "core_s"]
+    n = len(case.walls)
+    return ["verdict", *(f"hole{k}_diameter_mm" for k in range(1, n + 1)), f"wall{n}_spall_mass_mg", "particles", "time_us", "core_s"]
 
 
 def save(path, mapping):

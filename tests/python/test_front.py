@@ -412,6 +412,20 @@ def test_included_files_are_inputs(folder):
         runs.Input(folder / "in.main")
 
 
+def test_stage_of_a_run(folder):
+    """from the last whole line of its thermo output that knows how long it will take; nothing where there is none"""
+    (folder / "in.main").write_text("variable D index 1\n")
+    job = runs.Job(runs.Input(folder / "in.main"), "a", {}, folder / "a")
+    job.start = time.monotonic() - 30
+    assert job.stage() == (0.0, "")
+    (folder / "a").mkdir()
+    (folder / "a/output.txt").write_text("   Step v_us v_stage v_togo \n 5 1.0 1 0 \nLoop time of 3 on 4 procs\n")
+    assert job.stage() == (0.0, "")
+    (folder / "a/output.txt").write_text("   Step v_us v_stage v_togo \n 9 2.0 1.5 90.0 \n   Step v_us v_stage v_togo \n 10 2.1 2 0 \n 11 2.")
+    part, words = job.stage()
+    assert part == pytest.approx(0.25, abs=0.01) and words == " stage 1.5, 2 min to go"
+
+
 def test_bar_on_a_terminal(folder):
     """the lines of runs stay whole beside it, and nothing of it is left"""
     master, slave = pty.openpty()
