@@ -247,6 +247,8 @@ class Job:
         except OSError:
             return []
         lines = [line for line in lines if line]
+        frame = next((i for i, line in enumerate(lines) if re.fullmatch("-{60,}", line)), 0)  # what mpirun says after that hides why
+        lines = lines[:frame] or lines
         errors = [i for i, line in enumerate(lines) if line.startswith("ERROR")]
         return lines[max(0, errors[0] - 1):][:n] if errors else lines[-n:]
 

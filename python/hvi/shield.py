@@ -30,9 +30,9 @@ def member_name(case, member):
     return runs.job_name({"dx": case.spacings_mm[member[0]], "shift": member[1]})
 
 
-def job(case, source, member, folder, name=None):
+def job(case, source, member, folder, name=None, remove=()):
     weight = (case.spacings_mm[0] / case.spacings_mm[member[0]]) ** 4  # particles and steps
-    return runs.Job(source, name or member_name(case, member), case.variables(*member), folder, weight=weight,
+    return runs.Job(source, name or member_name(case, member), case.variables(*member), folder, weight=weight, remove=remove,
                     restart="shield.state" if "resume" in source.known else None)
 
 
@@ -132,11 +132,11 @@ def plan(case, source, runner, folder):
     for made in jobs:  # times are of this moment and these ranks
         (made.folder / made.product).unlink(missing_ok=True)
     failed = runner.run(jobs, "plan")
-    keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, len(case.walls) + 1) for what in ("particles", "layers")),
-            "tstop_us", "steps", "seconds", "memory_MB", "disk_MB"]
-    print(tables.text(("each run", *(j.name for j in jobs)), [(key, *((j.result() or {}).get(key, "-") for j in jobs)) for key in keys]))
     if failed:
         raise HVIError(f"no plan: {', '.join(j.name for j in failed)} failed")
+    keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, len(case.walls) + 1) for what in ("particles", "layers")),
+            "tstop_us", "steps", "seconds", "memory_MB", "disk_MB"]
+    print(tables.text(("each run", *(j.name for j in jobs)), [(key, *(j.result().get(key, "-") for j in jobs)) for key in keys]))
     seconds = sum(j.result().get("seconds", 0) for j in jobs) * len(case.shifts)
     print(f"{len(members(case))} runs, {len(case.shifts)} of each spacing: about {runs.duration(seconds / runner.jobs)}, "
           f"{runner.jobs} at a time on {runner.ranks} ranks each")

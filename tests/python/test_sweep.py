@@ -16,6 +16,7 @@ variable speed index 1.0
 variable mode index good
 variable resume index no
 if "${mode} == slow" then "shell sleep 60"
+if "${mode} == refused" then "print 'this mode is refused'" "quit 1"
 atom_style bond
 lattice sc 1.0
 region box block 0 $n 0 $n 0 $n
@@ -78,6 +79,13 @@ def test_failed_job_is_reported_and_others_finish(sweep, folder):
     assert "1 of 4 jobs are done" in process.text
     assert list(table(folder)) == ["mode-good_speed-1.0"]
     assert table(folder)["mode-good_speed-1.0"]["particles"] == "125"
+
+
+def test_what_an_input_says_is_not_hidden(sweep):
+    """an input that ends itself has said why; mpirun's many lines come after that"""
+    process = sweep({**STUDY, "grid": {"mode": ["refused"]}})
+    assert process.returncode == 1 and "FAILED: exit status 1" in process.text
+    assert "    | this mode is refused\n    | see " in process.text
 
 
 def test_goes_on_where_it_stopped(sweep, folder):
