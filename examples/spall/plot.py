@@ -3,6 +3,7 @@
 
     python3 plot.py FOLDER...   one or more runs (result.yaml, surface.dat, profile.dat): draws FOLDER/record.png
     python3 plot.py             the runs of run.sh under runs/: the figures and tables of README.md
+    python3 plot.py --readme    the same, and puts the tables into README.md
 
 The strength of matter that is stretched at a constant rate (tests/reference/voids.py) is drawn beside what records give.
 """
@@ -10,12 +11,14 @@ The strength of matter that is stretched at a constant rate (tests/reference/voi
 import csv
 import os
 import pathlib
+import re
 import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+import matplotlib.ticker
 import numpy as np
 import yaml
 
@@ -26,9 +29,17 @@ from reference import voids
 
 NS = (8, 16, 32, 64, 128, 256, 512)
 THICK = ("20", "6.3", "2", "0.63", "0.2", "0.063")
-RHO_C = {"Al6061": (2703.0, 5240.0), "Cu": (8930.0, 3940.0)}
-FILE = {"Al6061": "Al6061-T6", "Cu": "Cu-OFHC"}
 COLOR = {"voids": "C0", "principal": "C3", "none": "0.5"}
+
+METAL = {"Al6061": ("6061", "C0"), "Al1100": ("1100-O", "C9"), "Al5083": ("5083", "C2"), "Cu": ("copper", "C1"), "Fe": ("iron", "C4"), "steel304": ("steel 304", "C5"),
+         "steel1020": ("mild steel", "0.3")}
+
+
+def targets():
+    """{name: (material file, density, bulk speed of sound)} of in.spall"""
+    with open(os.path.join(here, "in.spall")) as f:
+        found = re.findall(r'"\$\{target\} == (\w+)"(?: then)? "variable file_t index (\S+)\.hvi" "variable rho_t index (\S+)" "variable c_t index (\S+)"', f.read())
+    return {name: (file, float(rho), float(c)) for name, file, rho, c in found}
 
 
 def read(name):
@@ -39,11 +50,16 @@ def read(name):
 
 
 def table(rows):
-    head, *rest = rows
-    print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
-    for row in rest:
-        print("| " + " | ".join(row) + " |")
-    print()
+    """prints it; with --readme it takes the place of the table of README.md whose first line is the same"""
+    lines = ["| " + " | ".join(row) + " |" for row in rows]
+    lines.insert(1, "|" + "---|" * len(rows[0]))
+    print("\n".join(lines) + "\n")
+    if "--readme" in sys.argv:
+        page = pathlib.Path(here, "README.md")
+        text = page.read_text().split("\n")
+        start = text.index(lines[0])
+        end = next(k for k in range(start, len(text)) if not text[k].startswith("|"))
+        page.write_text("\n".join(text[:start] + lines + text[end:]))
 
 
 def rate_without_fracture(name, sigma, rho, c):
@@ -131,40 +147,81 @@ def rates(shots):
 
 
 def measured(shots):
-    fig, a = plt.subplots(figsize=(4.6, 4.4), layout="constrained")
-    rows = [["shot", "flyer / target mm", "v m/s", "peak GPa: paper, here", "sigma* GPa: measured", "voids 64", "128", "of the measured", "principal 128",
-             "rate /s, without fracture", "of the record", "file's sigma at the first", "largest -p GPa", "first failure, mm below the surface"]]
+    fig, ax = plt.subplots(1, 2, figsize=(10.4, 4.8), layout="constrained")
+    rows = [["shot", "flyer / target mm", "v m/s", "peak GPa: paper, here", "rate /s: paper", "without fracture", "of the record", "sigma* GPa: measured", "voids 64", "128", "of the measured", "principal 128",
+             "file's sigma at the second rate", "largest -p GPa", "first failure, mm below the surface"]]
+    found = {}
     for s in shots:
         name = "shot-" + s["name"].replace(" ", "_")
-        rho, c = RHO_C[s["target"]]
-        k = voids.constants(pathlib.Path(root), FILE[s["target"]])
-        v, w, p, q = (read(f"{name}-{how}")[0] for how in ("voids-64", "voids-128", "principal-128", "none-128"))
+        file, rho, c = targets()[s["target"]]
+        k = voids.constants(pathlib.Path(root), file)
+        v, w, q = (read(f"{name}-{how}")[0] for how in ("voids-64", "voids-128", "none-128"))
+        p = read(f"{name}-principal-128")[0] if s["target"] == "Al6061" else None
         sigma = float(s["sigma"])
         rate = rate_without_fracture(f"{name}-none-128", 1e9 * sigma, rho, c)
-        good, spalls = (r["record"] == "ok" for r in (p, w))
-        if spalls:
-            a.plot(sigma, w["spall_strength_GPa"], "o" if s["target"] == "Al6061" else "s", color="C0", mfc="none" if s["flyer"] == "quartz" else "C0")
-        if good:
-            a.plot(sigma, p["spall_strength_GPa"], "^", color="C3", mfc="none" if s["flyer"] == "quartz" else "C3")
+        given = float(s["rate"]) if s["note"] == "t" else np.nan
+        spalls, pulls = w["record"] == "ok", w["record"] == "ok" or w["record"].startswith("a pull-back")
+        color, filled = METAL[s["target"]][1], s["flyer"] != "quartz"
+        if pulls:
+            ax[0].loglog(sigma, w["spall_strength_GPa"], "o" if spalls else "x", color=color, mfc=color if filled else "none")
+        if p and p["record"] == "ok":
+            ax[0].loglog(sigma, p["spall_strength_GPa"], "^", color="C3", mfc="C3" if filled else "none", ms=4)
+        if pulls and given == given:
+            ax[1].loglog(given, sigma, "s", color=color, mfc="none")
+            ax[1].loglog(given, w["spall_strength_GPa"], "o" if spalls else "x", color=color)
+        found.setdefault(s["target"], []).append((sigma, w["spall_strength_GPa"] if pulls else np.nan, spalls, given))
         file = 1e-9 * k["sigma"] * (rate / k["rate"]) ** k["m"]
-        rows.append([s["name"] + (" (\\*)" if s["note"] else ""), f"{s['flyer']} {s['hf']} / {s['ht']}", s["v0"], f"{float(s['peak']):.2f}, {q['peak_GPa']:.2f}",
-                     s["sigma"], *(f"{r['spall_strength_GPa']:.3f}" if spalls else "-" for r in (v, w)), f"{w['spall_strength_GPa'] / sigma:.2f}" if spalls else "-",
-                     f"{p['spall_strength_GPa']:.3f}" if good else "-", f"{rate:.2g}" if rate == rate else "-", f"{w['strain_rate_per_s']:.2g}" if spalls else "-", f"{file:.2f}" if rate == rate else "-",
+        mark = " (\\*)" if s["note"] == "v" else " (\\*\\*)" if s["note"] == "p" else ""
+
+        def number(x, form):
+            return format(x, form) if x == x else "-"
+
+        def strength(r):
+            return f"{r['spall_strength_GPa']:.3f}" if r["record"] == "ok" else f"({r['spall_strength_GPa']:.3f})" if r["record"].startswith("a pull-back") else "-"
+
+        rows.append([s["name"] + mark, f"{s['flyer']} {s['hf']} / {s['ht']}", s["v0"], f"{float(s['peak']):.2f}, {q['peak_GPa']:.2f}", number(given, ".2g"), number(rate, ".2g"),
+                     f"{w['strain_rate_per_s']:.2g}" if pulls else "-", s["sigma"], strength(v), strength(w),
+                     f"{w['spall_strength_GPa'] / sigma:.2f}" if pulls else "-", f"{p['spall_strength_GPa']:.3f}" if p and p["record"] == "ok" else "-", number(file, ".2f"),
                      f"{w['largest_tension_GPa']:.2f}", f"{w['spall_plane_mm']:.2f}" if w["failed_particles"] else "none fails"])
-    a.plot([0, 2], [0, 2], "k-", lw=0.8)
-    a.fill_between([0, 2], [0, 1.6], [0, 2.4], color="0.9", lw=0, label="20 %")
-    a.plot([], [], "o", color="C0", label="voids, 6061 on 6061")
-    a.plot([], [], "o", color="C0", mfc="none", label="voids, quartz on 6061")
-    a.plot([], [], "s", color="C0", label="voids, Cu on Cu")
-    a.plot([], [], "^", color="C3", label="principal")
-    a.set(xlim=(0.4, 2), ylim=(0.4, 2), xlabel="sigma* measured (GPa)", ylabel="computed, 128 per flyer")
-    a.legend(fontsize=7)
+    x = np.array([0.7, 4.0])
+    ax[0].loglog(x, x, "k-", lw=0.8)
+    ax[0].fill_between(x, 0.8 * x, 1.2 * x, color="0.9", lw=0, label="20 %")
+    for name in found:
+        ax[0].plot([], [], "o", color=METAL[name][1], label=METAL[name][0])
+    ax[0].plot([], [], "ko", mfc="none", label="flyer of quartz")
+    ax[0].plot([], [], "kx", label="a pull-back, but not parted")
+    ax[0].plot([], [], "^", color="C3", ms=4, label="6061, principal")
+    ax[0].set(xlim=(0.7, 4), ylim=(0.4, 4), xlabel="sigma* measured (GPa)", ylabel="computed, 128 per flyer (GPa)")
+    e = np.geomspace(3e4, 1e6, 20)
+    for name in found:
+        if any(g == g for *_, g in found[name]):
+            k, (label, color) = voids.constants(pathlib.Path(root), targets()[name][0]), METAL[name]
+            ax[1].loglog(e, 1e-9 * k["sigma"] * (e / k["rate"]) ** k["m"], "--", lw=0.8, color=color)
+            ax[1].plot([], [], "s", color=color, mfc="none", label=f"{label}: measured")
+            ax[1].plot([], [], "o", color=color, label="computed")
+            ax[1].plot([], [], "--", lw=0.8, color=color, label="sigma (rate/rate$_0$)$^m$ of the file")
+    ax[1].set(xlabel="strain rate of the papers (1/s)", ylabel="sigma* (GPa)", title="shots whose rate is published", ylim=(0.7, 5))
+    for a in ax:
+        a.grid(alpha=0.3, which="both")
+        a.legend(fontsize=7)
+        for axis in (a.xaxis, a.yaxis) if a is ax[0] else (a.yaxis,):
+            axis.set_major_locator(matplotlib.ticker.FixedLocator([0.4, 0.6, 0.8, 1, 1.5, 2, 3, 4]))
+            axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda y, _: f"{y:g}"))
+            axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
     fig.savefig("shots.png", dpi=110)
     table(rows)
+    summary = [["metal", "shots", "with a pull-back", "parted", "of the measured: mean", "least", "most", "scatter about the mean", "measured: most of the least", "phi_c"]]
+    for name, values in found.items():
+        sigma, got, parted, _ = np.array(values).T
+        of = (got / sigma)[got == got]
+        phi_c = voids.constants(pathlib.Path(root), targets()[name][0])["phi_c"]
+        summary.append([METAL[name][0], str(len(sigma)), str(len(of)), f"{parted.sum():.0f}", *(f"{x:.2f}" for x in (of.mean(), of.min(), of.max(), of.std() / of.mean())),
+                        f"{sigma.max() / sigma.min():.2f}", f"{phi_c:.3f}"])
+    table(summary)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1:
+    if sys.argv[1:] not in ([], ["--readme"]):
         for folder in sys.argv[1:]:
             record(folder)
     else:

@@ -423,7 +423,7 @@ TEST(StrengthSection, FilesOfThePackage)
       }
     }
   }
-  EXPECT_EQ(strengths, 15);
+  EXPECT_EQ(strengths, 20);
   EXPECT_EQ(damages, 8);
   EXPECT_EQ(spalls, 5);
 }
