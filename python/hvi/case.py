@@ -13,6 +13,7 @@ from . import runs
 from .errors import HVIError, HVIWarning
 
 REQUIRED = object()
+RATIO = 1.2  # of spacings that may be said to differ
 LAYERS = 3  # that in.whipple needs in the wall that decides
 
 
@@ -56,6 +57,8 @@ class Case:
 
     def check(self, wrong):
         """What numbers say of each other; wrong(key, text) raises the error."""
+        if len(self.spacings_mm) > 1 and max(self.spacings_mm) < RATIO * min(self.spacings_mm):
+            wrong("spacings_mm", f"the largest must be {RATIO:g} times the smallest at least: almost the same twice says nothing of how much it matters")
         for k, wall in enumerate(self.walls, 1):
             for dx in wall.spacings_mm or self.spacings_mm:
                 if dx > wall.thickness_mm:

@@ -195,6 +195,7 @@ def main(args):
         for job in first:
             print(" ".join(runner.command(job)))
         return 0
+    (limit.folder / "limit.yaml").unlink(missing_ok=True)
     try:
         failed = runner.run(first, f"{case.name} limit", limit.more)
     finally:

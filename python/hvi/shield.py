@@ -103,6 +103,7 @@ def main(args):
     if args.dry_run:
         return plan(case, found, runner, folder)
     jobs = {member: job(case, found, member, folder / member_name(case, member)) for member in members(case)}
+    (folder / "verdict.yaml").unlink(missing_ok=True)  # that of another case, or of fewer runs
     todo = [j for j in jobs.values() if j.result() is None]
     print(f"{case.name}: {len(jobs)} runs, {len(jobs) - len(todo)} done before, {len(todo)} to run", flush=True)
     try:

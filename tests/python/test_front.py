@@ -113,6 +113,7 @@ WRONG = [
     (change("gap_mm: 60", "gap_mm: 60\n    radius_mm: 2"), 11, "wall 2: radius_mm: wall 2 is no wider than the projectile, 5 mm"),
     (change("diameter_mm: 5", "diameter_mm: 1.5"), 11, "spacings_mm: 0.4 mm leaves fewer than 4 particles across the projectile"),
     (change("[0.2, 0.4]", "0.4"), 11, "spacings_mm: must be a list"),
+    (change("[0.2, 0.4]", "[0.35, 0.4]"), 11, "spacings_mm: the largest must be 1.2 times the smallest at least"),
     (change("[0.2, 0.4]", "[0.4, 0.4]"), 11, "spacings_mm: a value is there twice"),
     (CASE + "angle_deg: 90\n", 13, "angle_deg: must be at least 0 and below 90 degrees, not 90"),
     (CASE + "settings: {tstopp: 40}\n", 13, "settings: tstopp: in.whipple has no variable 'tstopp'"),
@@ -238,6 +239,10 @@ def test_goes_on(folder, capsys, monkeypatch):
     assert front("shield") == 3 and "4 runs, 4 done before" in capsys.readouterr().out
     (folder / "mine.hvi").write_text("eos \n")  # the name is the same, the file is not
     assert front("shield") == 3 and "4 runs, 0 done before" in capsys.readouterr().out
+    assert (folder / "runs/emi/verdict.yaml").exists()
+    (folder / "mine.hvi").write_text("eos")
+    monkeypatch.setenv("FAKE_FAIL", "dx-0.2_shift-0.5")
+    assert front("shield") == 1 and not (folder / "runs/emi/verdict.yaml").exists()  # no verdict is left of other runs
 
 
 def test_run_goes_on_from_what_it_left(folder, capsys):
@@ -449,7 +454,7 @@ speed_km_s: 7
 walls:
   - {thickness_mm: 1.5, material: Al6061-T6, radius_mm: 8}
   - {thickness_mm: 2.4, material: Al6061-T6, gap_mm: 10, radius_mm: 14}
-spacings_mm: [0.8, 0.85]
+spacings_mm: [0.8, 0.66]
 shifts: [0]
 settings: {behind: 20}
 """
@@ -463,7 +468,7 @@ def test_real_shield(root, lmp_exe, tmp_path, monkeypatch, capsys):
     words = ["shield", "hit.yaml", "--lmp", str(lmp_exe), "--ranks", "1", "--jobs", "2"]
     assert cli.main([*words, "--dry-run"]) == 0
     out = capsys.readouterr().out
-    assert re.search(r"^ *wall2_layers +3 +3$", out, re.M) and (tmp_path / "runs/hit/sketch.png").stat().st_size > 10000
+    assert re.search(r"^ *wall2_layers +3 +4$", out, re.M) and (tmp_path / "runs/hit/sketch.png").stat().st_size > 10000
     assert cli.main(words) == 3
     out = capsys.readouterr().out
     said = yaml.safe_load((tmp_path / "runs/hit/verdict.yaml").read_text())
