@@ -108,7 +108,7 @@ class Job:
         self.record = {"input": source.checksum(), "variables": variables}
         if files := self._files():
             self.record["files"] = files
-        self.process, self.lock, self.start, self.problem, self.resumed = None, None, None, "", False
+        self.process, self.lock, self.start, self.problem, self.resumed, self.asked = None, None, None, "", False, False
 
     def _files(self):
         """checksums of the files that variables name: materials, plates"""
@@ -213,11 +213,17 @@ class Job:
         self.leave()
         return True
 
+    def ask_to_end(self):
+        """once: a second signal would make mpirun leave without its ranks"""
+        if self.process is not None and not self.asked:
+            self.process.terminate()
+            self.asked = True
+
     def end(self):
         """mpirun ends its ranks when it is told to; if it does not listen it is killed"""
         if self.process is None:
             return
-        self.process.terminate()
+        self.ask_to_end()
         try:
             self.process.wait(timeout=10)
         except subprocess.TimeoutExpired:
@@ -313,9 +319,8 @@ class Runner:
                 print("interrupted: call again to go on", file=sys.stderr)
                 raise
             finally:
-                for job in running:
-                    if job.process is not None:
-                        job.process.terminate()  # all at once
+                for job in running:  # all at once
+                    job.ask_to_end()
                 for job in running:
                     job.end()
         return failed
