@@ -150,7 +150,7 @@ class Limit:
         found = []
         for (which, shift), search in sorted(self.searches.items()):
             a, b, c, d = search.borders()
-            unsure = f"{value(b)} to {value(c)}" if b != d else "-"
+            unsure = "-" if b == d else " to ".join(dict.fromkeys(tables.number(value(place)) for place in (b, c)))
             found.append((self.case.spacings_mm[which], shift, value(a), unsure, value(d), len(search.said)))
         return found
 
