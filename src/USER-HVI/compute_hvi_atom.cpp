@@ -32,9 +32,9 @@ using namespace LAMMPS_NS;
 // in the order of Value
 
 static const char *const NAMES[] = {
-    "p",      "e",       "T",     "c",           "h",        "eps",    "epsdot",
-    "damage", "spalled", "voids", "void_damage", "fragsize", "vm",     "sxx",
-    "syy",    "szz",     "sxy",   "sxz",         "syz",      "asleep", "nbonds"};
+    "p",          "e",       "T",     "c",           "h",        "eps",   "epsdot", "damage",
+    "initiation", "spalled", "voids", "void_damage", "fragsize", "vm",    "sxx",    "syy",
+    "szz",        "sxy",     "sxz",   "syz",         "asleep",   "nbonds"};
 
 /* ---------------------------------------------------------------------- */
 
@@ -138,6 +138,8 @@ double ComputeHVIAtom::solid_value(Value value, int i, double p) const
       return s.rate;
     case DAMAGE:
       return std::min(s.damage, 1.0);
+    case INITIATION:
+      return std::min(s.initiation, 1.0);
     case SPALLED:
       return s.spalled;
     case VOIDS:

@@ -41,6 +41,7 @@ class ComputeHVIAtom : public Compute {
     EPS,
     EPSDOT,
     DAMAGE,
+    INITIATION,
     SPALLED,
     VOIDS,
     VOID_DAMAGE,

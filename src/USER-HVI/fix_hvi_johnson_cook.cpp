@@ -31,7 +31,8 @@ using namespace LAMMPS_NS;
 
 /* ----------------------------------------------------------------------
    Sections of data files: the state; the stress in the last forces with what the next step
-   needs beside it; voids, where they grow.  Data files have no infinity: it is DBL_MAX.
+   needs beside it; where fracture takes time how far it has come.  Data files have no infinity: it is
+   DBL_MAX.
 ------------------------------------------------------------------------- */
 
 namespace {
@@ -72,6 +73,7 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"voids", VOIDS, offsetof(Solid, voids.phi)},
     {"damage", VOIDS, offsetof(Solid, voids.D)},
     {"work", VOIDS, offsetof(Solid, voids.work)},
+    {"initiation", VOIDS, offsetof(Solid, initiation)},
 
     // made anew when a run begins
     {nullptr, 0, offsetof(Solid, yield)},
@@ -90,67 +92,7 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     store(nullptr), fresh(true), checked(false)
 {
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
-  bool damage_given = false;
-  int iarg = 3;
-  while (iarg < narg) {
-    const std::string key = arg[iarg];
-    const int nvalues = key == "weibull" ? 2 : 1;
-    if (iarg + nvalues >= narg)
-      utils::missing_cmd_args(FLERR, fmt::format("fix hvi/johnson-cook {}", key), error);
-    const std::string value = arg[iarg + 1];
-    if (key == "strength") {
-      options.strength = value;
-    } else if (key == "damage") {
-      damage_given = true;
-      options.damage_law.clear();
-      if (value == "yes" || value == "on" || value == "true")
-        options.damage = true;
-      else if (value == "no" || value == "off" || value == "false")
-        options.damage = false;
-      else if (HVI::find_law("damage", value)) {
-        options.damage = true;
-        options.damage_law = value;
-      } else
-        error->all(FLERR, "Fix hvi/johnson-cook damage must be yes, no or a law ({}), not {}",
-                   HVI::law_names("damage"), value);
-    } else if (key == "thermal") {
-      options.thermal = utils::logical(FLERR, value, false, lmp);
-    } else if (key == "temperature") {
-      if (value != "energy" && value != "work")
-        error->all(FLERR, "Fix hvi/johnson-cook temperature must be energy or work, not {}", value);
-      options.from_work = value == "work";
-    } else if (key == "spall") {
-      const HVI::SpallModel *const spall = HVI::find_spall(value);
-      if (!spall)
-        error->all(FLERR, "Fix hvi/johnson-cook spall must be {}, not {}", HVI::spall_names(),
-                   value);
-      options.spall = spall->model;
-    } else if (key == "weibull") {
-      options.weibull = utils::numeric(FLERR, value, false, lmp);
-      options.seed = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
-      if (!(options.weibull >= 0.01 &&
-            std::isfinite(options.weibull)))    // Gamma(1 + 1/modulus) is finite
-        error->all(FLERR, "Fix hvi/johnson-cook weibull modulus must be 0.01 or more, not {}",
-                   value);
-      if (options.seed <= 0)
-        error->all(FLERR, "Fix hvi/johnson-cook weibull seed must be > 0, not {}", arg[iarg + 2]);
-    } else
-      error->all(FLERR, "Unknown fix hvi/johnson-cook keyword: {}", key);
-    iarg += 1 + nvalues;
-  }
-  if (options.strength == "none") {
-    if (damage_given && options.damage)
-      error->all(FLERR,
-                 "Fix hvi/johnson-cook strength none brings no plastic strain, which damage needs: "
-                 "use damage no");
-    options.damage = false;
-  }
-  if (options.weibull > 0.0 && !options.damage)
-    error->all(FLERR, "Fix hvi/johnson-cook weibull scatters damage: it needs damage yes");
-  if (options.weibull > 0.0 && !atom->tag_enable)
-    error->all(FLERR, "Fix hvi/johnson-cook weibull needs IDs of particles");
-  if (options.spall != HVI::Spall::VOIDS && options.spall != HVI::Spall::TULER_BUTCHER)
-    wd_section = VOIDS;    // without this one, the last
+  read_options(narg, arg);
   begin();
 }
 
@@ -201,28 +143,6 @@ bool FixHVIJohnsonCook::can_fail() const
   return anywhere;
 }
 
-/* ----------------------------------------------------------------------
-   "damage yes" leaves the law to the files: here it has its name
-------------------------------------------------------------------------- */
-
-std::string FixHVIJohnsonCook::settings() const
-{
-  std::string damage;
-  for (const auto &model : models) {
-    if (!model || !model->damage()) continue;
-    const std::string law = model->damage()->name();
-    if (("," + damage + ",").find("," + law + ",") == std::string::npos)
-      damage += (damage.empty() ? "" : ",") + law;
-  }
-  if (damage.empty()) damage = options.damage ? "yes" : "no";
-  std::string text =
-      fmt::format("strength {} damage {} spall {} temperature {} thermal {}", options.strength,
-                  damage, HVI::spall_model(options.spall).name,
-                  options.from_work ? "work" : "energy", options.thermal ? "yes" : "no");
-  if (options.weibull > 0.0) text += fmt::format(" weibull {} {}", options.weibull, options.seed);
-  return text;
-}
-
 /* ---------------------------------------------------------------------- */
 
 void FixHVIJohnsonCook::make_models()
@@ -231,6 +151,9 @@ void FixHVIJohnsonCook::make_models()
   models.resize(atom->ntypes + 1);
   warned.resize(atom->ntypes + 1, 0);
   count_particles();
+  options.dim = store->fields.settings.laws.dim;
+  bool takes_time = options.spall == HVI::Spall::VOIDS ||
+      options.spall == HVI::Spall::TULER_BUTCHER;
   bool anywhere = false, here = false, liquids = false;
   for (int itype = 1; itype <= atom->ntypes; itype++) {
     const HVI::Material *const material = store->materials.of(itype);
@@ -246,6 +169,7 @@ void FixHVIJohnsonCook::make_models()
     if (!models[itype])
       error->all(FLERR, "Fix hvi/johnson-cook: material {} (type {}) {}", material->name, itype,
                  problem);
+    takes_time = takes_time || models[itype]->softens();
     if (options.spall == HVI::Spall::NONE || models[itype]->spall_limited() || warned[itype])
       continue;
     warned[itype] = 1;
@@ -255,6 +179,7 @@ void FixHVIJohnsonCook::make_models()
                      "does not spall",
                      material->name, itype, HVI::spall_model(options.spall).section);
   }
+  wd_section = takes_time ? VOIDS + 1 : VOIDS;    // the last one, or without
   if (!anywhere || (liquids && !here))
     error->all(FLERR,
                "Fix hvi/johnson-cook: no material {}has a section strength {}; strength none is "
@@ -311,7 +236,9 @@ std::string FixHVIJohnsonCook::laws_of(int itype) const
   const HVI::SolidModel *const model = models[itype].get();
   if (!model) return "liquid";
   std::string words = fmt::format("strength {}", model->strength().name());
-  if (model->damage()) words += fmt::format(", damage {}", model->damage()->name());
+  if (model->damage())
+    words += fmt::format(", damage {}{}", model->damage()->name(),
+                         model->softens() ? " with softening" : "");
   if (options.spall != HVI::Spall::NONE && model->spall_limited())
     words += std::string(", spall ") + HVI::spall_model(options.spall).name;
   return words;
@@ -398,7 +325,7 @@ void FixHVIJohnsonCook::first_half(double dt)
     const HVI::SolidModel *const model = of(i);
     if (!model) continue;
     if (whole) {
-      model->present(extra[i], model->open(extra[i]) ? input(i, STATE) : HVI::SolidInput());
+      model->present(extra[i], model->looks(extra[i]) ? input(i, STATE) : HVI::SolidInput());
       continue;
     }
     if (fresh || !model->ready(extra[i])) {
@@ -406,7 +333,7 @@ void FixHVIJohnsonCook::first_half(double dt)
       if (fresh && store->fields.asleep(i))
         HVI::SolidModel::rest(extra[i]);    // as in second_half()
     }
-    model->first_half(extra[i], model->has_voids() ? extrapolated(i, dt) : HVI::SolidInput(), dt);
+    model->first_half(extra[i], model->looks() ? extrapolated(i, dt) : HVI::SolidInput(), dt);
   }
   fresh = false;
 }
@@ -481,7 +408,7 @@ HVI::SphStress FixHVIJohnsonCook::settled(int i) const
   const Solid &s = extra[i];
   const HVI::SolidModel *const model = of(i);
   double p_min = -HVI::NO_LIMIT;
-  if (model) p_min = model->p_min(s, model->open(s) ? settled_input(i) : HVI::SolidInput());
+  if (model) p_min = model->p_min(s, model->looks(s) ? settled_input(i) : HVI::SolidInput());
   return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, p_min, s.shear};
 }
 

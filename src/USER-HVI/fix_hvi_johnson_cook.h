@@ -65,7 +65,7 @@ class FixHVIJohnsonCook :
   {
     const HVI::SolidModel *const model = of(i);
     if (!model) return p;
-    HVI::SolidInput in = model->open(extra[i]) ? input(i, STATE) : HVI::SolidInput();
+    HVI::SolidInput in = model->looks(extra[i]) ? input(i, STATE) : HVI::SolidInput();
     in.p = p;
     return model->pressure(extra[i], in);
   }
@@ -92,6 +92,7 @@ class FixHVIJohnsonCook :
   bool fresh;      // a run begins: rates of S are to be made
   bool checked;    // warned of what may be wrong: once per run, not again with pre no
 
+  void read_options(int, char **);
   std::string settings() const override;
   void make_models();
   void count_particles();

@@ -18,7 +18,7 @@
 namespace HVI {
 
 /* ----------------------------------------------------------------------
-   Damage of a solid: grows from 0 with plastic strain; at 1 it has failed.
+   Damage of a solid: grows from 0 with plastic strain; at 1 it has failed, or begins to.
 
    A law is a plain struct in a header of its own, an entry in the list of hvi_laws.cpp, and has
      name
@@ -26,6 +26,7 @@ namespace HVI {
      problem(const double *)      if it has any: what is wrong with values that are right one by one
      make(const double *)         from values in the order of params
      increment(...)               as below
+     u_f                          likewise
 ------------------------------------------------------------------------- */
 
 class Damage {
@@ -38,6 +39,10 @@ class Damage {
 
   virtual double increment(double d_eps, double dt, double p, double vm, double tstar,
                            double scatter) const = 0;
+
+  // from D = 1 on, the plastic displacement after which it has failed; 0: it has at once
+
+  virtual double displacement() const = 0;
 };
 
 template <class Law> class DamageModel final : public Damage {
@@ -51,6 +56,8 @@ template <class Law> class DamageModel final : public Damage {
   {
     return law.increment(d_eps, dt, p, vm, tstar, scatter);
   }
+
+  double displacement() const override { return law.u_f; }
 
  private:
   Law law;
@@ -88,6 +95,15 @@ inline double weibull_factor(std::uint64_t seed, std::int64_t tag, double modulu
   const std::uint64_t h = hash64(hash64(seed) ^ std::uint64_t(tag));
   const double u = (double(h >> 12) + 0.5) * 0x1p-52;
   return std::pow(-std::log(u), 1.0 / modulus) / std::tgamma(1.0 + 1.0 / modulus);
+}
+
+// The weakest of the parts of a volume V0 decides when it breaks: that has the mean 1, whatever the parts,
+// if the thresholds of parts V = size^dim are multiplied by (V/V0)^(-1/modulus) too (Weibull, J. Appl.
+// Mech. 18 (1951) 293)
+
+inline double size_factor(double size, double reference, int dim, double modulus)
+{
+  return std::pow(size / reference, -dim / modulus);
 }
 
 }    // namespace HVI

@@ -80,6 +80,8 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
   model->from_work = options.from_work;
   model->weibull = options.weibull;
   model->seed = options.seed;
+  model->reference = options.weibull > 0.0 ? options.reference : 0.0;
+  model->dim = options.dim;
 
   const Section none = {"strength", "none", {}};
   const Section *const strength =
@@ -102,6 +104,7 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
       problem = "has a wrong section damage " + damage->law + ": " + problem;
       return nullptr;
     }
+    model->u_f = model->fracture->displacement();
   }
 
   problem = model->take_spall(material);
@@ -165,16 +168,38 @@ void SolidModel::take_energy(const Material &material)
         law->yield(0.0, 0.0, {rho0, rho0, 0.0, thermal ? T0 : NOT_A_NUMBER});
 }
 
-// whether it spalls at the end of this step, under the pressure of the law
+// Whether it spalls at the end of this step, under the pressure of the law.  limit: the factor of
+// thresholds, which is to an impulse as if stress were divided by it.
 
-bool SolidModel::parts(SolidState &s, double rho, double p, double Y, double dt) const
+bool SolidModel::parts(SolidState &s, double rho, double p, double Y, double limit, double dt) const
 {
-  if (spall == Spall::GRADY) return spalls(spall, p, s.S, grady.limit(rho, eos->c0(), Y));
-  if (spall == Spall::TULER_BUTCHER)
-    s.voids.D = impulse.advance(s.voids.D, principal_above(impulse.sigma_0, p, s.S), dt);
-  else if (spall != Spall::VOIDS)
-    return spalls(spall, p, s.S, sigma_p);
+  if (spall == Spall::GRADY) return spalls(spall, p, s.S, limit * grady.limit(rho, eos->c0(), Y));
+  if (spall == Spall::TULER_BUTCHER) {
+    const double sigma_1 = principal_above(limit * impulse.sigma_0, p, s.S);
+    s.voids.D = impulse.advance(s.voids.D, sigma_1 / limit, dt);
+  } else if (spall != Spall::VOIDS)
+    return spalls(spall, p, s.S, limit * sigma_p);
   return s.voids.D >= 1.0;
+}
+
+void SolidModel::grow_voids(SolidState &s, const SolidInput &in, double limit, double dt) const
+{
+  SpallVoids own = voids;
+  own.sigma *= limit;
+  own.advance(s.voids, *eos, in.rho, in.e, in.size, dt);
+}
+
+// with the stress of the end of the step; with softening its plastic strain counts in the next
+
+void SolidModel::grow_damage(SolidState &s, const SolidInput &in, const Conditions &c, double d_eps,
+                             double dt) const
+{
+  if (softens() && s.initiation >= 1.0) {
+    s.damage += in.size * d_eps / u_f;
+    return;
+  }
+  double &D = softens() ? s.initiation : s.damage;
+  D += fracture->increment(d_eps, dt, c.p, s.yield, law->homologous_temperature(c), scatter(in));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -227,7 +252,7 @@ void SolidModel::first_half(SolidState &s, const SolidInput &end, double dt) con
     if (stress > s.yield) ahead = scaled(ahead, s.yield / stress);
   }
   const SpallVoids::State kept = s.voids;
-  if (with_voids && !s.failed()) voids.advance(s.voids, *eos, end.rho, end.e, end.size, dt);
+  if (with_voids && !s.failed()) grow_voids(s, end, threshold(end), dt);
   show(s, ahead, end);
   s.voids = kept;
 }
@@ -277,14 +302,15 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
   Conditions c[LANES] = {};
   Deviator trial[LANES] = {};
   double shear[LANES] = {}, eps[LANES] = {};
+  double limit[LANES] = {};
   bool begun[LANES] = {};
   Plastic plastic[LANES];
   for (int k = 0; k < n; k++) {
     SolidState &s = *state[k];
     SolidInput now = in[k];
     begun[k] = with_voids && s.voids.D > BEGUN;
-    if (with_voids && (now.p < 0.0 || s.voids.phi > 0.0))
-      voids.advance(s.voids, *eos, now.rho, now.e, now.size, dt);
+    limit[k] = threshold(now);
+    if (with_voids && (now.p < 0.0 || s.voids.phi > 0.0)) grow_voids(s, now, limit[k], dt);
     now.p = pressure(s, now);
     c[k] = conditions(s, now);
     shear[k] = s.shear = law->shear_modulus(c[k]);
@@ -293,7 +319,7 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     const double left = intact(s);
     if (left == 1.0) continue;
 
-    // with the yield stress times 1 - D all is as without, if stress and modulus are over that
+    // with the yield stress times what is left all is as without, if stress and modulus are over that
 
     const double whole = left > 0.0 ? 1.0 / left : 0.0;
     trial[k] = scaled(trial[k], whole);
@@ -310,14 +336,10 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     s.eps += plastic[k].d_eps;
     s.heat += left * plastic[k].work / in[k].rho;
     s.rate = plastic[k].d_eps / dt;
-    if (fracture && plastic[k].d_eps > 0.0) {
-      const double scatter = weibull > 0.0 ? weibull_factor(seed, in[k].id, weibull) : 1.0;
-      s.damage += fracture->increment(plastic[k].d_eps, dt, c[k].p, s.yield,
-                                      law->homologous_temperature(c[k]), scatter);
-    }
+    if (fracture && plastic[k].d_eps > 0.0) grow_damage(s, in[k], c[k], plastic[k].d_eps, dt);
     if (s.damage >= 1.0) {
       crush(s);
-    } else if (parts(s, in[k].rho, c[k].p, s.yield, dt)) {
+    } else if (parts(s, in[k].rho, c[k].p, s.yield, limit[k], dt)) {
       s.spalled = 1.0;
       crush(s);
     }

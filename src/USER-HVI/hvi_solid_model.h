@@ -44,13 +44,14 @@ struct SolidState {
 
   Deviator carried;
 
-  double eps;        // equivalent plastic strain
-  double damage;     // failed from 1 on
-  double spalled;    // 1: spalled for good
-  double heat;       // plastic work per mass
-  double shear;      // modulus
-  double rate;       // of plastic strain
-  double yield;      // von Mises's stress on the yield surface of S
+  double eps;           // equivalent plastic strain
+  double damage;        // failed from 1 on
+  double initiation;    // 1: damage has begun, by a law with softening
+  double spalled;       // 1: spalled for good
+  double heat;          // plastic work per mass
+  double shear;         // modulus
+  double rate;          // of plastic strain
+  double yield;         // von Mises's stress on the yield surface of S
 
   double expansion;    // -rho'/rho when it began to fail
 
@@ -64,8 +65,8 @@ struct SolidState {
 struct SolidInput {
   double rho, e, p;    // e per mass; p of the equation of state
   VelocityGradient L;
-  std::int64_t id;           // of the scatter of damage
-  double size;               // spacing, for an opening at failure; see has_size()
+  std::int64_t id;           // of the scatter of thresholds
+  double size;               // spacing, for displacements at failure; see has_size()
   double expansion = 0.0;    // -rho'/rho
 };
 
@@ -76,8 +77,12 @@ struct SolidOptions {
   Spall spall = Spall::PRINCIPAL;
   bool thermal = true;       // strength depends on temperature
   bool from_work = false;    // which is that of the plastic work, not of the equation of state
-  double weibull = 0.0;      // modulus of the scatter of damage, 0: none
+  double weibull = 0.0;      // modulus of the scatter of failure strains, 0: none
   int seed = 0;
+  double reference =
+      0.0;    // size of the volume of which thresholds are, of spall too; 0: of damage only,
+              // of any size
+  int dim = 3;
 };
 
 /* ----------------------------------------------------------------------
@@ -99,6 +104,14 @@ struct SolidOptions {
      whole_step()     all of the above
 
    What has failed is rubble: it bears no shear and no tension, and keeps its state.
+
+   Where damage has a displacement u_f at failure, the law's D = 1 is its initiation, and from then on
+
+     damage' = size eps'/u_f,   yield stress times 1 - damage                      (1)
+
+   so that a layer as thick as size takes up Y u_f/2 per area, whatever its size.  That is the
+   softening by plastic displacement of Abaqus (DamageEvolution, type DISPLACEMENT, softening LINEAR) and
+   of Radioss (/FAIL/INIEVO), after Hillerborg, Modeer & Petersson, Cem. Concr. Res. 6 (1976) 773.
 ------------------------------------------------------------------------- */
 
 class SolidModel {
@@ -112,7 +125,11 @@ class SolidModel {
   const Damage *damage() const { return fracture.get(); }    // null: none
   bool spall_limited() const { return with_spall; }
   bool has_voids() const { return with_voids; }
-  bool has_size() const { return with_voids && voids.delta_c > 0.0; }
+  bool has_size() const
+  {
+    return (with_voids && voids.delta_c > 0.0) || u_f > 0.0 || reference > 0.0;
+  }
+  bool softens() const { return u_f > 0.0; }
 
   // of something new, without stress; of something that has no model any more: a liquid
 
@@ -143,16 +160,19 @@ class SolidModel {
 
   double temperature(const SolidState &, const SolidInput &) const;    // NaN: unknown
 
-  // has voids: else nothing of the input but p counts below
+  // Has voids.  Whether anything of the input but p counts below; whether it may.
 
   bool open(const SolidState &s) const { return with_voids && s.voids.phi > 0.0 && !s.failed(); }
+  bool looks(const SolidState &s) const { return open(s) || (own_limit() && !s.failed()); }
+  bool looks() const { return with_voids || own_limit(); }
 
   // the least pressure borne, and what is left of p; see clip_tension()
 
   double p_min(const SolidState &s, const SolidInput &in) const
   {
     return open(s) ? SpallVoids::least(s.voids.phi, *eos, in.rho, in.e)
-                   : least_pressure(spall, s.failed(), sigma_p);
+                   : least_pressure(spall, s.failed(),
+                                    own_limit() && !s.failed() ? threshold(in) * sigma_p : sigma_p);
   }
   double pressure(const SolidState &s, const SolidInput &in) const
   {
@@ -185,6 +205,7 @@ class SolidModel {
 
   std::unique_ptr<Strength> law;
   std::unique_ptr<Damage> fracture;
+  double u_f = 0.0;    // of fracture
   std::shared_ptr<const Eos> eos;
   double rho0;
   Spall spall;
@@ -196,20 +217,36 @@ class SolidModel {
   double fragment_energy = 0.0;            // per volume, 0: unknown
   double T0 = 0.0, cp = 0.0, chi = 1.0;    // temperature from plastic work
   bool thermal, from_work;
-  double weibull;
-  int seed;
+  double weibull, reference;
+  int seed, dim;
 
   SolidModel() = default;
   std::string take_spall(const Material &);
   void take_energy(const Material &);
-  bool parts(SolidState &, double rho, double p, double Y, double dt) const;
+  bool parts(SolidState &, double rho, double p, double Y, double limit, double dt) const;
+  void grow_voids(SolidState &, const SolidInput &, double limit, double dt) const;
+  void grow_damage(SolidState &, const SolidInput &, const Conditions &, double d_eps,
+                   double dt) const;
 
-  // what voids have left of the strength
+  // what voids and damage have left of the strength
 
   double intact(const SolidState &s) const
   {
-    return with_voids && s.voids.D > 0.0 ? std::max(0.0, 1.0 - s.voids.D) : 1.0;
+    double left = with_voids && s.voids.D > 0.0 ? std::max(0.0, 1.0 - s.voids.D) : 1.0;
+    if (softens() && s.damage > 0.0) left *= std::max(0.0, 1.0 - s.damage);
+    return left;
   }
+
+  // factors of its own, of all thresholds and of those of spall
+
+  double scatter(const SolidInput &in) const
+  {
+    if (weibull == 0.0) return 1.0;
+    const double factor = weibull_factor(seed, in.id, weibull);
+    return reference > 0.0 ? factor * size_factor(in.size, reference, dim, weibull) : factor;
+  }
+  double threshold(const SolidInput &in) const { return reference > 0.0 ? scatter(in) : 1.0; }
+  bool own_limit() const { return spall == Spall::PRESSURE && reference > 0.0; }
   Conditions conditions(const SolidState &, const SolidInput &) const;
   void show(SolidState &, const Deviator &, const SolidInput &) const;
   template <class Trial>

@@ -62,7 +62,7 @@ def test_data_file(lmp, tmp_path, material, law, nranks, words):
     lmp(start(s, tmp_path, material, words, steps=0, jc=JC + law) + "run 30\nwrite_data half.data\n" + voids.OUT.format("half") + "run 30\n" + voids.OUT.format("whole"))
     text = reader(material, words, JC + law)
     has_state = law == "tuler-butcher"
-    assert ("\njc_voids # id voids damage work\n" in (tmp_path / "half.data").read_text()) == has_state
+    assert ("\njc_voids # id voids damage work initiation\n" in (tmp_path / "half.data").read_text()) == has_state
     if has_state:
         text = text.replace("fix jc NULL jc_forces", "fix jc NULL jc_forces fix jc NULL jc_voids")
     lmp(text + voids.OUT.format("read") + "run 30\n" + voids.OUT.format("part"), nranks=nranks)

@@ -10,7 +10,7 @@ from test_solid_state import FIXES, NEIGHBOR, reader
 
 JC = "damage no spall voids"
 VOIDS = "spall voids\n  sigma 0.6\n  rate 1.0\n  m 0.2\n  phi_c 0.04\n"
-NAMES = "p T eps spalled voids void_damage fragsize vm sxx syy szz sxy sxz syz".split()
+NAMES = "p T eps damage initiation spalled voids void_damage fragsize vm sxx syy szz sxy sxz syz".split()
 OUT = f"""compute S all hvi/atom {' '.join(NAMES)}
 compute R all property/atom drho desph rho esph
 dump d all custom 1 {{0}} id x y z vx vy vz fx fy fz c_R[*] c_S[*]
@@ -78,7 +78,7 @@ def test_data_file(lmp, tmp_path, material, nranks, words):
     """30 steps, write_data, read_data, 30 more: as if not interrupted; voids are in a section of their own, which without them is not there"""
     s = state(seed=23)
     lmp(start(s, tmp_path, material, words, steps=0, jc=JC) + "run 30\nwrite_data half.data\n" + OUT.format("half") + "run 30\n" + OUT.format("whole"))
-    assert "\njc_voids # id voids damage work\n" in (tmp_path / "half.data").read_text()
+    assert "\njc_voids # id voids damage work initiation\n" in (tmp_path / "half.data").read_text()
     text = reader(material, words, JC).replace("fix jc NULL jc_forces", "fix jc NULL jc_forces fix jc NULL jc_voids")
     lmp(text + OUT.format("read") + "run 30\n" + OUT.format("part"), nranks=nranks)
     half, whole, again, part = (read(tmp_path / f) for f in ("half", "whole", "read", "part"))

@@ -90,6 +90,75 @@ TEST(Damage, Increment)
   EXPECT_DOUBLE_EQ(hot.increment(0.1, 1.0, 0.0, 1.0, 1.0, 1.0), 0.1);
 }
 
+/* ----------------------------------------------------------------------
+   above a triaxiality of 1.5, with a mean stress of spall: linear in it to eps_min
+------------------------------------------------------------------------- */
+
+TEST(Damage, HighTriaxiality)
+{
+  DamageJohnsonCook law = AL2024;
+  law.eps_min = 0.02;
+  law.sigma_spall = 1.2;
+  const double vm = 0.3;    // s* = 4 at spall
+  const double top = (0.13 + 0.13 * std::exp(-2.25)) * (1.0 + 0.011 * std::log(1e4));
+  for (double s : {-2.0, 0.0, 1.0, 1.49, 1.5})
+    EXPECT_DOUBLE_EQ(law.failure_strain(-s * vm, vm, 1e4, 0.0), AL2024.failure_strain(s, 1e4, 0.0));
+  for (double s : {1.5 + 1e-12, 1.7, 2.0, 2.75, 3.5, 3.999})
+    EXPECT_NEAR(law.failure_strain(-s * vm, vm, 1e4, 0.0), top + (0.02 - top) * (s - 1.5) / 2.5,
+                1e-12);
+  for (double p : {-1.2, -1.3, -5.0, -1e9}) EXPECT_EQ(law.failure_strain(p, vm, 1e4, 0.0), 0.02);
+  EXPECT_EQ(law.failure_strain(-1.3, 0.0, 1e4, 0.0), 0.02);
+  EXPECT_NEAR(law.failure_strain(-0.6, 0.0, 1e4, 0.0), 0.5 * (top + 0.02), 1e-12);
+  // a yield stress so high that spall comes before 1.5
+  EXPECT_DOUBLE_EQ(law.failure_strain(-1.4, 1.0, 1e4, 0.0), AL2024.failure_strain(1.4, 1e4, 0.0));
+  EXPECT_EQ(law.failure_strain(-1.6, 1.0, 1e4, 0.0), 0.02);
+  EXPECT_TRUE(std::isnan(law.failure_strain(NONE, vm, 1.0, 0.0)));
+  // without it the law goes on
+  law.sigma_spall = 0.0;
+  EXPECT_DOUBLE_EQ(law.failure_strain(-1.0, vm, 1e4, 0.0),
+                   AL2024.failure_strain(1.0 / vm, 1e4, 0.0));
+}
+
+// never below eps_min, nor negative, whatever the set; 6061-T6's is 0 from 1.347 on
+
+TEST(Damage, NeverBelowItsLeast)
+{
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int least = 0;
+  for (int k = 0; k < 100000; k++) {
+    DamageJohnsonCook law = k % 2 ? AL6061 : AL2024;
+    law.eps_min = 0.15;
+    law.sigma_spall = k % 3 ? 1.2 : 0.0;
+    const double e =
+        law.failure_strain(3.0 * uniform(random), 0.5 + 0.5 * uniform(random),
+                           std::exp(20.0 * uniform(random)), 0.5 + 0.5 * uniform(random));
+    ASSERT_GE(e, 0.15);
+    least += e == 0.15;
+  }
+  EXPECT_GT(least, 10000);
+  EXPECT_LT(least, 60000);
+}
+
+// Tension that grows in proportion to the strain, -p = k eps, at constant yield stress: with s* = k eps/vm beyond 1.5
+// D = int d_eps/(a - b (s* - 1.5)), which is -ln(1 - b (s* - 1.5)/a) vm/(k b)
+
+TEST(Damage, PathTowardsSpall)
+{
+  DamageJohnsonCook law = {0.1, 0.0, 0.0, 0.0, 0.0, 1.0};
+  law.eps_min = 0.01;
+  law.sigma_spall = 2.0;
+  const double vm = 0.5, k = 40.0, a = 0.1, b = (a - law.eps_min) / (2.0 / vm - 1.5);
+  const double first = 1.5 * vm / k, end = 1.9 / k;
+  const double want = first / a - std::log(1.0 - b * (k * end / vm - 1.5) / a) * vm / (k * b);
+  double D = 0.0;
+  const int n = 20000;
+  for (int i = 0; i < n; i++)
+    D += law.increment(end / n, 1.0, -k * (i + 0.5) * end / n, vm, 0.0, 1.0);
+  EXPECT_NEAR(D, want, 1e-6 * want);
+  EXPECT_GT(want, 1.5 * end / a);
+}
+
 // Stretched at constant triaxiality and rate, failure comes at the strain eps_f; where the pressure
 // falls in proportion to the strain, D = int d_eps/(D1 + D2 exp(D3 k eps)), which has a closed form
 
@@ -141,16 +210,32 @@ TEST(Damage, WithStrength)
 TEST(Damage, Section)
 {
   std::string problem;
-  Section s = {
-      "damage",
-      "johnson-cook",
-      {{"D1", 0.1}, {"D2", 0.2}, {"D3", -3.0}, {"D4", 0.01}, {"D5", 1.0}, {"epsdot0", 2.0}}};
+  Section s = {"damage",
+               "johnson-cook",
+               {{"D1", 0.1},
+                {"D2", 0.2},
+                {"D3", -3.0},
+                {"D4", 0.01},
+                {"D5", 1.0},
+                {"epsdot0", 2.0},
+                {"eps_min", 0.05},
+                {"sigma_spall", 8.0},
+                {"u_f", 0.25}}};
   auto law = make_damage(s, problem);
   ASSERT_TRUE(law);
   EXPECT_EQ(problem, "");
   EXPECT_STREQ(law->name(), "johnson-cook");
   const double f = (0.1 + 0.2 * std::exp(-1.5)) * (1.0 + 0.01 * std::log(1e3)) * 1.3;
   EXPECT_NEAR(law->increment(1e-3, 5e-7, -2.0, 4.0, 0.3, 0.7), 1e-3 / 0.7 / f, 1e-15);
+  EXPECT_NEAR(law->increment(1e-3, 5e-7, -8.0, 4.0, 0.3, 0.7), 1e-3 / 0.7 / 0.05, 1e-15);
+  EXPECT_EQ(law->displacement(), 0.25);
+  for (auto wrong :
+       {std::pair<const char *, double>{"eps_min", 0.0}, {"sigma_spall", -1.0}, {"u_f", -1.0}}) {
+    Section t = s;
+    t.values[wrong.first] = wrong.second;
+    EXPECT_FALSE(make_damage(t, problem));
+    EXPECT_EQ(problem.find(wrong.first), 0u) << problem;
+  }
   s.values["epsdot0"] = 0.0;
   EXPECT_FALSE(make_damage(s, problem));
   EXPECT_EQ(problem, "epsdot0 = 0 must be > 0");
@@ -191,6 +276,37 @@ TEST(Weibull, MeanAndQuantiles)
     EXPECT_GT(x[0], 0.0);
     EXPECT_LT(x[n - 1], 20.0);
   }
+}
+
+// The weakest of the parts of a volume, with the factor of their size: the same distribution into how many so ever
+// it is divided, in one, two and three dimensions.  Without it it falls as parts^(-1/modulus).
+
+TEST(Weibull, WeakestOfAVolume)
+{
+  const double modulus = 6.0, whole = 0.7, reference = 0.2;
+  const double g1 = std::tgamma(1.0 + 1.0 / modulus), g2 = std::tgamma(1.0 + 2.0 / modulus);
+  const double sigma = std::sqrt(g2 / (g1 * g1) - 1.0);
+  std::int64_t tag = 0;
+  for (int dim : {1, 2, 3}) {
+    const double want = std::pow(whole / reference, -dim / modulus);
+    for (int parts : {1, 2, 4, 8}) {    // per direction
+      const int n = 2000, m = int(std::pow(parts, dim) + 0.5);
+      double mean = 0.0, square = 0.0, without = 0.0;
+      for (int k = 0; k < n; k++) {
+        double weakest = 1e300;
+        for (int i = 0; i < m; i++) weakest = std::min(weakest, weibull_factor(3, ++tag, modulus));
+        without += weakest / n;
+        weakest *= size_factor(whole / parts, reference, dim, modulus);
+        mean += weakest / n;
+        square += weakest * weakest / n;
+      }
+      EXPECT_NEAR(mean, want, 4.0 * want * sigma / std::sqrt(n)) << dim << " " << parts;
+      EXPECT_NEAR(std::sqrt(square - mean * mean), want * sigma, 0.1 * want * sigma);
+      EXPECT_NEAR(without, std::pow(m, -1.0 / modulus), 4.0 * sigma / std::sqrt(n));
+    }
+  }
+  EXPECT_EQ(size_factor(0.2, 0.2, 3, 6.0), 1.0);
+  EXPECT_DOUBLE_EQ(size_factor(0.1, 0.2, 3, 6.0), std::sqrt(2.0));
 }
 
 // a function of seed and ID alone, the same on every machine; neighbors do not go together

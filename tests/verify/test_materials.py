@@ -230,8 +230,33 @@ def test_strength_and_damage(lmp, file, tmp_path, heat):
             d = {k: value for k, (value, _) in sections["damage", "johnson-cook"].items()}
             sstar = np.clip(-g["p"] / g["vm"], -10, 10)
             strain = np.maximum(d["D1"] + d["D2"] * np.exp(d["D3"] * sstar), 0) * (1 + d["D4"] * np.log(g["rate"] / d["epsdot0"])) * (1 + d["D5"] * tstar)
-            assert g["damage"] == pytest.approx(g["eps"] / np.maximum(strain, 1e-6), rel=1e-7)
+            assert g["damage"] == pytest.approx(g["eps"] / np.maximum(strain, d.get("eps_min", 1e-6)), rel=1e-7)
             assert 0 < g["damage"].min() and g["damage"].max() < 1
+
+
+@pytest.mark.parametrize("file", ["Al6061-T6"], indirect=True)
+def test_shear_to_failure(lmp, file, tmp_path):
+    """what is sheared, as around a plug, fails by strain, when the integral of d_eps/eps_f is 1; eps_min and voids have no part in it"""
+    sections = parse(file)[3]
+    v = numbers(sections, "eos")[1]
+    s, d = ({k: value for k, (value, _) in sections[kind, "johnson-cook"].items()} for kind in ("strength", "damage"))
+    dx, rate, dt, n = 1e-3, 5e4, 1.5e-7, 216
+    text = BLOCK.format(dx=dx, m=v["rho0"] * dx**3, rho0=v["rho0"], E=0.0, file=file, h=1.2 * dx, skin=0.2 * dx, rate=rate, law="johnson-cook",
+                        words="damage yes spall voids", dt=dt).replace("epsdot damage vm", "epsdot damage vm spalled voids")
+    # a little expansion, so that heat makes no pressure: at a constant volume it would become ever more ductile
+    text = text.replace("velocity all set v_vx 0 0", "variable wx atom v_vx+90*x\nvariable wy atom 90*y\nvariable wz atom 90*z\nvelocity all set v_wx v_wy v_wz")
+    lmp(text.replace("block -3 8 -3 8", "block -3 30 -3 8") + "run 300\n")
+    lines = (tmp_path / "out").read_text().splitlines()
+    k = np.arange(n).reshape(6, 6, 6)[2:4, 2:4, 2:4].ravel()
+    frames = np.array([line.split() for line in lines if len(line.split()) == 10 and not line.startswith("ITEM")], float).reshape(-1, n, 10)[:, k, 1:]
+    rho, p, T, eps, epsdot, damage, vm, spalled, voids = frames.mean(1).T
+    last = np.flatnonzero(damage < 1)[-1]
+    cold = np.clip((T - s["Tref"]) / (s["Tm"] - s["Tref"]), 0, 1)
+    strain = (d["D1"] + d["D2"] * np.exp(-d["D3"] * p / np.maximum(vm, 1e6))) * (1 + d["D5"] * cold)
+    integral = np.cumsum(np.diff(eps, prepend=0) / strain)[:last + 1]
+    print("fails at a plastic strain of", eps[last], "integral", integral[-1], "eps_f from", strain[1], "to", strain[last], "T", T[last], "p", p[last])
+    assert damage.max() == 1 and not spalled.any() and not voids.any() and strain[:last + 1].min() > 3 * d["eps_min"]
+    assert damage[:last + 1] == pytest.approx(integral, abs=0.01) and integral[-1] > 0.97
 
 
 @pytest.mark.parametrize("file", having("spall", "limit"), indirect=True)

@@ -3,6 +3,8 @@
 Rows in one-dimensional strain. Constants are those of the material file; nothing here is fitted.
 """
 
+import re
+
 import numpy as np
 import pytest
 import yaml
@@ -139,6 +141,20 @@ def test_rows_that_clump(shot):
     """with h = 1.2 spacings nearest neighbors lie where the kernel gets steeper: 256 particles per flyer clump in tension, and part too soon"""
     assert shot(n=64, eta=1.2)[0]["pull_back_m_s"] == pytest.approx(shot(n=64)[0]["pull_back_m_s"], rel=0.02)
     assert shot(n=256, eta=1.2)[0]["pull_back_m_s"] < 0.9 * shot(n=256)[0]["pull_back_m_s"]
+
+
+def test_damage_by_strain_leaves_a_plane_pull_to_voids(shot, root, tmp_path):
+    """with the eps_min of the file; with that of its source, 1e-6, strain parts the plates at a third of the strength"""
+    text = (root / "potentials" / "Al6061-T6.hvi").read_text()
+    without = re.sub(r"  eps_min .*\n", "", text)
+    assert without != text
+    (tmp_path / "without.hvi").write_text(without)
+    how = dict(n=32)
+    voids, both = shot(**how)[0], shot(damage="yes", **how)[0]
+    strain = shot(damage="yes", target="mine", file_t=tmp_path / "without.hvi", rho_t=2703, c_t=5240, **how)[0]
+    for key in ("pull_back_m_s", "spall_plane_mm", "failed_particles", "void_work_J_m2"):
+        assert both[key] == voids[key] > 0, key
+    assert strain["spall_strength_GPa"] < 0.4 * both["spall_strength_GPa"] and strain["failed_particles"] > 3 * both["failed_particles"]
 
 
 def test_rates(shot, root):
