@@ -166,7 +166,7 @@ def test_rates(shot, root):
     k = constants(root)
     slopes = []
     for spall in ("voids", "principal"):
-        found = np.array([[shot(n=64, hf=h, ht=2 * h, spall=spall)[0][q] for q in ("strain_rate_per_s", "spall_strength_GPa")] for h in (20, 2, 0.2)])
+        found = np.array([[shot(n=128, hf=h, ht=2 * h, spall=spall)[0][q] for q in ("strain_rate_per_s", "spall_strength_GPa")] for h in (20, 2, 0.2)])
         slopes.append(np.polyfit(*np.log(found.T), 1)[0])
         if spall == "voids":
             part = found[:, 1] * 1e9 / (k["sigma"] * (found[:, 0] / k["rate"]) ** k["m"])
