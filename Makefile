@@ -63,7 +63,8 @@ verify:
 	@python=$$(cmake/find-python.sh numpy scipy matplotlib pytest) && \
 	  cmake/env.sh $$python tests/shocks.py --lmp $(OUT)/lmp --out $(OUT)/verify --ranks $(RANKS) $(VERIFY_ARGS) && \
 	  cmake/env.sh $$python tests/solids.py --lmp $(OUT)/lmp --out $(OUT)/verify $(SOLIDS_ARGS) && \
-	  cmake/env.sh $$python tests/states.py --lmp $(OUT)/lmp --out $(OUT)/verify $(STATES_ARGS)
+	  cmake/env.sh $$python tests/states.py --lmp $(OUT)/lmp --out $(OUT)/verify $(STATES_ARGS) && \
+	  cmake/env.sh $$python tests/expansion.py --lmp $(OUT)/lmp --out $(OUT)/verify
 
 sanitize:
 	@$(MAKE) test BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON

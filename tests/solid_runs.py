@@ -3,7 +3,7 @@
 import numpy as np
 from sph_scenes import SUPPORT, Fluid, norm, shape
 
-STATE = ("p", "e", "T", "eps", "epsdot", "damage", "spalled", "vm", "sxx", "syy", "szz", "sxy", "voids", "void_damage")
+STATE = ("p", "e", "T", "eps", "epsdot", "damage", "spalled", "vm", "sxx", "syy", "szz", "sxy", "voids", "void_damage", "fragsize")
 
 
 def material(path, *sections, units="lj"):

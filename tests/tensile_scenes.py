@@ -23,11 +23,14 @@ def nearest(x):
     return cKDTree(x).query(x, k=2)[0][:, 1]
 
 
-def rings(lmp, folder, words, dx=0.2, h=1.5, kernel="cubic", t_end=160.0, frames=20, name="rings", courant=0.3):
-    """two rubber rings meet head-on; they are bodies of their own: what makes them bounce is not tension between them"""
+def rings(lmp, folder, words, dx=0.2, h=1.5, kernel="cubic", t_end=160.0, frames=20, name="rings", courant=0.3, voids=None):
+    """two rubber rings meet head-on; they are bodies of their own: what makes them bounce is not tension between them
+
+    voids: the section "spall voids ..." of the rubber, which then fails by it
+    """
     c = np.sqrt(1 + 4 / 3 * RING["mu"])
     path = material(folder / "rubber.hvi", f"eos linear rho0 {RING['rho0']} K {RING['rho0']}",
-                    f"strength perfect G {RING['mu'] * RING['rho0']} Y 1e6")
+                    f"strength perfect G {RING['mu'] * RING['rho0']} Y 1e6", *([voids] if voids else []))
     k = int(np.ceil(RING["outer"] / dx))
     q = dx * (np.arange(-k, k) + 0.5)
     ring = np.stack(np.meshgrid(q, q, indexing="ij"), -1).reshape(-1, 2)
@@ -46,13 +49,15 @@ def rings(lmp, folder, words, dx=0.2, h=1.5, kernel="cubic", t_end=160.0, frames
     dt = courant * h * dx / c
     steps = int(t_end / dt)
     every = max(1, steps // frames)
-    result = run(lmp, folder, s, pair, "strength perfect damage no spall none", steps, dt=dt, frames=every, name=name, lost="ignore")
+    spall = "voids" if voids else "none"
+    result = run(lmp, folder, s, pair, f"strength perfect damage no spall {spall}", steps, dt=dt, frames=every, name=name, lost="ignore")
     out = []
     for f in result.frames:
         left = f["type"] == 1
         y = f["x"][:, :2]
         out.append(dict(t=f["time"], v=f["v"][left, 0].mean() / RING["speed"], pieces=max(pieces(y[k], 1.7 * dx) for k in (left, ~left)),
-                        near=np.quantile(nearest(y), 0.01) / dx))
+                        near=np.quantile(nearest(y), 0.01) / dx, p=f["p"].min(), failed=int((f["spalled"] > 0).sum()), damaged=f["void_damage"].max(),
+                        voids=f["voids"].max()))
     return result, out
 
 

@@ -6,6 +6,7 @@ the thickness and over rings 2 mm wide.  The front is where it last reaches 10 %
 and whole ones.
 """
 import os
+import pathlib
 import sys
 
 import matplotlib
@@ -14,16 +15,16 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import hvi  # noqa: E402
+
 WIDTH, HALF = 2.0, 5.0
 
 
 def read(path):
     """type; position in mm; von Mises stress in MPa"""
-    with open(path) as f:
-        lines = f.read().splitlines()
-    start = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-    a = np.array([line.split() for line in lines[start:]], dtype=float)
-    return a[:, 1], 1e3 * a[:, 2:5], 1e-6 * a[:, 11]
+    frame = hvi.Dump(path)[-1]
+    return frame["type"], 1e3 * frame.x, 1e-6 * frame["vm" if "vm" in frame else "c_state[4]"]
 
 
 def profile(x, vm, angle):

@@ -6,6 +6,7 @@ Quarter models are mirrored.
 """
 import glob
 import os
+import pathlib
 import sys
 
 import matplotlib
@@ -15,21 +16,15 @@ import matplotlib.pyplot as plt
 import numpy as np
 import yaml
 
-
-def read(path):
-    """time in us; columns by name, lengths in mm"""
-    with open(path) as f:
-        lines = f.read().splitlines()
-    start = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-    a = np.array([line.split() for line in lines[start:]], dtype=float)
-    names = ("id", "type", "x", "y", "z", "vx", "vy", "vz", "p", "damage", "spalled", "vm")
-    return {n: a[:, k] * (1e3 if n in "xyz" else 1) for k, n in enumerate(names)}
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import hvi  # noqa: E402
 
 
-def whole(d):
-    for flip in ("x", "y"):
-        d = {n: np.concatenate([a, -a if n in (flip, "v" + flip) else a]) for n, a in d.items()}
-    return d
+def read(path, quarter):
+    """columns by name, lengths in mm, of the whole"""
+    frame = hvi.Dump(path, mirror=["x=0", "y=0"] if quarter else "none")[-1].whole()
+    d = {n: frame["vm" if "vm" in frame else "c_state[4]"] if n == "vm" else frame[n] for n in ("type", "x", "y", "z", "vz", "vm")}
+    return {n: a * (1e3 if n in "xyz" else 1) for n, a in d.items()}
 
 
 def main(folder):
@@ -41,9 +36,7 @@ def main(folder):
         sys.exit(f"no frame.*.dump in {folder}: run in.plate there first")
     fig, axes = plt.subplots(len(frames), 4, figsize=(19, 4.4 * len(frames)), squeeze=False)
     for row, (time, name) in zip(axes, frames):
-        d = read(name)
-        if result["model_share"] < 1:
-            d = whole(d)
+        d = read(name, result["model_share"] < 1)
         slab, size = np.abs(d["y"]) < 2, 5 * result["dx_mm"]
         side, speed, stress, above = row
         for k, color, what in ((2, "tab:blue", "plate"), (1, "tab:red", "projectile")):

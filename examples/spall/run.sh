@@ -1,7 +1,7 @@
 #!/bin/sh
-# All runs of README.md, one folder each under runs/: sh run.sh [LAMMPS command, default: lmp]. Some minutes.
+# All runs of README.md, one folder each under runs/: sh run.sh [LAMMPS command, default: build/lmp]. Some minutes.
 here=$(cd "$(dirname "$0")" && pwd)
-lmp=${*:-lmp}
+lmp=${*:-$here/../../build/lmp}
 export LAMMPS_POTENTIALS="$here/../../potentials:$here"
 run() { # name, variables
   name=$1; shift

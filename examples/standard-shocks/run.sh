@@ -1,7 +1,7 @@
 #!/bin/sh
-# All runs of README.md, one folder each under runs/: sh run.sh [LAMMPS command, default: lmp]. About two minutes.
+# All runs of README.md, one folder each under runs/: sh run.sh [LAMMPS command, default: build/lmp]. About two minutes.
 here=$(cd "$(dirname "$0")" && pwd)
-lmp=${*:-lmp}
+lmp=${*:-$here/../../build/lmp}
 export LAMMPS_POTENTIALS="$here/../../potentials"
 run() { # name, input, variables
   name=$1; input=$2; shift 2

@@ -5,6 +5,7 @@ Quarter models are completed by their mirror images.
 """
 import glob
 import os
+import pathlib
 import re
 import sys
 
@@ -14,6 +15,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 import yaml
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import hvi  # noqa: E402
+
 folder = sys.argv[1] if len(sys.argv) > 1 else "."
 with open(os.path.join(folder, "result.yaml")) as f:
     result = yaml.safe_load(f)
@@ -21,24 +25,14 @@ COLORS = ["tab:red", "tab:blue", "tab:green", "tab:orange", "tab:purple"]
 
 
 def read(path):
-    """rows id type mass x y z vx vy vz p damage spalled vm e of the last frame; mm"""
-    with open(path) as f:
-        lines = f.read().splitlines()
-    start = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-    data = np.array([line.split() for line in lines[start:]], dtype=float)
-    data[:, 3:6] *= 1e3
-    if result["quarter"]:
-        images = [data.copy() for _ in range(4)]
-        for image, (a, b) in zip(images, ((1, 1), (-1, 1), (1, -1), (-1, -1))):
-            image[:, [3, 6]] *= a
-            image[:, [4, 7]] *= b
-        data = np.concatenate(images)
-    return data
+    """rows type x y z, in mm, von Mises stress of the last frame, of the whole"""
+    frame = hvi.Dump(path, mirror=["x=0", "y=0"] if result["quarter"] else "none")[-1].whole()
+    return np.column_stack([frame["type"], 1e3 * frame.x, frame["vm" if "vm" in frame else "c_state[4]"]])
 
 
 def slice_of(data):
     """what is near the plane y = 0"""
-    return data[np.abs(data[:, 4]) < max(2.0, 1.5 * result["dx_mm"])]
+    return data[np.abs(data[:, 2]) < max(2.0, 1.5 * result["dx_mm"])]
 
 
 walls, zones = result["walls_reached"], result.get("zones", 1)
@@ -48,7 +42,7 @@ for ax in axes[:, walls:].flat:
     ax.axis("off")
 before = [os.path.join(folder, "cloud%d.dump" % k) for k in range(1, walls)]
 frames = [read(path) for path in before] + [final]
-wall_of = lambda data: np.where(data[:, 1] == 1, 0, 1 + (data[:, 1] - 2) // zones).astype(int)
+wall_of = lambda data: np.where(data[:, 0] == 1, 0, 1 + (data[:, 0] - 2) // zones).astype(int)
 for k, (ax, data) in enumerate(zip(axes[0], frames)):
     cut = slice_of(data)
     if k < walls - 1:
@@ -56,11 +50,11 @@ for k, (ax, data) in enumerate(zip(axes[0], frames)):
             m = wall_of(cut) == w
             if not m.any():
                 continue
-            ax.scatter(cut[m, 5], cut[m, 3], s=4, c=color, lw=0, label="wall %d" % w if w else "projectile")
+            ax.scatter(cut[m, 3], cut[m, 1], s=4, c=color, lw=0, label="wall %d" % w if w else "projectile")
         ax.legend(loc="upper left", fontsize=8)
         ax.set_title("before wall %d, %.1f us" % (k + 2, result["wall%d_until_us" % (k + 1)]))
     else:
-        dots = ax.scatter(cut[:, 5], cut[:, 3], s=4, c=1e-6 * cut[:, 12], cmap="inferno", vmin=0, vmax=400, lw=0)
+        dots = ax.scatter(cut[:, 3], cut[:, 1], s=4, c=1e-6 * cut[:, 4], cmap="inferno", vmin=0, vmax=400, lw=0)
         fig.colorbar(dots, ax=ax, label="von Mises stress, MPa", shrink=0.7)
         ax.set_title("at the end, %.1f us" % result["time_us"])
     ax.set_aspect("equal")
@@ -68,9 +62,9 @@ for k, (ax, data) in enumerate(zip(axes[0], frames)):
     ax.set_ylabel("x, mm")
 for w, ax in zip(range(1, walls + 1), axes[1]):
     mine = final[wall_of(final) == w]
-    middle = np.median(mine[:, 5])
-    mine = mine[np.abs(mine[:, 5] - middle) < 5.0]
-    dots = ax.scatter(mine[:, 3], mine[:, 4], s=3, c=mine[:, 5] - middle, cmap="viridis", lw=0)
+    middle = np.median(mine[:, 3])
+    mine = mine[np.abs(mine[:, 3] - middle) < 5.0]
+    dots = ax.scatter(mine[:, 1], mine[:, 2], s=3, c=mine[:, 3] - middle, cmap="viridis", lw=0)
     fig.colorbar(dots, ax=ax, label="out of plane, mm", shrink=0.7)
     ax.set_aspect("equal")
     ax.set_title("wall %d from the front: hole %.1f mm" % (w, result["hole%d_diameter_mm" % w]))

@@ -13,6 +13,7 @@ On the command line: python3 -m hvi --help
 
 import importlib
 
+from . import debris
 from .cloud import beyond, measure, series
 from .distribution import cumulative, fit
 from .dump import Dump
@@ -22,7 +23,7 @@ from .frame import Frame
 from .version import version
 
 __version__ = version()
-__all__ = ["Dump", "Frame", "HVIError", "HVIWarning", "beyond", "cumulative", "figures", "find", "fit", "maps", "measure",
+__all__ = ["Dump", "Frame", "HVIError", "HVIWarning", "beyond", "cumulative", "debris", "figures", "find", "fit", "maps", "measure",
            "open", "series", "universe"]
 
 _LATER = ("figures", "maps", "universe")  # the first and last load matplotlib and MDAnalysis

@@ -7,7 +7,9 @@ import sys
 import warnings
 
 from . import commands
+from .debris import COLUMN
 from .errors import HVIError, HVIWarning
+from .fragments import FAILED
 from .units import MVV2E
 from .version import version
 
@@ -22,7 +24,9 @@ EXAMPLES = {
       --fit both --figure masses --out fragments.csv
   python3 -m hvi fragments debris.dump --data debris.data --bonds bonds.dump --axis z --plane 4.05e-3 --all --out f.csv
   python3 -m hvi fragments sph.dump --column c_frag --frame 3
-  python3 -m hvi fragments sph.dump --distance 0.45 --units lj --mass 1=1""",
+  python3 -m hvi fragments quarter.dump --column c_frag --distance 6e-4 --mirror x=0 --mirror y=0
+  python3 -m hvi fragments sph.dump --distance 0.45 --units lj --mass 1=1
+  python3 -m hvi fragments frame.40.dump --distance 7.15e-4 --sound --density 1=2790 --density 2=2703 --plane 0.953e-3""",
     "map": """  python3 -m hvi map debris.dump --data debris.data --axis z --figure phase
   python3 -m hvi map debris.dump --data debris.data --axis z --kind field --figure field.png""",
     "view": """  python3 -m hvi view debris.dump --data debris.data --axis z --thickness 8e-3 --figure side
@@ -33,7 +37,9 @@ EXAMPLES = {
   python3 -m hvi plate far.data --radius 140e-3 --thickness 0.8e-3 --spacing 0.2e-3 --zones 20e-3 40e-3 80e-3 \\
       --density 2785 --quarter""",
     "impacts": """  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --figure witness
-  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --quarter --after 0 --bins 60 --figure witness.png""",
+  python3 -m hvi impacts old.dump --axis z --plane 60.8e-3 --quarter --after 0 --bins 60 --figure witness.png
+  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --after 0.8e-3 --distance 0.6e-3 --sound \\
+      --density 1=2785 --density 2=2785""",
     "compare": """  python3 -m hvi compare run1/result.yaml run2/result.yaml
   python3 -m hvi compare run1 run2 --rtol 0.05 --keys length_ratio fragmentation
   python3 -m hvi compare run1/debris.dump run2/debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 \\
@@ -41,16 +47,20 @@ EXAMPLES = {
 }
 
 
-def mass(text):
-    """(type, mass) of TYPE=VALUE"""
+def by_type(text, what="MASS", like="1=2.5e-7"):
+    """(type, value) of TYPE=VALUE"""
     kind, found, value = text.partition("=")
     try:
         kind, value = int(kind), float(value)
     except ValueError:
         found = ""
     if not found or not 0.0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} is not TYPE=MASS, like 1=2.5e-7")
+        raise argparse.ArgumentTypeError(f"{text} is not TYPE={what}, like {like}")
     return kind, value
+
+
+def density(text):
+    return by_type(text, "RHO", "1=2785")
 
 
 def positive(text):
@@ -70,10 +80,14 @@ def _files(parser):
 def _reading(parser, several=False):
     group = parser.add_argument_group("what the dump does not say")
     group.add_argument("--data", metavar="FILE", nargs=2 if several else None, help="data file (write_data): masses, bonds")
-    group.add_argument("--mass", action="append", type=mass, metavar="TYPE=MASS",
+    group.add_argument("--mass", action="append", type=by_type, metavar="TYPE=MASS",
                        help="mass of the particles of a type; repeat")
     group.add_argument("--units", choices=sorted(MVV2E),
                        help="LAMMPS units (default: the dump's or the data file's, else si)")
+    group.add_argument("--mirror", action="append", metavar="D=C[,SIDE]",
+                       help="mirror plane of a half or quarter model, like x=0 or y=1e-3,hi (all is above it: lo, default; below "
+                       "it: hi); repeat; or none (default: what the dump or the data file says)")
+    group.add_argument("--quarter", action="store_const", const=["x=0", "y=0"], dest="mirror", help="--mirror x=0 --mirror y=0")
     group.add_argument("--dt", type=positive, metavar="T", help="time per step, for dumps without time")
     group.add_argument("--interval", type=positive, metavar="T", help="time between frames (dump_modify every/time)")
 
@@ -88,13 +102,24 @@ def _cloud(parser, needed, plane=True):
 
 
 def _rules(parser, several=False):
-    group = parser.add_argument_group("what is a fragment (one of)")
+    group = parser.add_argument_group("what is a fragment (one of; at mirror planes --distance, too)")
     group.add_argument("--column", metavar="NAME", help="column with fragment IDs (compute hvi/fragment/atom)")
     group.add_argument("--bonds", metavar="FILE", nargs=2 if several else None,
                        help="dump local with batom1 batom2 of every frame, or a data file")
     group.add_argument("--distance", type=positive, metavar="R", help="particles closer than R hang together")
     group.add_argument("--bond-columns", nargs=2, metavar="NAME",
                        help="columns with the two atom IDs (default: the last two)")
+    group.add_argument("--sound", action="store_true",
+                       help="with --distance: failed particles stay alone (damage yes); without, what has come apart")
+    group.add_argument("--failed-columns", nargs="+", metavar="NAME", default=FAILED,
+                       help="a particle with 1 or more in one of these has failed (default: damage spalled)")
+
+
+def _debris(parser):
+    group = parser.add_argument_group("debris below the spacing, with --sound")
+    group.add_argument("--density", action="append", type=density, metavar="TYPE=RHO",
+                       help="of the solid matter of a type; repeat. Failed particles count as pieces of the size in the column fragsize")
+    group.add_argument("--size-column", metavar="NAME", default=COLUMN, help="that column, if it has another name")
 
 
 def _frame(parser):
@@ -138,8 +163,10 @@ def options():
     sub = command("fragments", "table of the fragments of a frame, as compute hvi/fragment makes it, and N(>m)")
     _files(sub)
     _rules(sub)
+    _debris(sub)
     _frame(sub)
     _cloud(sub, needed=False)
+    sub.add_argument("--type", type=int, nargs="+", metavar="TYPE", help="only particles of these types count and connect (default: all)")
     sub.add_argument("--all", action="store_true", help="the summary of every frame instead of the table of one")
     sub.add_argument("--top", type=int, default=10, metavar="N", help="rows to print (default: 10)")
     sub.add_argument("--fit", choices=("power", "exponential", "both"), help="fit N(>m): A m^-b, N0 exp(-m/mu)")
@@ -195,7 +222,8 @@ def options():
     sub.add_argument("--after", type=float, metavar="X", help="only particles beyond this coordinate (default: all before the wall)")
     sub.add_argument("--bins", type=int, default=80, metavar="N", help="bins across the map (default: 80)")
     sub.add_argument("--reach", type=positive, metavar="R", help="half width of the map (default: where 99 %% of the energy is)")
-    sub.add_argument("--quarter", action="store_true", help="the dump is of a quarter model: add the mirror images")
+    _rules(sub)
+    _debris(sub)
     _reading(sub)
     _output(sub, "both maps", out=False)
 

@@ -4,7 +4,7 @@
 import numpy as np
 
 from .errors import HVIError
-from .frame import as_frame, axis_number
+from .frame import as_frame, axis_number, whole
 
 TIE = 1e-9  # distances that differ by less are equal
 TIE_MASS = 1e-12  # shares of the mass likewise
@@ -31,12 +31,14 @@ def beyond(source, axis, plane):
 def measure(source, axis, plane, quantile=0.99):
     """The twelve values of compute hvi/cloud, a dict in its order; all 0 if no particle is beyond the plane.
 
+    Of the whole cloud: between mirror planes mass, momentum, energy and number are those of all images together.
+
     source: a Frame, or a Universe or AtomGroup of hvi.open(); axis: "x", "y", "z"; plane: distance units
     quantile: share of the mass inside an edge, > 0.5 and <= 1
     """
     if not 0.5 < quantile <= 1.0:
         raise HVIError(f"the quantile must be > 0.5 and <= 1, not {quantile}")
-    frame = as_frame(source)
+    frame = whole(source)
     result = dict.fromkeys((name for name, _ in MEASURES), 0.0)
     result["particles"] = 0
     frame = frame.select(beyond(frame, axis, plane))

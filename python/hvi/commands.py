@@ -8,15 +8,19 @@ import numpy as np
 from . import bonds as bond_sources
 from . import cloud as clouds
 from . import compare as comparison
-from . import distribution, fragments as pieces, progress, tables
+from . import debris as below
+from . import distribution, fragments as pieces, mirror, progress, tables
 from .dump import Dump
 from .errors import HVIError
 from .scan import open_binary
 
 
 def _open(args, paths=None, data=None):
-    return Dump(paths or args.files, data=data or args.data, masses=dict(args.mass or ()), units=args.units, dt=args.dt,
-                interval=args.interval, progress=progress.bar)
+    dump = Dump(paths or args.files, data=data or args.data, masses=dict(args.mass or ()), units=args.units,
+                mirror=args.mirror, dt=args.dt, interval=args.interval, progress=progress.bar)
+    if dump.mirror(-1):
+        print(f"model: {mirror.text(dump.mirror(-1))}; what follows is of the whole")
+    return dump
 
 
 def _moment(frame):
@@ -40,7 +44,32 @@ def _rule(args, bonds=None):
         raise HVIError("what is a fragment? give --column, --bonds or --distance")
     bonds = bond_sources.source(bonds or args.bonds, args.bond_columns, progress.bar)
     where = {} if args.plane is None else {"axis": args.axis, "plane": args.plane}
-    return {"column": args.column, "bonds": bonds, "distance": args.distance, **where}
+    failed = list(args.failed_columns) if args.sound else None
+    return {"column": args.column, "bonds": bonds, "distance": args.distance, "failed": failed, **where}
+
+
+def _of_types(args, frame):
+    return frame if args.type is None else frame.select(np.isin(frame["type"], args.type))
+
+
+def _debris(args, frame):
+    """(Debris of the particles of a frame or None, why there is none)"""
+    if args.density and not args.sound:
+        raise HVIError("what is below the spacing are pieces of failed particles: --density needs --sound")
+    if not args.sound:
+        return None, None
+    if args.size_column not in frame:
+        return None, f"not known: the dump has no column {args.size_column} (compute hvi/atom fragsize)"
+    if not args.density:
+        return None, "not counted: give --density TYPE=RHO"
+    return below.estimate(frame, pieces.has_failed(frame, args.failed_columns), dict(args.density), args.size_column), None
+
+
+def _print(summary, missing=None):
+    for name, value in summary.items():
+        print(f"{name}: {tables.number(value)}")
+    if missing:
+        print(f"debris below the spacing: {missing}")
 
 
 def _time(frame):
@@ -52,6 +81,7 @@ def info(args):
     first = dump.headers[0]
     print(f"{len(dump)} frames, {first.n} {(first.label or '').lower()} in the first, units {first.units or 'not said'}")
     print(f"columns: {' '.join(dump.columns)}")
+    print(f"model: {mirror.text(dump.mirror(0))}")
     rows = [(k, h.step, "-" if h.time is None else h.time, h.n) for k, h in enumerate(dump.headers)]
     print(tables.text(("frame", "step", "time", "rows"), rows))
 
@@ -81,26 +111,36 @@ def fragments(args):
     rule = _rule(args)
     if args.all:
         return _all_fragments(args, dump, rule)
-    frame = dump[args.frame]
-    found = pieces.find(frame, **rule)
+    frame = _of_types(args, dump[args.frame])
+    found, summary = pieces.both(frame, **rule)
+    debris, missing = _debris(args, found.frame)
     print(_moment(frame))
-    for name, value in found.summary.items():
-        print(f"{name}: {tables.number(value)}")
-    names = found.table.dtype.names
-    if args.top > 0 and len(found.table):
+    _print({**summary, **(debris.summary if debris else {})}, missing)
+    names, rows = found.table.dtype.names, found.table.tolist()
+    number, kind = np.ones(len(rows)), np.zeros(len(rows), dtype=int)
+    if debris:  # a failed particle is a row of its own, under its own ID
+        alone = np.searchsorted(found.frame.ids, found.table["id"])
+        number, kind = debris.pieces[alone], debris.kind[alone]
+        names, rows = (*names, "kind", "pieces", "piece_size"), [
+            (*row, below.KINDS[k], n, size) for row, k, n, size in zip(
+                rows, kind, number, np.where(found.table["count"] > 1, found.table["size"], debris.size[alone]))]
+    if args.top > 0 and len(rows):
         print()
-        print(tables.text(names, found.table[:args.top].tolist(), pieces.COLUMN_QUANTITIES, dump.units))
-    fits = _fits(args, found)
+        print(tables.text(names, rows[:args.top], pieces.COLUMN_QUANTITIES, dump.units))
+    resolved = found.table["mass"][kind == 0]
+    fits = _fits(args, resolved, found.unit, found.images(kind == 0))
     if fits:
         print()
     for fit in fits:
         print(fit)
     if args.out:
-        tables.write_csv(args.out, names, found.table.tolist())
+        tables.write_csv(args.out, names, rows)
     if args.figure:
         from . import figures
 
-        _save(figures.distribution(found.table["mass"], fits, dump.units), args.figure)
+        known = kind < 2
+        small = (found.table["mass"][known] / number[known], number[known]) if debris else None
+        _save(figures.distribution(resolved, fits, dump.units, small), args.figure)
 
 
 def _all_fragments(args, dump, rule):
@@ -110,22 +150,25 @@ def _all_fragments(args, dump, rule):
     rows = []
     with progress.bar(len(dump), "fragments") as bar:
         for frame in dump:
-            summary = pieces.find(frame, **rule).summary
-            rows.append({"frame": frame.number, "step": frame.step, "time": _time(frame), **summary})
+            found, summary = pieces.both(_of_types(args, frame), **rule)
+            debris, missing = _debris(args, found.frame)
+            rows.append({"frame": frame.number, "step": frame.step, "time": _time(frame), **summary, **(debris.summary if debris else {})})
             bar.update()
     names, rows = list(rows[0]), [tuple(row.values()) for row in rows]
-    quantities = {"time": "time", "mass": "mass", "single_particles_mass": "mass"}
+    quantities = {"time": "time", "subparticle_size": "distance",
+                  **{name: "mass" for name in ("mass", "single_particles_mass", *(f"{kind}_mass" for kind in below.KINDS))}}
     print(tables.text(names, rows, quantities, dump.units))
+    _print({}, missing)
     if args.out:
         tables.write_csv(args.out, names, rows)
 
 
-def _fits(args, found):
+def _fits(args, masses, unit, images):
     """Both laws on the same range, so that their likelihoods can be compared"""
     laws = {None: (), "both": distribution.LAWS}.get(args.fit, (args.fit,))
     fits, start = [], args.mmin
     for law in laws:
-        fits.append(distribution.fit(found.table["mass"], law, start, args.mmax, found.unit))
+        fits.append(distribution.fit(masses, law, start, args.mmax, unit, images))
         start = fits[0].m_min
     return fits
 
@@ -157,10 +200,18 @@ def impacts(args):
     from . import maps
 
     frame = _open(args)[args.frame]
-    found = maps.impacts(frame, args.axis, args.plane, args.bins, args.after, args.reach, args.quarter)
+    found = maps.impacts(frame, args.axis, args.plane, args.bins, args.after, args.reach)
+    debris, missing = _debris(args, found.frame)
     print(_moment(frame))
-    for name, value in found.summary.items():
-        print(f"{name}: {tables.number(value)}")
+    _print(found.summary)
+    if _has_rule(args):
+        rule = {**_rule(args), "axis": None, "plane": None}  # the plane is that of the wall
+        _print({name: value for name, value in pieces.both(found.frame, **rule)[1].items() if name not in ("mass", "particles")})
+    if debris:
+        summary = debris.summary
+        shares = {f"{kind}_kinetic_energy": share for kind, share in zip(below.KINDS, debris.shares(found.kinetic))}
+        _print({**summary, **shares})
+    _print({}, missing)
     if args.figure:
         from . import figures
 
@@ -221,6 +272,6 @@ def _measures(args, path, which):
         result["time"] = frame.time
     result.update(clouds.measure(frame, args.axis, args.plane, args.quantile))
     if _has_rule(args):
-        summary = pieces.find(frame, **_rule(args, args.bonds and args.bonds[which])).summary
+        summary = pieces.both(frame, **_rule(args, args.bonds and args.bonds[which]))[1]
         result.update({name: value for name, value in summary.items() if name not in ("mass", "particles")})
     return result

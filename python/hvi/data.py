@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 
+from . import mirror as mirrors
 from .errors import HVIError
 from .scan import open_binary
 
@@ -19,7 +20,7 @@ class DataFile:
     """path: of a text data file, plain or .gz
 
     step: time step at which it was written, units: both None if it does not say so
-    masses: {type: mass}, {} if there is no section Masses
+    masses: {type: mass}, {} if there is no section Masses; mirror: planes, None if the first line does not say
     """
 
     def __init__(self, path):
@@ -39,6 +40,7 @@ class DataFile:
         step, units = re.search(r"timestep = (\d+)", title), re.search(r"units = (\w+)", title)
         self.step = int(step[1]) if step else None
         self.units = units[1] if units else None
+        self.mirror = mirrors.of_title(title, self.path)
         self.masses = self._masses()
 
     def _read(self, start=0, end=None):

@@ -21,12 +21,15 @@ LAWS = ("power", "exponential")
 FEWEST = 10  # fragments that a fit needs
 
 
-def cumulative(masses):
+def cumulative(masses, number=None):
     """N(>m) as a step function: (m, above, from_here), one entry per different mass, rising.
 
+    number: how many there are of each mass, (k,), default: one
     above: number of fragments heavier than m; from_here: number of those that are at least as heavy
     """
-    m, count = np.unique(np.asarray(masses, dtype=float), return_counts=True)
+    m, place, count = np.unique(np.asarray(masses, dtype=float), return_inverse=True, return_counts=True)
+    if number is not None:
+        count = np.bincount(place, number, minlength=len(m))
     from_here = np.cumsum(count[::-1])[::-1]
     return m, from_here - count, from_here
 
@@ -155,12 +158,14 @@ class _Law:
         return float(max(np.abs(heavier - law).max(), np.abs(np.append(heavier[1:], 0.0) - law).max()))
 
 
-def fit(masses, law="power", m_min=None, m_max=np.inf, unit=None):
+def fit(masses, law="power", m_min=None, m_max=np.inf, unit=None, images=1.0):
     """A Fit of the law "power" or "exponential" to fragment masses (k,), from m_min to m_max.
 
     m_min: default: the mass from which on the law is closest to the data (smallest Kolmogorov-Smirnov distance, at least
     FEWEST fragments); the standard error does not contain the uncertainty of this choice
     unit: particle mass, if all masses are multiples of it
+    images: how many of the masses there are for each that is not merely that of an image behind mirror planes
+    (Fragments.images()): error, likelihood and how many a fit needs are those of the others
 
     Raises HVIError if there are too few fragments or the law cannot be fitted.
     """
@@ -171,36 +176,41 @@ def fit(masses, law="power", m_min=None, m_max=np.inf, unit=None):
         raise HVIError(f"the masses are not multiples of {unit:g}")
     if m_min is not None and not m_min > 0.0:
         raise HVIError(f"the smallest mass must be > 0, not {m_min:g}")
+    fewest = int(np.ceil(FEWEST * images - 1e-9))
     if m_min is not None:
-        return _fit_from(masses, law, m_min, m_max, unit)
+        return _of_one(_fit_from(masses, law, m_min, m_max, unit, fewest), images)
     fits = []
-    for start in _starts(masses[masses <= m_max]):
+    for start in _starts(masses[masses <= m_max], fewest):
         try:
-            fits.append(_fit_from(masses, law, start, m_max, unit))
+            fits.append(_fit_from(masses, law, start, m_max, unit, fewest))
         except HVIError:
             continue
     if not fits:
-        raise HVIError(f"no fit: {len(masses)} fragments, {FEWEST} of two or more different masses are needed")
-    return min(fits, key=lambda f: f.ks)
+        raise HVIError(f"no fit: {len(masses)} fragments, {fewest} of two or more different masses are needed")
+    return _of_one(min(fits, key=lambda f: f.ks), images)
 
 
-def _starts(masses, most=60):
-    """Different masses with at least FEWEST fragments from there on; not more than most, evenly in the logarithm"""
-    starts = np.unique(masses[:max(len(masses) - FEWEST + 1, 0)])
+def _of_one(fit, images):
+    return dataclasses.replace(fit, error=fit.error * images**0.5, log_likelihood=fit.log_likelihood / images)
+
+
+def _starts(masses, fewest, most=60):
+    """Different masses with at least fewest fragments from there on; not more than most, evenly in the logarithm"""
+    starts = np.unique(masses[:max(len(masses) - fewest + 1, 0)])
     if len(starts) > most:
         wanted = np.geomspace(starts[0], starts[-1], most)
         starts = starts[np.unique(np.minimum(np.searchsorted(starts, wanted), len(starts) - 1))]
     return starts
 
 
-def _fit_from(masses, law, m_min, m_max, unit):
+def _fit_from(masses, law, m_min, m_max, unit, fewest):
     small = 1e-9 if unit is None else 1e-9 * unit / m_min
     if unit is not None:  # ends on whole numbers
         m_min = unit * np.ceil(m_min / unit - 1e-6)
         m_max = unit * np.floor(m_max / unit + 1e-6) if np.isfinite(m_max) else np.inf
     inside = masses[(masses >= m_min * (1 - small)) & (masses <= m_max * (1 + small))]
-    if len(inside) < FEWEST:
-        raise HVIError(f"only {len(inside)} fragments from {m_min:g} to {m_max:g}: a fit needs {FEWEST}")
+    if len(inside) < fewest:
+        raise HVIError(f"only {len(inside)} fragments from {m_min:g} to {m_max:g}: a fit needs {fewest}")
     scale = unit or m_min
     t = np.rint(inside / unit) if unit else np.maximum(inside / m_min, 1.0)
     model = _Law(law, unit, m_min, m_max)

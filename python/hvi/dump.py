@@ -9,6 +9,7 @@ import weakref
 
 import numpy as np
 
+from . import mirror as mirrors
 from . import units as unit_systems
 from .data import DataFile
 from .errors import HVIError, HVIWarning
@@ -71,6 +72,7 @@ class Dump:
     data: path of a data file (write_data): masses and units, if the dump has none
     masses: {type: mass}; goes before the column mass and the data file
     units: of the dump; default: what the dump or the data file says, else si
+    mirror: planes that the scene is cut at, like ("x=0", "y=0"), or "none"; goes before what the dump or the data file says
     dt: time per step; interval: time per frame, for dump_modify every/time; for dumps without ITEM: TIME
     progress: see hvi.progress
 
@@ -78,7 +80,8 @@ class Dump:
     listed in problems. Raises HVIError if there is no frame at all.
     """
 
-    def __init__(self, paths, *, data=None, masses=None, units=None, dt=None, interval=None, progress=silent):
+    def __init__(self, paths, *, data=None, masses=None, units=None, mirror=None, dt=None, interval=None,
+                 progress=silent):
         self.paths = [str(p) for p in ([paths] if isinstance(paths, (str, os.PathLike)) else paths)]
         if not self.paths:
             raise HVIError("no dump file")
@@ -97,10 +100,11 @@ class Dump:
             raise HVIError(f"{self.paths[0]}: frame {back} goes back to step {self.steps[back]} (a resumed run?): its time does "
                            "not follow from the interval between frames")
         self._packed, self._last = None, None
-        self._fill_in(data, masses, units)
+        self._fill_in(data, masses, units, mirrors.of_words(mirror))
 
-    def _fill_in(self, data, masses, units):
+    def _fill_in(self, data, masses, units, planes):
         data = DataFile(data) if isinstance(data, (str, os.PathLike)) else data
+        self._said, self._else = planes, data.mirror if data else None
         said = self.headers[0].units or (data.units if data else None)
         if units and said and units != said:
             raise HVIError(f"{self.paths[0]} is in units {said}, not {units}")
@@ -140,6 +144,11 @@ class Dump:
             raise HVIError(f"there is no frame {k}: {self.paths[0]} has {len(self)} complete frames, 0 to {len(self) - 1}")
         return k % len(self)
 
+    def mirror(self, number):
+        """Mirror planes of a frame: as given, else those of the dump, else of the data file; None if nobody says."""
+        said = (self._said, self.headers[number].mirror, self._else)
+        return next((planes for planes in said if planes is not None), None)
+
     def at_step(self, step):
         """Number of the (last) frame of a time step; HVIError if there is none."""
         found = np.flatnonzero(self.steps == step)
@@ -165,7 +174,7 @@ class Dump:
         if "id" in columns:
             columns = _sorted(columns, header.where)
         frame = Frame(columns, number=k, step=header.step, time=self.time(k), box=header.box, units=self.units,
-                      masses=self.masses, where=f"frame {k} of {header.where}")
+                      masses=self.masses, mirror=self.mirror(k), where=f"frame {k} of {header.where}")
         self._last = weakref.ref(frame)
         return frame
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from . import units as unit_systems
 from .errors import HVIError
-from .frame import as_frame, axis_number
+from .frame import as_frame, axis_number, whole
 
 WIDTH = 6.4  # inches
 BODIES = ("#c8373a", "#2f62a8", "#5a9a57", "#8a5aa3", "#d8892f", "#6b6b6b")  # types 1, 2, ...
@@ -114,7 +114,7 @@ def side(source, axis="z", up=None, color="type", thickness=None, fragments=None
     thickness: of a slice: only particles within half of it from the center of mass, in the direction of view
     diameter: of the dots; default: spacing()
     """
-    frame = as_frame(source)
+    frame = whole(source)
     up = up or "yzx"[axis_number(axis)]
     a, b = axis_number(axis), axis_number(up)
     if a == b:
@@ -259,8 +259,11 @@ def impacts(source, found, axis="z"):
     return figure
 
 
-def distribution(masses, fits=(), units="si"):
-    """N(>m) on logarithmic axes, with Fits as lines over their range."""
+def distribution(masses, fits=(), units="si", small=None):
+    """N(>m) on logarithmic axes, with Fits as lines over their range.
+
+    small: (masses, numbers) of all pieces with those below the spacing, drawn as another curve
+    """
     from .distribution import cumulative
 
     m, _, from_here = cumulative(masses)
@@ -270,6 +273,11 @@ def distribution(masses, fits=(), units="si"):
     figure, ((ax,),) = _figure(4.2)
     ax.step(m / factor, from_here, where="pre", color="black", lw=STYLE["line"], label="fragments")
     ax.vlines(m[-1] / factor, 0.5, from_here[-1], color="black", lw=STYLE["line"])
+    highest = from_here[0]
+    if small is not None:
+        every, _, number = cumulative(*small)
+        ax.step(every / factor, number, where="pre", color="0.6", lw=STYLE["line"], zorder=0, label="with debris below the spacing (estimate)")
+        highest = max(highest, number[0])
     for fit, color, dashes in zip(fits, (BODIES[0], BODIES[1]), ("--", ":")):
         upper = min(m[-1], fit.m_max)
         line = np.geomspace(fit.m_min, upper, 300)
@@ -287,7 +295,7 @@ def distribution(masses, fits=(), units="si"):
         ax.plot(drawn / factor, above, dashes, color=color, lw=STYLE["line"] + 0.4, label=value)
     ax.set_xscale("log")
     ax.set_yscale("log")
-    ax.set_ylim(0.7, 1.5 * from_here[0])
+    ax.set_ylim(0.7, 1.5 * highest)
     _label(ax, unit_systems.label("m", unit), "N(> m)")
     ax.legend(fontsize=STYLE["size"], frameon=False)
     return figure

@@ -6,6 +6,7 @@ import dataclasses
 import numpy as np
 
 from . import bonds as bond_sources
+from . import mirror as mirrors
 from .cloud import beyond
 from .errors import HVIError
 from .frame import as_frame
@@ -16,6 +17,8 @@ ROW = np.dtype([("id", np.int64), ("count", np.int64), ("mass", float), ("x", fl
 COLUMN_QUANTITIES = {"mass": "mass", "x": "distance", "y": "distance", "z": "distance", "vx": "velocity",
                      "vy": "velocity", "vz": "velocity", "ke": "energy", "size": "distance"}
 
+FAILED = ("damage", "spalled")  # columns of compute hvi/atom
+
 
 @dataclasses.dataclass
 class Fragments:
@@ -25,12 +28,14 @@ class Fragments:
     label: fragment ID of each of them, (n,) of int64
     table: one row per fragment, dtype ROW, largest mass first, equal masses in order of ID; pandas.DataFrame(table)
     unit: mass of a particle if all have the same, else None
+    own: rows that are not merely images of others behind mirror planes, (fragments,) of bool
     """
 
     frame: object
     label: np.ndarray
     table: np.ndarray
     unit: float
+    own: np.ndarray
 
     @property
     def summary(self):
@@ -49,6 +54,11 @@ class Fragments:
         order = np.argsort(self.table["id"])
         return order[np.searchsorted(self.table["id"], self.label, sorter=order)]
 
+    def images(self, rows=slice(None)):
+        """How many of the rows there are for each that is not merely the image of another; 1 without mirror planes."""
+        own = self.own[rows]
+        return len(own) / own.sum() if own.any() else 1.0
+
     def dataframe(self):
         """The table as a pandas.DataFrame, indexed by fragment ID."""
         import pandas
@@ -56,7 +66,7 @@ class Fragments:
         return pandas.DataFrame(self.table).set_index("id")
 
 
-def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, where=None):
+def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, where=None, failed=None):
     """Fragments of a frame, by one of three rules; only particles that count connect others.
 
     source: a Frame, or a Universe or AtomGroup of hvi.open()
@@ -65,30 +75,102 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
     distance: particles closer than this hang together, also across periodic boundaries
     axis, plane: only particles beyond the plane (coordinate > plane), the debris cloud
     where: mask of particles that count, (n,) of bool, instead of axis and plane
+    failed: with distance: particles that stay alone, as with damage yes, so that fragments are the sound pieces: a mask, (n,) of bool, or
+        names of columns, see has_failed(); else fragments are what has come apart
 
     With a column, pieces that hang together only through particles that do not count are still one fragment: the column
     does not tell.
+
+    Between mirror planes all are fragments of the whole: what touches a plane is one piece with its image, all else is there
+    as often as there are images. A column and bonds know nothing of images, so give the distance too: a particle that is
+    closer to its image than that hangs together with it. For a column that was found with damage yes say who has failed, too.
     """
     frame = as_frame(source)
     if column is None and bonds is None and distance is None:
         bonds = getattr(getattr(getattr(source, "universe", None), "trajectory", None), "bonds", None)
-    if sum(rule is not None for rule in (column, bonds, distance)) != 1:
-        raise HVIError("fragments are found by a column, by bonds or by distance: give one of them")
-    if where is not None and (axis is not None or plane is not None):
-        raise HVIError("give a mask or an axis and a plane, not both")
-    if axis is not None or plane is not None:
-        where = beyond(frame, axis, plane)
+    _check_rule(column, bonds, distance, frame.planes)
+    if failed is not None and distance is None:
+        raise HVIError("sound pieces are found by distance: by bonds or by a column there are no failed particles")
+    if failed is not None and len(failed) and isinstance(failed[0], str):
+        failed = has_failed(frame, failed)
+    failed = np.zeros(len(frame), dtype=bool) if failed is None else failed
     if where is not None:
-        frame = frame.select(where)
+        if axis is not None or plane is not None:
+            raise HVIError("give a mask or an axis and a plane, not both")
+        frame, failed = frame.select(where), failed[where]
     if column is not None:
-        frame = frame.select(frame[column] != 0)
+        counts = frame[column] != 0
+        frame, failed = frame.select(counts), failed[counts]
+    whole = cloud = frame.whole()
+    keep = slice(None)
+    if axis is not None or plane is not None:
+        keep = beyond(whole, axis, plane)
+        cloud = whole.select(keep)
+    if column is not None:
         label = _whole_ids(frame, column)
+        if frame.planes:
+            label = components(whole.ids, bond_sources.rows_of(_image_pairs(frame, _chains(frame.ids, label), distance, failed), whole.ids))
+        label = label[keep]
+    elif bonds is not None:
+        pairs = bond_sources.source(bonds).at(frame.step)
+        if frame.planes:
+            pairs = _image_pairs(frame, frame.ids[bond_sources.rows_of(pairs, frame.ids)], distance, failed)
+        label = components(cloud.ids, bond_sources.rows_of(pairs, cloud.ids))
     else:
-        pairs = _close_pairs(frame, distance) if bonds is None else _bonded_pairs(frame, bonds)
-        label = components(frame.ids, pairs)
-    mass = frame.m
+        pairs = _close_pairs(cloud, distance)
+        alone = np.tile(failed, 1 << len(frame.planes))[keep]
+        label = components(cloud.ids, pairs[~alone[pairs].any(axis=1)])
+    mass, table = cloud.m, tabulate(cloud, label)
     same = len(mass) and mass.min() == mass.max()
-    return Fragments(frame, label, tabulate(frame, label), float(mass[0]) if same else None)
+    own = table["id"] <= frame.id_step if frame.planes else np.ones(len(table), dtype=bool)
+    return Fragments(cloud, label, table, float(mass[0]) if same else None, own)
+
+
+def has_failed(frame, columns=FAILED):
+    """Mask of the particles that have failed: 1 or more in one of the columns, (n,) of bool."""
+    return np.any([np.asarray(frame[name]) >= 1.0 for name in columns], axis=0)
+
+
+def _check_rule(column, bonds, distance, planes):
+    given = sum(rule is not None for rule in (column, bonds, distance))
+    if planes and given == 1 and distance is None:
+        raise HVIError(f"{'a column' if bonds is None else 'bonds'} of a {mirrors.text(planes)} does not tell what hangs together "
+                       "with its image: give the distance, too")
+    if given != 1 and not (planes and given == 2 and distance is not None):
+        raise HVIError("fragments are found by a column, by bonds or by distance: give one of them")
+
+
+def _chains(ids, label):
+    """Pairs of IDs that connect all particles of a label, (k, 2)."""
+    order = np.argsort(label, kind="stable")
+    ids, label = ids[order], label[order]
+    same = label[1:] == label[:-1]
+    return np.column_stack([ids[:-1][same], ids[1:][same]])
+
+
+def _image_pairs(frame, pairs, distance, failed):
+    """Pairs of IDs in frame.whole(): those given, (k, 2), in all images, and of sound particles with images closer than distance.
+
+    If any two particles on either side of a plane are closer than that, one of the two is that close to its own image.
+    """
+    if not (distance > 0.0 and np.isfinite(distance)):
+        raise HVIError(f"distance must be > 0, not {distance}")
+    images, step = [bits for bits, _ in mirrors.images(frame.planes)], frame.id_step
+    found = [pairs + bits * step for bits in images]
+    for b, plane in enumerate(frame.planes):
+        ids = frame.ids[~failed & (2.0 * plane.depth(frame.x) < distance)]
+        found += [np.column_stack([ids + bits * step, ids + (bits | 1 << b) * step]) for bits in images if not bits >> b & 1]
+    return np.concatenate(found)
+
+
+def both(source, failed=None, **rule):
+    """Fragments by a rule of find(), and their summary; if failed particles are known, of the sound pieces, with two numbers of what has come
+    apart in the summary: pieces_apart, largest_apart_mass_fraction."""
+    found = find(source, failed=failed, **rule)
+    if failed is None or rule.get("column") is not None or rule.get("bonds") is not None:
+        return found, found.summary
+    apart = find(source, **rule).summary
+    return found, {**found.summary, "pieces_apart": apart["fragments"], "largest_apart_mass_fraction": apart["largest_fragment_mass_fraction"]}
 
 
 def components(ids, pairs):
@@ -107,10 +189,6 @@ def components(ids, pairs):
     lowest = np.empty(number, dtype=np.int64)
     lowest[component[::-1]] = ids[::-1]  # the last one written is the lowest
     return lowest[component]
-
-
-def _bonded_pairs(frame, bonds):
-    return bond_sources.rows_of(bond_sources.source(bonds).at(frame.step), frame.ids)
 
 
 def _close_pairs(frame, distance):

@@ -3,7 +3,9 @@
 
 import numpy as np
 
+from . import mirror as mirrors
 from . import units as unit_systems
+from .box import Box
 from .errors import HVIError
 
 INTEGERS = {"id", "mol", "type", "proc", "procp1", "ix", "iy", "iz"}  # columns that LAMMPS writes as whole numbers
@@ -20,12 +22,14 @@ class Frame:
     has them. Units are those of the dump.
 
     number: place in the dump, from 0; step: LAMMPS's time step; time: or None; box: a Box; units: "si", ...
+    mirror: planes that it is cut at, () of a whole scene, None if nobody knows: see hvi.mirror
     """
 
-    def __init__(self, columns, *, number=0, step=0, time=None, box=None, units="si", masses=None, where="frame"):
+    def __init__(self, columns, *, number=0, step=0, time=None, box=None, units="si", masses=None, mirror=(), where="frame"):
         self.columns = columns
         self.number, self.step, self.time, self.box, self.units = number, step, time, box, units
         self.type_masses = masses or {}
+        self.mirror = mirror
         self.where = where
         self._cache = {}
 
@@ -47,8 +51,70 @@ class Frame:
 
     def select(self, mask):
         """The same frame with only the particles where mask (n,) is true."""
-        return Frame({name: column[mask] for name, column in self.columns.items()}, number=self.number, step=self.step,
-                     time=self.time, box=self.box, units=self.units, masses=self.type_masses, where=self.where)
+        return self._with({name: column[mask] for name, column in self.columns.items()}, self.box, self.planes)
+
+    def _with(self, columns, box, planes):
+        return Frame(columns, number=self.number, step=self.step, time=self.time, box=box, units=self.units,
+                     masses=self.type_masses, mirror=planes, where=self.where)
+
+    @property
+    def planes(self):
+        """Mirror planes, a tuple; HVIError if nothing says whether there are any, and it looks as if."""
+        if self.mirror is None:
+            self.mirror = ()
+            if any(all(name in self for name in names) for names, _, _ in _COORDINATES):
+                planes = mirrors.suspects(self.x, self.box.periodic if self.box else (False,) * 3)
+                if planes:
+                    self.mirror = None
+                    words = " ".join(f"--mirror {'xyz'[p.axis]}=0{',hi' * (p.side == 'hi')}" for p in planes)
+                    raise HVIError(f"{self.where} has no record of mirror planes, and looks like a {mirrors.text(planes)}: unknown "
+                                   f"whether it is the whole; say {words}, or --mirror none")
+        return self.mirror
+
+    def whole(self):
+        """The whole scene: this frame, if there are no mirror planes, else with the images of all particles.
+
+        Rows of the part come first, then those of each image, with IDs above all of those before. Coordinates are in x y z,
+        unwrapped; velocities, forces and shear stresses (sxy sxz syz) are those of the images, other columns are repeated.
+        """
+        if not self.planes:
+            return self
+        return self._once("whole", self._add_images)
+
+    @property
+    def id_step(self):
+        """By how much the IDs of an image are above those of the one before, in whole()."""
+        return int(self.ids.max()) if len(self) else 1
+
+    def _add_images(self):
+        images = list(mirrors.images(self.planes))
+        letters = dict(zip("xyz", range(3)))
+        old = {name for names, _, _ in _COORDINATES for name in names} | {"ix", "iy", "iz"}
+        columns = {}
+        for name, column in self.columns.items():
+            if name in old:
+                continue
+            axes = name[1:] if name in ("vx", "vy", "vz", "fx", "fy", "fz", "sxy", "sxz", "syz") else ""
+            flips = [np.prod([signs[letters[a]] for a in axes]) for _, signs in images]
+            parts = [-column if flip < 0 else column for flip in flips]
+            if name == "id":
+                parts = [column + bits * self.id_step for bits, _ in images]
+            columns[name] = np.concatenate(parts)
+        at = np.zeros(3)
+        for plane in self.planes:
+            at[plane.axis] = plane.at
+        x = np.concatenate([np.where(signs < 0.0, 2.0 * at - self.x, self.x) for _, signs in images])
+        columns.update(zip("xyz", x.T))
+        return self._with(columns, self.box and self._whole_box(), ())
+
+    def _whole_box(self):
+        origin, vectors = self.box.origin.copy(), self.box.vectors.copy()
+        for plane in self.planes:
+            k = plane.axis
+            low, high = origin[k], origin[k] + vectors[k, k]
+            reach = max(abs(low - plane.at), abs(high - plane.at))
+            origin[k], vectors[k, k] = plane.at - reach, 2.0 * reach
+        return Box(origin, vectors, self.box.periodic)
 
     def _once(self, name, make):
         if name not in self._cache:
@@ -83,6 +149,15 @@ class Frame:
         """energy = 0.5 mvv2e m v^2"""
         return unit_systems.MVV2E[self.units]
 
+    def by_type(self, values, what):
+        """A number for each particle, (n,), from {type: number}; HVIError that names a type without one."""
+        types, place = np.unique(self["type"], return_inverse=True)
+        unknown = [str(t) for t in types if t not in values]
+        if unknown:
+            known = ", ".join(f"{t}={value:g}" for t, value in values.items())
+            raise HVIError(f"{self.where}: no {what} for type {' '.join(unknown)}; known are {known}")
+        return np.array([values[t] for t in types], dtype=float)[place]
+
     def _vectors(self, names):
         vectors = np.stack([self[name] for name in names], axis=1)
         self.require_finite(vectors, names)
@@ -115,12 +190,7 @@ class Frame:
         elif not self.type_masses:
             raise HVIError(f"{self.where} has no masses: give a data file, the mass of each type, or dump the column mass")
         else:
-            types, place = np.unique(self["type"], return_inverse=True)
-            unknown = [str(t) for t in types if t not in self.type_masses]
-            if unknown:
-                known = ", ".join(f"{t}={m:g}" for t, m in self.type_masses.items())
-                raise HVIError(f"{self.where}: no mass for type {' '.join(unknown)}; known are {known}")
-            m = np.array([self.type_masses[t] for t in types], dtype=float)[place]
+            m = self.by_type(self.type_masses, "mass")
         self.require_finite(m[:, None], ("mass",))
         if len(m) and not m.min() > 0.0:
             raise HVIError(f"{self.where}: a mass is {m.min():g}; masses must be > 0")
@@ -139,6 +209,11 @@ def as_frame(source):
     if source is universe or len(source.atoms) == len(universe.atoms):
         return frame
     return frame.select(np.isin(frame.ids, source.atoms.ids))
+
+
+def whole(source):
+    """The Frame of what analysis functions accept, with all images behind mirror planes: what they measure."""
+    return as_frame(source).whole()
 
 
 def axis_number(axis):

@@ -7,7 +7,7 @@ import numpy as np
 
 from .cloud import beyond
 from .errors import HVIError
-from .frame import as_frame, axis_number
+from .frame import axis_number, whole
 
 
 @dataclasses.dataclass
@@ -21,7 +21,7 @@ class Map:
 
 
 def _cloud(source, axis, plane, bins):
-    frame = as_frame(source)
+    frame = whole(source)
     if plane is not None:
         frame = frame.select(beyond(frame, axis, plane))
     if not len(frame):
@@ -70,21 +70,25 @@ def field(source, axis, plane=None, bins=(200, 100)):
 
 @dataclasses.dataclass
 class Impacts:
-    """momentum (along the axis) and energy per area, (n, n) of the edges x (n + 1,) in both directions; summary: dict of totals"""
+    """momentum (along the axis) and energy per area, (n, n) of the edges x (n + 1,) in both directions; summary: dict of totals
+
+    frame: the particles on their way, k of the whole; kinetic: energy of each, (k,)
+    """
 
     momentum: np.ndarray
     energy: np.ndarray
     x: np.ndarray
     summary: dict
+    frame: object
+    kinetic: np.ndarray
 
 
-def impacts(source, axis, plane, bins=80, after=None, reach=None, quarter=False):
+def impacts(source, axis, plane, bins=80, after=None, reach=None):
     """Where particles on the way to the plane will strike it if they fly on freely: a witness plate.
 
     after: only particles beyond this coordinate; reach: half the width of the map, default where 99 % of the energy is
-    quarter: of a quarter model; its mirror images in the planes through 0 are added
     """
-    frame = as_frame(source)
+    frame = whole(source)
     along = axis_number(axis)
     across = [k for k in range(3) if k != along]
     coming = (frame.x[:, along] < plane) & (frame.v[:, along] > 0.0)
@@ -97,9 +101,6 @@ def impacts(source, axis, plane, bins=80, after=None, reach=None, quarter=False)
     flight = (plane - frame.x[:, along]) / v[:, along]
     x = frame.x[:, across] + flight[:, None] * v[:, across]
     p, e = m * v[:, along], 0.5 * frame.mvv2e * m * np.einsum("ij,ij->i", v, v)
-    if quarter:
-        x = np.concatenate([x * sign for sign in ((1, 1), (1, -1), (-1, 1), (-1, -1))])
-        p, e, m, flight = (np.tile(values, 4) for values in (p, e, m, flight))
     r = np.hypot(*x.T)
     order = np.argsort(r)
     share = np.cumsum(e[order]) / e.sum()
@@ -111,7 +112,8 @@ def impacts(source, axis, plane, bins=80, after=None, reach=None, quarter=False)
     return Impacts(*both, edges, {
         "particles": len(m), "mass": m.sum(), "momentum": p.sum(), "kinetic_energy": e.sum(), "first_arrival_in": flight.min(),
         "radius_of_half_the_energy": r[order][np.searchsorted(share, 0.5)],
-        "largest_momentum_per_area": both[0].max(), "largest_energy_per_area": both[1].max()})
+        "largest_momentum_per_area": both[0].max(), "largest_energy_per_area": both[1].max()},
+        frame, e)
 
 
 def _ratio(a, b):

@@ -119,11 +119,12 @@ def write(path, plate, density, title=""):
     """A data file of atom_style sph, at rest and without internal energy."""
     margin = plate.spacing[-1]
     low = 0.0 if plate.quarter else -(plate.radius + margin)
+    mirror = "mirror x 0 lo mirror y 0 lo" if plate.quarter else "mirror none"
     side = f"{low:.10g} {plate.radius + margin:.10g}"
     n, types = len(plate.x), len(plate.volume)
     try:
         with open(path, "w", encoding="ascii") as out:
-            out.write(f"LAMMPS data file: plate {title}\n\n{n} atoms\n{types} atom types\n\n{side} xlo xhi\n{side} ylo yhi\n"
+            out.write(f"LAMMPS data file: plate {title}, {mirror}\n\n{n} atoms\n{types} atom types\n\n{side} xlo xhi\n{side} ylo yhi\n"
                       f"0 {plate.step * len(plate.angles):.10g} zlo zhi\n\nMasses\n\n")
             out.writelines(f"{k + 1} {density * v:.15g}\n" for k, v in enumerate(plate.volume))
             out.write("\nAtoms # sph\n\n")

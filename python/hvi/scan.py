@@ -10,6 +10,7 @@ import dataclasses
 import gzip
 import os
 
+from . import mirror as mirrors
 from .box import Box
 from .errors import HVIError
 from .progress import silent
@@ -23,8 +24,8 @@ class Header:
     """Where a frame is and what its header says.
 
     start, body: bytes in the file where the frame and its rows begin; size: bytes of the rows; n: rows announced;
-    rows: lines found; label: ATOMS, ENTRIES or what dump_modify label says; columns: their names; problem: why this
-    frame cannot be read, or None
+    rows: lines found; label: ATOMS, ENTRIES or what dump_modify label says; columns: their names; mirror: planes, None if
+    it does not say; problem: why this frame cannot be read, or None
     """
 
     path: str
@@ -35,6 +36,7 @@ class Header:
     time: float = None
     units: str = None
     label: str = None
+    mirror: tuple = None
     columns: tuple = ()
     body: int = None
     size: int = 0
@@ -120,6 +122,10 @@ def _read_item(header, offset, text, lines, size):
             raise ValueError(f"it ends after {header.rows} of {header.n} rows")
         if header.rows > header.n:
             raise ValueError(f"it has {header.rows} rows instead of {header.n}")
+        if header.label == "ATOMS" and header.n:
+            header.mirror, time, units = mirrors.of_row(header.columns, below[0].split(), header.where)
+            header.time = time if header.time is None else header.time
+            header.units = header.units or units
         return True
     return False
 

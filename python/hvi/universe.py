@@ -30,8 +30,8 @@ from .errors import HVIError
 FORMAT = "LAMMPSHVI"
 
 
-def open_universe(dump, data=None, bonds=None, *, atoms="first", bond_columns=None, masses=None, units=None, dt=None,
-                  interval=None):
+def open_universe(dump, data=None, bonds=None, *, atoms="first", bond_columns=None, masses=None, units=None, mirror=None,
+                  dt=None, interval=None):
     """An MDAnalysis Universe of a dump (path, paths or a Dump).
 
     data: data file (write_data): masses, bonds
@@ -41,14 +41,14 @@ def open_universe(dump, data=None, bonds=None, *, atoms="first", bond_columns=No
     atoms: "first": the topology has the particles of the first frame and of the data file; "all": of every frame, which
     reads the whole dump once (needed where particles are added or a dump_modify region or thresh lets others in)
     bond_columns: names of the two columns with atom IDs in the dump of bonds, see hvi.bonds.BondDump
-    masses, units, dt, interval: see hvi.Dump
+    masses, units, mirror, dt, interval: see hvi.Dump
 
     Coordinates, velocities and forces are numbers of the dump, in its units, unwrapped where it allows (Frame.x).
     Raises HVIError where files are missing, cut off or do not fit together.
     """
     data = DataFile(data) if isinstance(data, str) or hasattr(data, "__fspath__") else data
     if not isinstance(dump, Dump):
-        dump = Dump(dump, data=data, masses=masses, units=units, dt=dt, interval=interval)
+        dump = Dump(dump, data=data, masses=masses, units=units, mirror=mirror, dt=dt, interval=interval)
     if atoms not in ("first", "all"):
         raise HVIError(f"atoms must be first or all, not {atoms}")
     if bonds is None and data is not None and data.has_bonds:

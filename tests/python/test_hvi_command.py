@@ -114,8 +114,8 @@ def test_howto(files, root):
 
 def test_info(command, files):
     status, out, err = command("info", "a.dump")
-    assert (status, err) == (0, "") and "columns: id type x y z vx vy vz c_frag" in out
-    assert [line.split() for line in out.splitlines()[3:]] == [[str(k), str(100 * k), "-", "300"] for k in range(3)]
+    assert (status, err) == (0, "") and "columns: id type x y z vx vy vz c_frag\nmodel: not said\n" in out
+    assert [line.split() for line in out.splitlines()[4:]] == [[str(k), str(100 * k), "-", "300"] for k in range(3)]
 
 
 def test_cloud(command, files):

@@ -147,3 +147,15 @@ def test_units_do_not_matter():
 def test_no_fit(masses, how, message):
     with pytest.raises(hvi.HVIError, match=message):
         hvi.fit(masses, **how)
+
+
+@pytest.mark.parametrize("case", ["power, tail", "exponential, whole", "power, whole, range"])
+def test_images_do_not_make_it_more_certain(case):
+    """four times the same masses, as of a quarter model, are one sample: error, likelihood, choice of the range, how many are needed"""
+    masses, how, _ = samples(case, np.random.default_rng(8))
+    one, four = hvi.fit(masses, **how), hvi.fit(np.repeat(masses, 4), images=4.0, **how)
+    for name in ("parameter", "error", "log_likelihood", "ks", "m_min"):
+        assert getattr(four, name) == pytest.approx(getattr(one, name), rel=1e-9), name
+    assert four.n == 4 * one.n and hvi.fit(np.repeat(masses, 4), **how).error == pytest.approx(one.error / 2)
+    with pytest.raises(hvi.HVIError, match="only 36 fragments .*: a fit needs 40"):
+        hvi.fit(np.repeat(np.arange(1.0, 10.0), 4), m_min=1.0, images=4.0)

@@ -155,10 +155,109 @@ dump_modify 1 format float %.17g
 thermo_style custom step c_t[*]
 run 0
 """).thermo
-        frame = hvi.Dump(tmp_path / "a.dump", data=tmp_path / "s.data", units="lj")[0]
+        frame = hvi.Dump(tmp_path / "a.dump", data=tmp_path / "s.data", units="lj", mirror="none")[0]
         found = hvi.find(frame, distance=0.85)
         assert np.array_equal(found.label, frame["c_f"])
         assert 5 < len(found.table) == thermo["c_t[1]"][0] < 60
+
+
+FORMS = {"apart": "", "sound": "damage yes"}  # what has come apart, what is sound
+
+
+def same_rows(found, rows, size):
+    """rows of a dump local are the table; size (11,) of what large numbers cancel in"""
+    want = np.stack(list(rows.values()), axis=1)
+    got = np.array(found.table.tolist()).reshape(-1, len(ROW.names))
+    assert got.shape == want.shape and np.all(np.abs(got - want) <= CLOSE * (np.asarray(size) + np.abs(want)))
+    return want
+
+
+def test_apart_and_sound_on_any_ranks(lmp, tmp_path):
+    """one state on 1 to 4 ranks: number, largest, and mass, momentum and energy of every piece, in both forms, are those of Python"""
+    rng = np.random.default_rng(6)
+    n, box = 900, 10.0
+    x, v, mass = rng.uniform(0, box, (n, 3)), rng.normal(1, 3, (n, 3)), np.array([1.0, 3.0])
+    text = f"state\n\n{n} atoms\n2 atom types\n" + "".join(f"0 {box} {a}lo {a}hi\n" for a in "xyz") + "\nMasses\n\n1 1\n2 3\n\nAtoms # atomic\n\n"
+    text += "".join(f"{k + 1} {1 + k % 2} {' '.join(map(repr, y))}\n" for k, y in enumerate(x.tolist()))
+    text += "\nVelocities\n\n" + "".join(f"{k + 1} {' '.join(map(repr, y))}\n" for k, y in enumerate(v.tolist()))
+    (tmp_path / "s.data").write_text(text)
+    tables = {}
+    for nranks in (1, 2, 3, 4):
+        text = """units lj
+atom_style atomic
+atom_modify map array
+boundary f f f
+comm_modify cutoff 2.5
+fix d all property/atom d_hvi_damage ghost no
+read_data s.data
+pair_style zero 1.0
+pair_coeff * *
+neighbor 0.2 bin
+set group all d_hvi_damage 0.999
+group failed id 1:900:4
+set group failed d_hvi_damage 1.0
+"""
+        for name, words in FORMS.items():
+            text += f"compute {name} all hvi/fragment distance 0.75 {words}\ndump {name} all local 1 {name}.rows c_{name}[*]\n"
+            text += f"dump_modify {name} format float %.17g\n"
+        thermo = lmp(text + """dump all all custom 1 a.dump id type mass x y z vx vy vz d_hvi_damage
+dump_modify all format float %.17g
+thermo_style custom step c_apart[*] c_sound[*]
+thermo_modify format float %.17g norm no
+run 0
+""", nranks=nranks).thermo
+        frame = hvi.Dump(tmp_path / "a.dump", units="lj", mirror="none")[0]
+        for name in FORMS:
+            found, summary = hvi.fragments.both(frame, distance=0.75, failed=["d_hvi_damage"] if name == "sound" else None)
+            assert [summary[key] for key in SUMMARY] == pytest.approx(vector(thermo, name, 0), rel=CLOSE, abs=0)
+            if name == "sound":  # and with it both
+                assert summary["pieces_apart"] == thermo["c_apart[1]"][0]
+                assert summary["largest_apart_mass_fraction"] == pytest.approx(thermo["c_apart[4]"][0], rel=CLOSE)
+            rows = same_rows(found, hvi.Dump(tmp_path / f"{name}.rows").rows(0), [0, 0, 0, 1, 1, 1, 10, 10, 10, 0, 1e-2])
+            tables.setdefault(name, rows)
+            assert np.array_equal(rows[:, :2], tables[name][:, :2])
+            assert rows == pytest.approx(tables[name], rel=1e-12, abs=1e-12)
+            m = mass[frame["type"] - 1]
+            assert rows[:, 2].sum() == pytest.approx(m.sum(), rel=1e-13)
+            assert rows[:, 2] @ rows[:, 6:9] == pytest.approx(m @ v, rel=1e-11)
+            assert rows[:, 9].sum() == pytest.approx(0.5 * m @ (v**2).sum(axis=1), rel=1e-12)
+    assert 1.1 * len(tables["apart"]) < len(tables["sound"]) < n and tables["apart"][0, 1] > tables["sound"][0, 1] > 5
+
+
+@pytest.mark.parametrize("nranks", [1, 2, 3, 4])
+def test_apart_and_sound_of_an_impact(lmp, root, tmp_path, nranks):
+    """examples/single-plate: failed by fix hvi/johnson-cook, both forms; result.yaml, computes and Python agree"""
+    text = (root / "examples" / "single-plate" / "in.plate").read_text() + """
+dump sound all local 1 sound.rows c_pieces[*]
+dump apart all local 1 apart.rows c_apart[*]
+dump all projectile custom 1 a.dump id type x y z vx vy vz mass c_state[2] c_state[3]
+dump_modify sound format float %.17g
+dump_modify apart format float %.17g
+dump_modify all format float %.17g colname c_state[2] damage colname c_state[3] spalled
+thermo_style custom step c_apart[*] c_pieces[*]
+thermo_modify format float %.17g lost ignore
+run 0
+"""
+    thermo = lmp(text, nranks=nranks, env={"LAMMPS_POTENTIALS": str(root / "potentials")}, vars=dict(
+        dx=1.25, D=10, v0=3000, t=1.25, Rplate=15, quarter="yes", spall="voids", tstop=6, frame=6, material_p="Al2017-T4.hvi")).thermo
+    result = dict(line.split(": ", 1) for line in (tmp_path / "result.yaml").read_text().splitlines() if ": " in line)
+    frame = hvi.Dump(tmp_path / "a.dump", mirror="none")[0]  # the computes see the quarter
+    found, summary = hvi.fragments.both(frame, distance=1.5 * 1.25e-3, failed=list(hvi.fragments.FAILED))
+    assert [summary[key] for key in SUMMARY] == pytest.approx(vector(thermo, "pieces", -1), rel=CLOSE, abs=0)
+    apart = hvi.find(frame, distance=1.5 * 1.25e-3)
+    assert [apart.summary[key] for key in SUMMARY] == pytest.approx(vector(thermo, "apart", -1), rel=CLOSE, abs=0)
+    for one, name in ((found, "sound"), (apart, "apart")):
+        same_rows(one, hvi.Dump(tmp_path / f"{name}.rows").rows(0), [0, 0, 0, 1e-2, 1e-2, 1e-2, 3e3, 3e3, 3e3, 0, 1e-2])
+    for key in ("fragments", "fragmentation", "largest_fragment_mass_fraction", "pieces_apart", "largest_apart_mass_fraction"):
+        assert float(result[key]) == pytest.approx(summary[key], abs=1e-5), key
+    assert summary["fragments"] > summary["pieces_apart"] > 3
+    # and so does the dump that the example writes, of which all but the plate counts
+    frame = hvi.Dump(tmp_path / "frame.6.dump", mirror="none")[0]
+    again = hvi.fragments.both(frame.select(frame["type"] == 1), distance=1.5 * 1.25e-3, failed=list(hvi.fragments.FAILED))[1]
+    assert again == pytest.approx(summary, rel=1e-5)
+    debris = hvi.debris.estimate(frame, hvi.fragments.has_failed(frame), {1: 2790.0, 2: 2703.0})
+    masses = debris.summary
+    assert masses["subparticle_mass"] > 0 and sum(masses[f"{kind}_mass"] for kind in hvi.debris.KINDS) == pytest.approx(frame.m.sum(), rel=1e-14)
 
 
 def test_reach_longer_than_the_box():

@@ -3,7 +3,7 @@
 import hvi
 import numpy as np
 import pytest
-from hvi import cli, maps, plates
+from hvi import cli, maps, mirror, plates
 from hvi.data import DataFile
 from scipy.spatial import cKDTree
 
@@ -115,13 +115,13 @@ def test_density_of_material_files(root, tmp_path):
         plates.density_of(tmp_path / "no.hvi")
 
 
-def cloud():
+def cloud(planes=()):
     x = np.array([[1.2, 2.2, 0], [0.5, 0.5, -5], [1, 1, 3], [0, 0, 12]], dtype=float)
     v = np.array([[0.1, 0, 1], [0, 0, 2], [0, 0, -1], [0, 0, 1]], dtype=float)
     columns = {"id": np.arange(1, 5), "mass": np.array([1.0, 2.0, 1.0, 1.0])}
     columns.update({name: x[:, k] for k, name in enumerate("xyz")})
     columns.update({"v" + name: v[:, k] for k, name in enumerate("xyz")})
-    return hvi.Frame(columns, units="lj")
+    return hvi.Frame(columns, units="lj", mirror=planes)
 
 
 def test_impacts():
@@ -133,7 +133,7 @@ def test_impacts():
     assert found.momentum[6, 6] == 1.0 and found.momentum[4, 4] == 4.0 and found.momentum.sum() == 5.0
     assert found.energy[6, 6] == pytest.approx(0.505)
     assert maps.impacts(cloud(), "z", 10.0, after=-1.0).summary["particles"] == 1
-    four = maps.impacts(cloud(), "z", 10.0, bins=8, reach=4.0, quarter=True)
+    four = maps.impacts(cloud(mirror.of_words(["x=0", "y=0"])), "z", 10.0, bins=8, reach=4.0)
     assert four.momentum.sum() == 20.0 and (four.momentum == four.momentum[::-1]).all() and (four.momentum == four.momentum[:, ::-1]).all()
     with pytest.raises(hvi.HVIError, match="nothing is on the way"):
         maps.impacts(cloud(), "z", -10.0)

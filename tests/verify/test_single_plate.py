@@ -5,7 +5,7 @@ import yaml
 
 KEYS = """particles steps time_us wall_s ranks particle_steps_per_s energy_ratio energy_missed_ratio momentum_error mass_error lammps_version package_version
     hole_diameter_mm front_velocity_m_s cloud_length_mm cloud_diameter_mm length_ratio axial_velocity_ratio fragments fragmentation
-    largest_fragment_mass_fraction""".split()
+    largest_fragment_mass_fraction pieces_apart largest_apart_mass_fraction""".split()
 
 
 def plate(lmp, root, folder, nranks=1, fails=False, **variables):

@@ -32,6 +32,24 @@ def test_rings(lmp, tmp_path, kernel, h):
     assert max(momentum_error(r.thermo)) < 1e-11
 
 
+@pytest.mark.parametrize("words", [ART, "dissipation riemann artstress 0.3 4"])
+def test_rings_with_a_law_of_spall(lmp, tmp_path, words):
+    """the rubber bears 2.6 times the tension that comes: nothing fails, nothing comes apart, and the rings bounce as without the law"""
+    law = "spall voids sigma {} rate 0.01 m 0.1 phi_c 0.05"
+    without = rings(lmp, tmp_path, words)[1]
+    r, frames = rings(lmp, tmp_path, words, voids=law.format(0.2), name="sound")
+    most = max(-f["p"] for f in without)
+    print(words, "tension", most, "damage", max(f["damaged"] for f in frames), "nearest", min(f["near"] for f in frames))
+    assert 0.05 < most < 0.1
+    assert max(f["failed"] for f in frames) == 0 and 0 < max(f["damaged"] for f in frames) < 1e-3
+    assert max(f["pieces"] for f in frames) == 1 and min(f["near"] for f in frames) > 0.5
+    assert frames[-1]["v"] == pytest.approx(without[-1]["v"], abs=1e-4) and frames[-1]["v"] < -0.5
+    assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
+    # that is no law that never fails: with a strength below what comes the same rings break
+    frames = rings(lmp, tmp_path, words, voids=law.format(0.03), name="weak", t_end=60.0)[1]
+    assert max(f["failed"] for f in frames) > 20 and max(f["pieces"] for f in frames) > 1
+
+
 @pytest.mark.parametrize("kernel, h", [("cubic", 1.5), ("quintic", 1.2)])
 def test_strip(lmp, tmp_path, kernel, h):
     """stretched by 10 %, the places of all particles stay even; without, neighbors pair up"""

@@ -11,7 +11,7 @@ KEYS = """hole1_diameter_mm hole2_diameter_mm perforated front_velocity_m_s clou
     lammps_version package_version""".split()
 PER_WALL = """reached perforated detached_spall spall_mass_mg fragments largest_fragment_mm largest_fragment_mass_fraction
     largest_fragment_velocity_m_s momentum_N_s momentum_ratio energy_J energy_ratio passed_mass_mg cloud_velocity_ratio
-    cloud_front_velocity_ratio cloud_momentum_ratio cloud_energy_ratio""".split()
+    cloud_front_velocity_ratio cloud_momentum_ratio cloud_energy_ratio pieces_apart largest_apart_mass_fraction""".split()
 SMALL = dict(quarter="no", kernel="cubic", eta=1.2, dx=0.6, spacing=12, radius1=7, radius2=9, behind=20, tstop=8)
 
 
@@ -43,10 +43,10 @@ def test_two_walls(shield, nranks):
 
 
 def measures(frame, layer, front, rear, near):
-    """as in Howto_shield, from a dump: masses of what passed, of spall, of all that is apart, of the largest fragment; how far the
-    body of the wall, of this type, sticks out"""
+    """as in Howto_shield, from a dump: masses of what passed, of spall, of all that is apart, of the largest sound piece and of the
+    largest that is apart; what passed; how far the body of the wall, of this type, sticks out"""
     kind, v = frame["type"], frame.v[:, 2]
-    failed = (frame["c_state[2]"] >= 1) | (frame["c_state[3]"] > 0)
+    failed = hvi.fragments.has_failed(frame)
 
     def pieces(where, sound):
         f = frame.select(where)
@@ -68,22 +68,27 @@ def measures(frame, layer, front, rear, near):
 
     passed = (frame.x[:, 2] > rear) & (v > 0) & ~wall_piece(True)
     spall = passed & ~wall_piece(False) & (kind == layer)
-    largest = np.bincount(pieces(passed, True), frame.m[passed]).max() if passed.any() else 0.0
+    largest, most = (np.bincount(pieces(passed, sound), frame.m[passed]).max() if passed.any() else 0.0 for sound in (True, False))
     bulge = frame.x[wall_piece(True) & (kind == layer), 2].max() - rear
-    return frame.m[passed].sum(), frame.m[spall].sum(), frame.m[passed & ~wall_piece(False)].sum(), largest, bulge
+    return frame.m[passed].sum(), frame.m[spall].sum(), frame.m[passed & ~wall_piece(False)].sum(), largest, most, passed, bulge
 
 
 def test_measures_are_those_of_another_program(shield, tmp_path):
     r = shield(material_t="Al6061-T6.hvi", v0=1500, **{**SMALL, "tstop": 14})
     frame = hvi.Dump(str(tmp_path / "run" / "cloud1.dump"))[0]
-    passed, spall, apart, largest, bulge = measures(frame, 2, 0.0, 0.8e-3, 1.5 * 0.6e-3)
+    passed, spall, apart, largest, most, who, bulge = measures(frame, 2, 0.0, 0.8e-3, 1.5 * 0.6e-3)
     ball = 2785 * 4 / 3 * np.pi * 2.5e-3**3
     assert r["wall1_passed_mass_mg"] == pytest.approx(1e6 * passed, rel=1e-4)
     assert r["wall1_spall_mass_mg"] == pytest.approx(1e6 * spall, rel=1e-4)
     assert r["wall1_apart_mass_mg"] == pytest.approx(1e6 * apart, rel=1e-4) and apart > 0
     assert r["wall1_bulge_over_thickness"] == pytest.approx(bulge / 0.8e-3 + 0.25, abs=1e-3)  # two layers of 0.4 mm
     assert r["wall1_largest_fragment_mass_fraction"] == pytest.approx(largest / ball, abs=1e-6)
-    assert largest > 1.5 * frame.m.max()  # not all single particles
+    assert r["wall1_largest_apart_mass_fraction"] == pytest.approx(most / ball, abs=1e-6)
+    assert most > largest > 1.5 * frame.m.max()  # not all single particles
+    _, summary = hvi.fragments.both(frame.select(who), distance=1.5 * 0.6e-3, failed=list(hvi.fragments.FAILED))
+    assert (r["wall1_fragments"], r["wall1_pieces_apart"]) == (summary["fragments"], summary["pieces_apart"])
+    debris = hvi.debris.estimate(frame, hvi.fragments.has_failed(frame), {1: 2785.0, 2: 2703.0}).summary  # the dump has what it takes
+    assert sum(debris[f"{kind}_mass"] for kind in hvi.debris.KINDS) == pytest.approx(frame.m.sum(), rel=1e-14) and debris["subparticle_mass"] > 0
     wall = frame["type"] == 2
     assert r["wall1_momentum_N_s"] == pytest.approx(frame.m[wall] @ frame.v[wall, 2], rel=1e-4)
     assert frame.m[frame["type"] == 1].sum() == pytest.approx(ball, rel=1e-5)  # of what is in the material file
@@ -151,7 +156,7 @@ def test_quarter_is_the_whole(shield):
     # if the largest fragments are single particles, which is the largest is anybody's guess
     single = quarter["wall1_largest_fragment_mm"] < 1.01 * (6 / np.pi) ** (1 / 3) * SMALL["dx"]
     for key in PER_WALL:
-        if key not in ("reached", "perforated", "detached_spall", "fragments", *["largest_fragment_velocity_m_s"] * single):
+        if key not in ("reached", "perforated", "detached_spall", "fragments", "pieces_apart", *["largest_fragment_velocity_m_s"] * single):
             assert quarter[f"wall1_{key}"] == pytest.approx(whole[f"wall1_{key}"], rel=1e-3), key
     assert quarter["hole1_diameter_mm"] == pytest.approx(whole["hole1_diameter_mm"], rel=0.03)
     assert abs(quarter["energy_ratio"] - 1) < 1e-3 and quarter["momentum_error"] < 1e-10
