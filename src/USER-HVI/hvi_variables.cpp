@@ -13,7 +13,7 @@
 #include "hvi_variables.h"
 
 #include "error.h"
-#include "info.h"
+#include "hvi_variable_list.h"
 #include "input.h"
 #include "variable.h"
 
@@ -44,25 +44,6 @@ static int edits(const std::string &a, const std::string &b)
   return row.back();
 }
 
-/* ----------------------------------------------------------------------
-   names of the index-style variables.  Only Info may look at styles, and says
-   "Variable[  0]: dx,   style = index,   def = 0.4"
-------------------------------------------------------------------------- */
-
-static std::vector<std::string> index_variables(LAMMPS *lmp)
-{
-  Info info(lmp);
-  int n;
-  const auto names = info.get_variable_names(n);
-  std::vector<std::string> found;
-  for (int i = 0; i < n; i++) {
-    const auto words = utils::split_words(info.get_variable_info(i));
-    const auto style = std::find(words.begin(), words.end(), "style");
-    if (words.end() - style > 2 && style[2] == "index,") found.emplace_back(names[i]);
-  }
-  return found;
-}
-
 /* ---------------------------------------------------------------------- */
 
 void HVIVariables::command(int narg, char **arg)
@@ -90,7 +71,9 @@ void HVIVariables::command(int narg, char **arg)
     names.push_back(name);
   }
 
-  for (const std::string &given : index_variables(lmp)) {
+  for (const auto &variable : HVI::variable_list(lmp)) {
+    const std::string &given = variable.name;
+    if (variable.style != "index") continue;
     if (std::find(names.begin(), names.end(), given) != names.end()) continue;
     auto nearer = [&given](const std::string &a, const std::string &b) {
       return edits(a, given) < edits(b, given);
