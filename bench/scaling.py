@@ -287,7 +287,7 @@ def read_maps(args, steps):
         x, y, asleep = np.loadtxt(os.path.join(args.out, "follow", "dump.%d" % step), skiprows=9, unpack=True)
         wide = 2e-3 * args.dx  # whole spacings: others would see stripes in a lattice
         edges = wide * np.arange(math.ceil(max(x.max(), y.max()) / wide) + 1)
-        maps.append([Map(x, y, w, edges) for w in (np.ones(len(x)), 1 - asleep, 1 - 0.9 * asleep)])
+        maps.append([Map(x, y, w, edges) for w in (np.ones(len(x)), 1 - asleep, 1 - 0.83 * asleep)])
     return maps
 
 

@@ -2,7 +2,10 @@
 """python3 -m hvi: the command line. options() holds what commands share; each command is a function in commands.py."""
 
 import argparse
+import functools
+import importlib
 import os
+import pathlib
 import sys
 import warnings
 
@@ -13,9 +16,16 @@ from .fragments import FAILED
 from .units import MVV2E
 from .version import version
 
-DESCRIPTION = """Looks at what LAMMPS has written of an impact: debris clouds, fragments, velocity maps, side views."""
+DESCRIPTION = """Asks whether a shield holds, runs studies, and looks at what LAMMPS has written of an impact: debris clouds, fragments,
+velocity maps, side views."""
 
 EXAMPLES = {
+    "shield": """  python3 -m hvi shield emi.yaml --dry-run
+  python3 -m hvi shield emi.yaml --jobs 2 --ranks 1""",
+    "limit": """  python3 -m hvi limit emi.yaml --on D
+  python3 -m hvi limit emi.yaml --on thickness2 --from 0.5 --to 3 --step 0.1 --jobs 2 --ranks 1""",
+    "sweep": """  python3 -m hvi sweep studies/parameters.yaml
+  python3 -m hvi sweep studies/*.yaml --jobs 2 --ranks 1""",
     "info": "  python3 -m hvi info debris.dump",
     "cloud": """  python3 -m hvi cloud debris.dump --data debris.data --axis z --plane 4.05e-3
   python3 -m hvi cloud debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 --interval 3e-6 \\
@@ -134,6 +144,37 @@ def _output(parser, figure, required=False, out=True):
                         help=f"draw {figure}: NAME.png and NAME.pdf, or only the one that NAME ends in")
 
 
+def _count(text):
+    try:
+        value = int(text)
+    except ValueError:
+        value = 0
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not a whole number from 1 on")
+    return value
+
+
+def _runs(parser):
+    group = parser.add_argument_group("how LAMMPS is run; call again to go on where it stopped")
+    group.add_argument("--runs", type=pathlib.Path, default="runs", metavar="DIR", help="folder for the runs (default: runs)")
+    group.add_argument("--jobs", type=_count, default=1, metavar="N", help="runs at a time (default: 1)")
+    group.add_argument("--ranks", type=_count, metavar="R", help="MPI ranks of a run (default: the study's, or 2)")
+    group.add_argument("--timeout", type=positive, metavar="S", help="end a run after this many seconds (default: the study's, or never)")
+    group.add_argument("--lmp", metavar="FILE", help="LAMMPS with USER-HVI (default: $HVI_LMP, or build/lmp of the source tree)")
+    group.add_argument("--mpirun", default="mpirun", metavar="FILE", help="how ranks are started (default: mpirun)")
+    group.add_argument("--dry-run", action="store_true", help="show what would be run")
+
+
+def _case(parser):
+    parser.add_argument("case", metavar="CASE.yaml", help="projectile, speed, angle, walls, spacings")
+    parser.add_argument("--input", metavar="FILE", help="LAMMPS input (default: examples/whipple-shield/in.whipple of the source tree)")
+
+
+def _main_of(name, args):
+    """main() of the module of that name, which needs PyYAML"""
+    return importlib.import_module("." + name, __package__).main(args)
+
+
 def options():
     """The parser of the command line."""
     parser = argparse.ArgumentParser(prog="python3 -m hvi", description=DESCRIPTION,
@@ -145,8 +186,27 @@ def options():
         sub = several.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".",
                                  epilog="examples:\n" + EXAMPLES[name],
                                  formatter_class=argparse.RawDescriptionHelpFormatter)
-        sub.set_defaults(run=getattr(commands, name))
+        sub.set_defaults(run=getattr(commands, name, None) or functools.partial(_main_of, name))
         return sub
+
+    sub = command("shield", "does the wall hold? A case at several spacings and shifts of the lattice, one verdict; exit status 0 holds, "
+                  "3 fails, 4 undecided")
+    _case(sub)
+    _runs(sub)
+
+    sub = command("limit", "up to where does the wall hold? The limit over diameter, speed or the thickness of a wall; exit status 0 found, "
+                  "4 not in the range")
+    _case(sub)
+    sub.add_argument("--on", required=True, metavar="WHAT", help="D, speed, thickness1, thickness2, ...")
+    for name, text in (("from", "lowest value"), ("to", "highest value"), ("step", "between values that are tried")):
+        default = {"from": "half of the case's", "to": "twice the case's", "step": "a 20th of the case's"}[name]
+        sub.add_argument("--" + name, dest=name + "_", type=positive, metavar="X", help=f"{text}, mm or km/s (default: {default})")
+    _runs(sub)
+
+    sub = command("sweep", "a LAMMPS input for many values of its variables, as study files say, with a table of all results")
+    sub.add_argument("study", nargs="+", metavar="STUDY.yaml", help="input, variables, and the grid of what varies")
+    sub.add_argument("--full", action="store_true", help="the study's full size; runs go to DIR/NAME-full")
+    _runs(sub)
 
     sub = command("info", "frames and columns of a dump")
     _files(sub)

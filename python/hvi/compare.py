@@ -10,7 +10,10 @@ MISSING = "-"
 
 
 def read_result(path):
-    """{key: value} of a result.yaml, "key: value" per line; numbers as int or float, all else as text."""
+    """{key: value} of a result.yaml, "key: value" per line; numbers as int or float, all else as text.
+
+    What is indented belongs to the key before: a list "- text" is joined, "margins:" and "  hole_mm: 0" are margins.hole_mm.
+    """
     if os.path.isdir(path):
         path = os.path.join(path, "result.yaml")
     try:
@@ -20,15 +23,23 @@ def read_result(path):
         raise HVIError(f"{path} does not exist") from None
     except (OSError, UnicodeDecodeError) as error:
         raise HVIError(f"cannot read {path}: {error}") from None
-    result = {}
-    for number, line in enumerate(lines, 1):
-        line = line.split(" #")[0].strip()
+    result, parent = {}, None
+    for number, raw in enumerate(lines, 1):
+        line = raw.split(" #")[0].strip()
         if not line or line.startswith("#") or line == "---":
             continue
+        inside = raw[0] == " " and parent is not None
+        if inside and line.startswith("- "):
+            result[parent] = "; ".join(filter(None, [result.get(parent), line[2:]]))
+            continue
         key, found, value = line.partition(":")
+        key, value = key.strip(), value.strip().strip("\"'")
         if not found:
             raise HVIError(f"{path}, line {number}: not key: value")
-        result[key.strip()] = _value(value.strip().strip("\"'"))
+        if not inside:
+            parent = None if value else key
+        if value:
+            result[f"{parent}.{key}" if inside else key] = _value(value)
     if not result:
         raise HVIError(f"{path} has no values")
     return result

@@ -293,13 +293,21 @@ double FixHVIJohnsonCook::spacing(int i) const
   return dim == 3 ? std::cbrt(V) : (dim == 2 ? std::sqrt(V) : V);
 }
 
-// at the end of the step that begins, as fix hvi/sph extrapolates it
+/* ----------------------------------------------------------------------
+   At the end of the step that begins, as fix hvi/sph extrapolates what it integrates; others stay as they
+   are.  The pressure is that of the last forces, less what it may fall by, twice: only its sign counts.
+------------------------------------------------------------------------- */
 
-HVI::SolidInput FixHVIJohnsonCook::extrapolated(int i, double dt) const
+HVI::SolidInput FixHVIJohnsonCook::extrapolated(int i, double dt, int integrated) const
 {
-  HVI::SolidInput in = input(i, STATE);
-  in.rho += dt * atom->drho[i];
-  in.e += dt * atom->desph[i] / mass(i);
+  static constexpr double GAMMA = 4.0;    // dp/de/rho of solids is less
+  HVI::SolidInput in = input(i, FORCES);
+  if (!(atom->mask[i] & integrated)) return in;
+  const double drho = dt * atom->drho[i], de = dt * atom->desph[i] / mass(i);
+  const double c = store->fields.view().state[i].c;
+  in.p -= 2.0 * (c * c * std::fabs(drho) + GAMMA * in.rho * std::fabs(de));
+  in.rho += drho;
+  in.e += de;
   return in;
 }
 
@@ -318,14 +326,14 @@ void FixHVIJohnsonCook::start(int i, bool anew)
 
 /* ---------------------------------------------------------------------- */
 
-void FixHVIJohnsonCook::first_half(double dt)
+void FixHVIJohnsonCook::first_half(double dt, int integrated)
 {
   const bool whole = store->fields.settings.whole;
   for (int i = 0; i < atom->nlocal; i++) {
     const HVI::SolidModel *const model = of(i);
     if (!model) continue;
     if (whole) {
-      model->present(extra[i], model->looks(extra[i]) ? input(i, STATE) : HVI::SolidInput());
+      model->present(extra[i]);
       continue;
     }
     if (fresh || !model->ready(extra[i])) {
@@ -333,7 +341,8 @@ void FixHVIJohnsonCook::first_half(double dt)
       if (fresh && store->fields.asleep(i))
         HVI::SolidModel::rest(extra[i]);    // as in second_half()
     }
-    model->first_half(extra[i], model->looks() ? extrapolated(i, dt) : HVI::SolidInput(), dt);
+    model->first_half(extra[i],
+                      model->looks() ? extrapolated(i, dt, integrated) : HVI::SolidInput(), dt);
   }
   fresh = false;
 }
@@ -406,9 +415,7 @@ template <class Step> void FixHVIJohnsonCook::each_solid(const Step &step)
 HVI::SphStress FixHVIJohnsonCook::settled(int i) const
 {
   const Solid &s = extra[i];
-  const HVI::SolidModel *const model = of(i);
-  double p_min = -HVI::NO_LIMIT;
-  if (model) p_min = model->p_min(s, model->looks(s) ? settled_input(i) : HVI::SolidInput());
+  const double p_min = of(i) ? s.seen.p_min : -HVI::NO_LIMIT;
   return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, p_min, s.shear};
 }
 

@@ -37,10 +37,10 @@ class FixHVIJohnsonCook :
   void init() override;
   void setup(int) override;
 
-  // called by fix hvi/sph, with the time step
+  // called by fix hvi/sph, with the time step and the bit of its group
 
   void start(int, bool);
-  void first_half(double);
+  void first_half(double, int);
   void second_half(double);
 
   // in place of that with gradient corrected, called by pair hvi/sph before forces: trial stress with L of
@@ -101,7 +101,7 @@ class FixHVIJohnsonCook :
   HVI::SolidInput input(int, Needs) const;
   double mass(int) const;
   HVI::SolidInput settled_input(int) const;
-  HVI::SolidInput extrapolated(int, double) const;
+  HVI::SolidInput extrapolated(int, double, int) const;
   double spacing(int) const;
   template <class Step> void each_solid(const Step &);
 };

@@ -346,7 +346,7 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
   double *const esph = atom->esph;
   const double ahead = store->fields.settings.is_stock() ? 0.0 : 1.0;
   const bool whole = store->fields.settings.whole;
-  if (strength) strength->first_half(dtv);
+  if (strength) strength->first_half(dtv, groupbit);
   due = whole;
   last = dtv;
   double missed = 0.0;

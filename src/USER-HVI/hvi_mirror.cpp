@@ -59,7 +59,7 @@ void Images::fill(const MirrorPlanes &mirror, const SphView &records) const
     }
     if (records.contact) records.contact[a] = {};
     if (records.slopes) records.slopes[a] = {};
-    if (records.art) {
+    if (records.art && !records.traction) {
       records.art[a] = records.art[image.owner];
       reflect.symmetric(records.art[a]);
     }
@@ -144,6 +144,10 @@ void Images::fill_sums(const SphView &records) const
       reflect.velocity(records.traction[a]);
       records.gradv[a] = records.gradv[i];
       reflect.gradient(records.gradv[a]);
+      if (records.art) {
+        records.art[a] = records.art[i];
+        reflect.symmetric(records.art[a]);
+      }
     }
     if (records.push) {
       records.push[a] = records.push[i];

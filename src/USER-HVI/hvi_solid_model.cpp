@@ -182,11 +182,17 @@ bool SolidModel::parts(SolidState &s, double rho, double p, double Y, double lim
   return s.voids.D >= 1.0;
 }
 
-void SolidModel::grow_voids(SolidState &s, const SolidInput &in, double limit, double dt) const
+// where there are voids or may be; returns p_min() of the end
+
+double SolidModel::grow_voids(SolidState &s, const SolidInput &in, double limit, double dt) const
 {
-  SpallVoids own = voids;
-  own.sigma *= limit;
-  own.advance(s.voids, *eos, in.rho, in.e, in.size, dt);
+  if (with_voids && !s.failed() && (in.p < 0.0 || s.voids.phi > 0.0)) {
+    SpallVoids own = voids;
+    own.sigma *= limit;
+    const double least = own.advance(s.voids, *eos, in.rho, in.e, in.size, dt);
+    if (open(s)) return least;
+  }
+  return p_min(s, in);
 }
 
 // with the stress of the end of the step; with softening its plastic strain counts in the next
@@ -227,7 +233,7 @@ void SolidModel::start(SolidState &s, SolidInput in, bool anew) const
   in.p = 0.0;    // there is no pressure yet
   if (s.shear == 0.0 && !s.failed()) s.shear = law->shear_modulus(conditions(s, in));
   s.yield = UNKNOWN;
-  show(s, s.S, in);
+  s.seen = {s.S, p_min(s, in), s.shear};
 }
 
 // begin: a run begins, so the rate of S is not that of the step before
@@ -252,14 +258,14 @@ void SolidModel::first_half(SolidState &s, const SolidInput &end, double dt) con
     if (stress > s.yield) ahead = scaled(ahead, s.yield / stress);
   }
   const SpallVoids::State kept = s.voids;
-  if (with_voids && !s.failed()) grow_voids(s, end, threshold(end), dt);
-  show(s, ahead, end);
+  const double least = grow_voids(s, end, with_voids ? threshold(end) : 1.0, dt);
   s.voids = kept;
+  s.seen = {ahead, least, s.shear};
 }
 
-void SolidModel::present(SolidState &s, const SolidInput &in) const
+void SolidModel::present(SolidState &s) const
 {
-  show(s, s.S, in);
+  s.seen = {s.S, least_pressure(spall, s.failed(), sigma_p), s.shear};
 }
 
 void SolidModel::rest(SolidState &s)
@@ -270,12 +276,14 @@ void SolidModel::rest(SolidState &s)
 
 int SolidModel::second_half(int n, SolidState *const *state, const SolidInput *in, double dt) const
 {
-  return settle(n, state, in, dt, [dt](SolidState &s, const SolidInput &input) {
+  double least[LANES];
+  const auto trial_of = [dt](SolidState &s, const SolidInput &input) {
     Deviator trial = s.carried;
     s.carried = elastic_rate(s, input);
     add(trial, 0.5 * dt, s.carried);
     return trial;
-  });
+  };
+  return settle(n, state, in, dt, trial_of, least);
 }
 
 // S turns with that of the middle of the step: so it keeps its size to fourth order
@@ -290,14 +298,19 @@ void SolidModel::try_out(SolidState &s, const VelocityGradient &L, double dt) co
 
 int SolidModel::whole_step(int n, SolidState *const *state, const SolidInput *in, double dt) const
 {
-  return settle(n, state, in, dt, [](SolidState &s, const SolidInput &) {
+  double least[LANES];
+  const auto trial_of = [](SolidState &s, const SolidInput &) {
     return s.carried;
-  });
+  };
+  const int wrong = settle(n, state, in, dt, trial_of, least);
+  for (int k = 0; k < n && wrong < 0; k++)
+    state[k]->seen.p_min = state[k]->failed() ? 0.0 : least[k];
+  return wrong;
 }
 
 template <class Trial>
 int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, double dt,
-                       const Trial &trial_of) const
+                       const Trial &trial_of, double *least) const
 {
   Conditions c[LANES] = {};
   Deviator trial[LANES] = {};
@@ -310,8 +323,8 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     SolidInput now = in[k];
     begun[k] = with_voids && s.voids.D > BEGUN;
     limit[k] = threshold(now);
-    if (with_voids && (now.p < 0.0 || s.voids.phi > 0.0)) grow_voids(s, now, limit[k], dt);
-    now.p = pressure(s, now);
+    least[k] = grow_voids(s, now, limit[k], dt);
+    now.p = clip_tension(now.p, least[k]);
     c[k] = conditions(s, now);
     shear[k] = s.shear = law->shear_modulus(c[k]);
     eps[k] = s.eps;
@@ -359,13 +372,6 @@ double SolidModel::temperature(const SolidState &s, const SolidInput &in) const
 Conditions SolidModel::conditions(const SolidState &s, const SolidInput &in) const
 {
   return {density(s, in.rho), rho0, in.p, thermal ? temperature(s, in) : NOT_A_NUMBER};
-}
-
-// what others will see
-
-void SolidModel::show(SolidState &s, const Deviator &S, const SolidInput &in) const
-{
-  s.seen = {S, p_min(s, in), s.shear};
 }
 
 void SolidModel::reflect(SolidState &s, int op)

@@ -36,7 +36,7 @@ struct SolidState {
 
   struct Seen {
     Deviator S;
-    double p_min, shear;
+    double p_min, shear;    // with whole steps p_min is of the end, too
   } seen;
 
   // what one half of a step leaves to the other: after the first half S of the middle of the step,
@@ -97,11 +97,11 @@ struct SolidOptions {
 
    or at once, before the forces:
 
-     present()        seen = S of the begin of the step
+     present()        seen = S of the begin of the step, and the least pressure of what has no voids
      ... the velocity gradient of the middle of the step ...
      try_out()        the trial stress
      ... density, energy, pressure of the end of the step ...
-     whole_step()     all of the above
+     whole_step()     all of the above; the least pressure of the end of the step in seen
 
    What has failed is rubble: it bears no shear and no tension, and keeps its state.
 
@@ -145,7 +145,7 @@ class SolidModel {
   void prepare(SolidState &, const SolidInput &, bool begin) const;
 
   void first_half(SolidState &, const SolidInput &ahead, double dt) const;
-  void present(SolidState &, const SolidInput &) const;
+  void present(SolidState &) const;
   void try_out(SolidState &, const VelocityGradient &L, double dt) const;
 
   // in place of the second half or of the whole, where nothing changes
@@ -224,7 +224,7 @@ class SolidModel {
   std::string take_spall(const Material &);
   void take_energy(const Material &);
   bool parts(SolidState &, double rho, double p, double Y, double limit, double dt) const;
-  void grow_voids(SolidState &, const SolidInput &, double limit, double dt) const;
+  double grow_voids(SolidState &, const SolidInput &, double limit, double dt) const;
   void grow_damage(SolidState &, const SolidInput &, const Conditions &, double d_eps,
                    double dt) const;
 
@@ -248,9 +248,9 @@ class SolidModel {
   double threshold(const SolidInput &in) const { return reference > 0.0 ? scatter(in) : 1.0; }
   bool own_limit() const { return spall == Spall::PRESSURE && reference > 0.0; }
   Conditions conditions(const SolidState &, const SolidInput &) const;
-  void show(SolidState &, const Deviator &, const SolidInput &) const;
   template <class Trial>
-  int settle(int n, SolidState *const *, const SolidInput *, double dt, const Trial &) const;
+  int settle(int n, SolidState *const *, const SolidInput *, double dt, const Trial &,
+             double *least) const;
 };
 
 }    // namespace HVI

@@ -62,8 +62,8 @@ struct SpallVoids {
 
   /* ----------------------------------------------------------------------
      Growth of -ln(1 - phi) in dt, if it takes K times as much from the tension.  With y the
-     tension of the end over s, c = K dt rate/s, that is y + c y^(1/m) = x: convex, so Newton's steps from
-     above stay above.
+     tension of the end over s, c = K dt rate/s, that is y + c y^(1/m) = x: convex, so Halley's steps from
+     above get there, and leave of the order of their cube.
   ------------------------------------------------------------------------- */
 
   double growth(double tension, double K, double D, double dt) const
@@ -77,48 +77,53 @@ struct SpallVoids {
       f = x;
     }
     for (int k = 0; k < 100; k++) {
-      const double step = (y + f - x) / (1.0 + n * f / y);
+      const double rest = y + f - x, slope = y + n * f;
+      const double step = rest * slope * y / (slope * slope - 0.5 * n * (n - 1.0) * f * rest);
       y -= step;
-      f = c * std::pow(y, n);
-      if (!(step > 1e-9 * y)) break;
+      f = c * power(y, n);
+      if (!(n * std::fabs(step) > 1e-3 * y)) break;
     }
     return f * s / K;
   }
 
-  // a step to the density rho and the energy e, of something that size
+  // A step to the density rho and the energy e, of something that size.  Returns the least pressure
+  // after it, see least(), if it has voids.
 
-  void advance(State &v, const Eos &eos, double rho, double e, double size, double dt) const
+  double advance(State &v, const Eos &eos, double rho, double e, double size, double dt) const
   {
     double p, csq;
     if (!eos.evaluate(rho / (1.0 - v.phi), e, p, csq) || p >= 0.0) {
-      if (v.phi > 0.0) close(v, eos, rho, e);
-      return;
+      if (!(v.phi > 0.0)) return -NO_LIMIT;
+      close(v, eos, rho, e);
+      return least(v.phi, eos, rho, e);
     }
 
-    // Tension is nearly, not quite linear in what is grown: K is that of the chord.  At rho0 none is
-    // left, or little.  Where the equation of state is far from that, between lo and hi.
+    // Tension is nearly, not quite linear in what is grown.  K is that of the chord: at first by
+    // d tension/dg = -rho csq - (1 + gamma) tension, with gamma 2, or as if none is left at rho0.
+    // Where the equation of state is far from that, between lo and hi.
 
-    const double before = 1.0 - v.phi, tension = -before * p;
-    const double apart = std::log(eos.rho0() * before / rho);
-    double K = apart > 0.0 ? std::max(rho * csq, tension / apart) : rho * csq;
+    const double before = 1.0 - v.phi, tension = -before * p, full = eos.rho0() * before / rho;
+    double K = std::max(rho * csq + 3.0 * tension, full > 1.0 ? tension / (1.0 - 1.0 / full) : 0.0);
     double g = growth(tension, K, v.D, dt), now = tension, left = before;
-    if (g == 0.0) return;
-    double lo = 0.0, hi = 1.0 + std::max(apart, 0.0);
+    if (g == 0.0) return std::min(-tension, NO_TENSION);
+    double lo = 0.0, hi = std::max(full, 1.0);
     for (int k = 0; k < 200; k++) {
       const bool chord = k % 4 < 3 && g > lo && g < hi;
       if (!chord) g = 0.5 * (lo + hi);
       left = before * std::exp(-g);
       now = eos.evaluate(rho / left, e, p, csq) ? -left * p : -tension;
-      if (chord && std::fabs(now - (tension - K * g)) <= 1e-10 * tension) break;
+      const double off = std::fabs(now - (tension - K * g));
+      if (chord && off <= std::max(std::min(0.01 * (tension - now), 3e-5 * now), 1e-10 * tension))
+        break;    // the step's own error is half of what the tension loses in it
       if (hi - lo <= 1e-14 * hi) break;
       (grown(now, v.D, dt) > g ? lo : hi) = g;
       K = now < tension ? (tension - now) / g : 2.0 * K;
       g = growth(tension, K, v.D, dt);
     }
-    g = std::log(before / left);
     v.D += (before - left) / critical(size);
     v.phi = 1.0 - left;
     v.work += std::max(now, 0.0) * g / rho;
+    return std::min(-now, NO_TENSION);
   }
 
   // the least pressure of what has voids: a little less than 0, which is that of rubble
@@ -127,11 +132,12 @@ struct SpallVoids {
   {
     double p, csq;
     if (!eos.evaluate(rho / (1.0 - phi), e, p, csq)) return -NO_LIMIT;
-    return std::min((1.0 - phi) * p, -1e-300);
+    return std::min((1.0 - phi) * p, NO_TENSION);
   }
 
  private:
-  static constexpr double NOTHING = 1e-13;    // of a volume, in a step
+  static constexpr double NOTHING = 1e-13;         // of a volume, in a step
+  static constexpr double NO_TENSION = -1e-300;    // but not that of rubble
 
   double strength(double D) const { return sigma * std::max(1.0 - D, 1e-6); }
 
@@ -139,7 +145,18 @@ struct SpallVoids {
 
   double grown(double tension, double D, double dt) const
   {
-    return tension > 0.0 ? dt * rate * std::pow(tension / strength(D), 1.0 / m) : 0.0;
+    return tension > 0.0 ? dt * rate * power(tension / strength(D), 1.0 / m) : 0.0;
+  }
+
+  // of whole numbers by multiplication
+
+  static double power(double y, double n)
+  {
+    if (n > 128.0 || n != std::floor(n)) return std::pow(y, n);
+    double result = 1.0;
+    for (int k = n; k; k >>= 1, y *= y)
+      if (k & 1) result *= y;
+    return result;
   }
 
   // until there is no pressure, or no void

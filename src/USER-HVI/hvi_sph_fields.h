@@ -52,7 +52,8 @@ struct SphSettings {
    stress     owned                     pair, from the fix that integrates it          loop
               ghosts, images            pair, forward communication; reflected
                                         (with traction: p_min and shear only)
-   art        owned, ghosts, images     pair, after state and stress                   loop
+   art        owned, ghosts, images     pair, after state and stress; or, with         loop
+                                        traction, after that, forward comm., reflected
    slopes     owned, ghosts             first sweep; reverse, then forward comm.       second sweep
    rates      owned, ghosts, images     loop; images folded back to owners             pair: f, drho, desph
    gradv      owned, ghosts, images     loop; images folded, reverse communication     velocity_gradient()

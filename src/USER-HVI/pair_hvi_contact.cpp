@@ -17,6 +17,7 @@
 #include "error.h"
 #include "fix_hvi_lists.h"
 #include "force.h"
+#include "hvi_interface.h"
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -263,7 +264,13 @@ void PairHVIContact::init_style()
     error->all(FLERR, "Pair style hvi/contact does not support run_style respa");
 
   neighbor->add_request(this);
-  if (!force->pair_match("^hvi/sph$", 0)) FixHVILists::make(lmp, relative, true);
+  if (!force->pair_match("^hvi/sph$", 0)) {
+    bool all = true;    // one fix decides for all of a hybrid
+    for (auto *const pair : HVI::pair_styles(force))
+      if (const auto *const contact = dynamic_cast<PairHVIContact *>(pair))
+        all = all && contact->relative;
+    FixHVILists::make(lmp, all, true);
+  }
   uniform = -1;
 }
 

@@ -74,7 +74,7 @@ void PairHVISPH::compute(int eflag, int vflag)
   if (strength) gather_stress();
   gather();
   choose_rows();
-  if (records.art) artificial_stress();
+  if (records.art && !records.traction) artificial_stress();
   if (mirrored) images.fill(set.mirror, records);
 
   HVI::SphWork work = {
@@ -264,7 +264,8 @@ void PairHVISPH::setup()
   report.reverse = force->newton_pair ? comm_reverse : 0;
   if (set.whole) {
     const bool bodies = sweeps->scene() & HVI::SPH_BODIES;
-    report.forward += set.laws.art_eps > 0.0 ? HVI::SphStress::SENT : HVI::SphStress::LIMITS;
+    report.forward += HVI::SphStress::LIMITS;
+    if (set.laws.art_eps > 0.0) report.forward += HVI::SphStress::FIRST_LIMIT;
     if (bodies) report.forward += HVI::SphPush::SENT;
     if (set.riemann) report.forward += HVI::SphGradV::SENT_L;
     if (bodies) report.reverse *= 2;

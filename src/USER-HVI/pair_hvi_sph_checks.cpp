@@ -40,6 +40,15 @@ void PairHVISPH::check_fixes() const
   if (utils::strmatch(force->pair_style, "^hybrid") &&
       force->pair_match("^hvi/sph$", 0, 1) != force->pair_match("^hvi/sph$", 0, 2))
     error->all(FLERR, "More than one pair style hvi/sph");
+
+  // fix hvi/sph takes the density in forces for the one that it has extrapolated
+
+  for (const char *const name : {"sph/rhosum", "mdpd/rhosum", "multi/lucy"})
+    if (!set.laws.stock && force->pair_match(std::string("^") + name, 0, 1))
+      error->all(FLERR,
+                 "Pair style hvi/sph integrates density, which pair style {} writes over: leave it "
+                 "out, or use stock yes",
+                 name);
   if (set.variable && !integrator)
     error->all(FLERR, "Pair style hvi/sph h variable needs fix hvi/sph, which keeps h");
   if (strength && set.laws.symmetric)

@@ -144,7 +144,7 @@ void PairHVISPH::gather_stress()
     stress[i] = strength->stress(i);
     if (says && !store->fields.asleep(i)) stress[i].shear = -stress[i].shear;
   }
-  if (!records.traction || records.art)
+  if (!records.traction)
     forward(stress);
   else {
 
@@ -264,7 +264,8 @@ void PairHVISPH::choose_rows()
 }
 
 /* ----------------------------------------------------------------------
-   Of owned particles and ghosts, whose pressure and stress are known here.  The spacing dp is
+   Of owned particles and ghosts, whose pressure and stress are known here; with gradient corrected of
+   owned ones, when they have those of the end of the step.  The spacing dp is
    that of the material's own density, (m/rho0)^(1/dim), over the H of pair_coeff: as Gray's,
    it stays what it was at the start, and in units of h with variable h too.
 ------------------------------------------------------------------------- */
@@ -274,12 +275,13 @@ void PairHVISPH::artificial_stress()
   const HVI::SphView &records = store->fields.view();
   const HVI::SphLaws &laws = set.laws;
   const double *const rmass = atom->rmass;
-  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
+  const bool whole = records.traction;
+  for (int i = 0; i < atom->nlocal + (whole ? 0 : atom->nghost); i++) {
     const int itype = atom->type[i];
     if (!is_ours[itype]) continue;
-    const HVI::SphStress &s = records.stress[i];
-    const HVI::Deviator T =
-        HVI::tensile_part(records.state[i].p, {s.xx, s.yy, s.zz, s.xy, s.xz, s.yz});
+    const HVI::SphStress s = whole ? strength->settled(i) : records.stress[i];
+    const double p = whole ? records.traction[i].p : records.state[i].p;
+    const HVI::Deviator T = HVI::tensile_part(p, {s.xx, s.yy, s.zz, s.xy, s.xz, s.yz});
     double f = 0.0;
     if (T.xx + T.yy + T.zz > 0.0) {
       const double rho0 = store->materials.of(itype)->eos->rho0();
@@ -338,6 +340,7 @@ template <class Record> void PairHVISPH::reverse(Record *records, int number)
 
 template void PairHVISPH::reverse(HVI::SphGradV *, int);
 template void PairHVISPH::reverse(HVI::SphRates *, int);
+template void PairHVISPH::forward(HVI::SphStress *, int, int);
 template void PairHVISPH::forward(HVI::SphGradV *, int, int);
 template void PairHVISPH::forward(HVI::SphTraction *, int, int);
 template void PairHVISPH::forward(HVI::SphPush *, int, int);

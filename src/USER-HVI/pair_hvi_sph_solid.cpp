@@ -57,6 +57,10 @@ void PairHVISPH::finish_gradients()
     if (is_ours[atom->type[i]] && !store->fields.asleep(i)) find_traction(i);
 
   forward(records.traction, SphTraction::SENT);
+  if (records.art) {
+    artificial_stress();
+    forward(records.art, HVI::SphStress::FIRST_LIMIT);
+  }
   if (records.push) forward(records.push, HVI::SphPush::SENT);
   if (set.riemann) forward(records.gradv, SphGradV::SENT_L);
 }

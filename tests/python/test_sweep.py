@@ -1,4 +1,4 @@
-"""examples/debris-studies: sweep.py runs jobs, goes on where it stopped, survives failures; plot.py draws."""
+"""python3 -m hvi sweep runs jobs, goes on where it stopped, survives failures; examples/debris-studies: plot.py draws."""
 
 import csv
 import os
@@ -16,6 +16,7 @@ variable speed index 1.0
 variable mode index good
 variable resume index no
 if "${mode} == slow" then "shell sleep 60"
+if "${mode} == refused" then "print 'this mode is refused'" "quit 1"
 atom_style bond
 lattice sc 1.0
 region box block 0 $n 0 $n 0 $n
@@ -48,8 +49,9 @@ def sweep(root, folder, lmp_exe):
     """sweep(study, option, ...) -> finished process; the study is a mapping or a text"""
     def run(study, *extra, wait=True):
         (folder / "tiny.yaml").write_text(study if isinstance(study, str) else yaml.safe_dump(study, sort_keys=False))
-        command = [sys.executable, root / "examples/debris-studies/sweep.py", "tiny.yaml", "--lmp", lmp_exe, "--ranks", "1", *extra]
-        process = subprocess.Popen([str(c) for c in command], cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        command = [sys.executable, "-m", "hvi", "sweep", "tiny.yaml", "--lmp", lmp_exe, "--ranks", "1", *extra]
+        process = subprocess.Popen([str(c) for c in command], cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                   env={**os.environ, "PYTHONPATH": str(root / "python")})
         if not wait:
             return process
         process.text = process.communicate(timeout=120)[0]
@@ -77,6 +79,13 @@ def test_failed_job_is_reported_and_others_finish(sweep, folder):
     assert "1 of 4 jobs are done" in process.text
     assert list(table(folder)) == ["mode-good_speed-1.0"]
     assert table(folder)["mode-good_speed-1.0"]["particles"] == "125"
+
+
+def test_what_an_input_says_is_not_hidden(sweep):
+    """an input that ends itself has said why; mpirun's many lines come after that"""
+    process = sweep({**STUDY, "grid": {"mode": ["refused"]}})
+    assert process.returncode == 1 and "FAILED: exit status 1" in process.text
+    assert "    | this mode is refused\n    | see " in process.text
 
 
 def test_goes_on_where_it_stopped(sweep, folder):
@@ -171,7 +180,7 @@ def test_full_size_and_dry_run(sweep, folder):
 ])
 def test_wrong_study(sweep, study, message):
     process = sweep(study)
-    assert process.returncode == 2 and message in process.text and "Traceback" not in process.text
+    assert process.returncode == 1 and message in process.text and "Traceback" not in process.text
 
 
 def test_wrong_options(sweep):
@@ -184,8 +193,8 @@ def test_studies_are_right(root, folder, lmp_exe):
     """the studies of the example name variables that in.debris has, at both sizes"""
     for study in (root / "examples/debris-studies/studies").glob("*.yaml"):
         for size in ([], ["--full"] if "\nfull:" in study.read_text() else []):
-            subprocess.run([sys.executable, root / "examples/debris-studies/sweep.py", study, "--lmp", lmp_exe, "--dry-run", *size],
-                           cwd=folder, check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([sys.executable, "-m", "hvi", "sweep", study, "--lmp", lmp_exe, "--dry-run", *size],
+                           cwd=folder, check=True, stdout=subprocess.DEVNULL, env={**os.environ, "PYTHONPATH": str(root / "python")})
 
 
 def test_plots(root, folder):
@@ -197,7 +206,7 @@ def test_plots(root, folder):
         assert (folder / f"{name}.png").stat().st_size > 5000
     assert done.stdout.count("\n|---|") == 9  # seven studies, two of them with a table for each lattice
     nothing = subprocess.run([*plot, "--tables", folder], cwd=folder, text=True, capture_output=True)
-    assert nothing.returncode == 1 and "run sweep.py first" in nothing.stderr
+    assert nothing.returncode == 1 and "run python3 -m hvi sweep first" in nothing.stderr
 
 
 def test_debris_cloud_in_a_sweep(sweep, root, folder):

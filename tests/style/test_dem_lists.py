@@ -1,5 +1,7 @@
 """Lists of bonded elements made anew by relative motion: no pair in touch and no bond is missed, and flight costs few lists."""
 
+import itertools
+
 import numpy as np
 import pytest
 from scenes import BONDS, DUMP, PAIR, R_EQ, State, collision, cube, forces, read_bonds, read_dump, scene, vectors
@@ -97,6 +99,33 @@ run 60
         count[lists] = [t["Nbuild"][-1] for t in lmp(lines).runs]
     first, second = zip(*count.values())
     assert first[0] < 0.5 * first[1] and second[0] == second[1] >= 25, count
+
+
+def test_two_in_a_hybrid(lmp):
+    """lists are made anew by relative motion if both ask for it, whichever comes last"""
+    count = {}
+    for words in itertools.product(("relative", "displacement"), repeat=2):
+        lines = f"""units lj
+atom_style bond
+atom_modify map array
+boundary s s s
+lattice sc 1.0
+region box block 0 4 0 4 0 4
+create_box 2 box bond/types 1 extra/bond/per/atom 1
+create_atoms 1 box
+set group all type/fraction 2 0.5 1234
+mass * 1
+velocity all set 20 0 0
+pair_style hybrid hvi/contact lists {words[0]} hvi/contact lists {words[1]}
+pair_coeff 1 * hvi/contact 1 1 0.9
+pair_coeff 2 2 hvi/contact 2 1 0.9
+neighbor 0.3 bin
+neigh_modify every 1 delay 0 check yes
+fix 1 all nve
+{THERMO}run 60
+"""
+        count[words] = lmp(lines).thermo["Nbuild"][-1]
+    assert count.pop(("relative", "relative")) < 0.5 * min(count.values()) and len(set(count.values())) == 1, count
 
 
 def test_flight_costs_few_lists(lmp, tmp_path):

@@ -177,6 +177,20 @@ def test_artificial_stress(lmp, tmp_path, material, kernel, tension, eps, n):
 ART = "viscosity 1 2 artstress 0.3 4"
 
 
+@pytest.mark.parametrize("nranks", [1, 3])
+def test_artificial_stress_of_the_end(lmp, tmp_path, material, nranks):
+    """with gradient corrected: what it adds to forces is that of the stress which they have, in the middle of a run, too"""
+    s = state(seed=25)
+    s.rho *= 0.97
+    text = start(s, tmp_path, material, words=ART, jc="damage no spall none", steps=20) + OUT.format("with")
+    text += PAIR.format(kernel="cubic", words="viscosity 1 2", path=material) + "pair_coeff 1 2 tension yes\n" + OUT.format("without")
+    lmp(text, nranks=nranks)
+    d, without = read(tmp_path / "with"), read(tmp_path / "without")
+    assert np.array_equal(d["S"], without["S"]) and np.array_equal(d["x"], without["x"])
+    want = brute_force(s, d, art=(0.3, 4))["f"] - brute_force(s, d)["f"]
+    assert np.abs(d["f"] - without["f"] - want).max() < 2e-3 * np.abs(want).max()
+
+
 def test_artificial_stress_variable_h(lmp, tmp_path, material):
     """h follows density, h of the start and the spacing of the start belong together"""
     s = state(seed=26)

@@ -4,8 +4,10 @@ import itertools
 
 import numpy as np
 import pytest
+import test_hybrid
 import test_mirror
-from test_solid_forces import MATERIAL, start, state
+from sph_scenes import Fluid, scene
+from test_solid_forces import MATERIAL, PAIR, start, state
 from test_solid_state import FIXES, NEIGHBOR, reader
 
 JC = "damage no spall voids"
@@ -118,6 +120,64 @@ def test_as_the_whole(lmp, tmp_path, material, words):
     assert (whole["spalled"] > 1e-4).sum() > 20
     for planes in ("x", "xyz"):
         test_mirror.same(whole, test_mirror.read(tmp_path / f"f{planes}"), test_mirror.part(planes)[1], planes)
+
+
+@pytest.mark.parametrize("nranks, words", [(1, "viscosity 1 2"), (2, "gradient law")])
+def test_hybrid_as_without(lmp, tmp_path, material, nranks, words):
+    """beside lj or hvi/contact: as alone, newton on and off"""
+    s = state(seed=22)
+    s.rho *= 0.97
+    t = test_hybrid.others(s)
+    pair = PAIR.format(kernel="cubic", words=words, path=material) + "pair_coeff 1 2 tension yes\n"
+    both, fix = test_hybrid.together(s, t), f"fix jc {{0}} hvi/johnson-cook {JC}\n"
+    cases = list(itertools.product(test_hybrid.COEFF, ("on", "off")))
+    commands = test_hybrid.text(s, pair, fix, OUT, tmp_path, "alone", more="run 20\n")
+    for k, (beside, newton) in enumerate(cases):
+        commands += test_hybrid.text(both, test_hybrid.hybrid(pair, "hybrid", beside), fix, OUT, tmp_path, f"f{k}", "ours", more="run 20\n", newton=newton)
+    lmp(commands, nranks=nranks)
+    alone, n = read(tmp_path / "alone"), len(s.x)
+    assert (alone["voids"] > 1e-3).sum() > 5 and (alone["voids"] == 0).sum() > 5
+    for k, case in enumerate(cases):
+        got = read(tmp_path / f"f{k}")
+        for name in alone:
+            assert np.abs(got[name][:n] - alone[name]).max() <= 1e-11 * np.abs(alone[name]).max(), (case, name)
+        assert not got["voids"][n:].any() and not got["p"][n:].any()
+
+
+@pytest.mark.parametrize("words", ["viscosity 1 2", "gradient law"])
+def test_opening_at_failure(lmp, tmp_path, material, words):
+    """delta_c, at either spacing: voids of delta_c/spacing; and phi_c, where that is less"""
+    for spacing, delta_c, critical in ((1.0, 0.02, 0.02), (0.5, 0.02, 0.04), (0.5, 0.2, 0.1)):
+        material.write_text(MATERIAL.format(sigma_p=3.0) + VOIDS.replace("0.04", "0.1") + f"  delta_c {delta_c}\n")
+        x = spacing * (np.stack(np.meshgrid(*[np.arange(k) for k in (12, 4, 4)], indexing="ij"), -1).reshape(-1, 3) + 0.5)
+        n, mass, h = len(x), {1: spacing**3, 2: spacing**3}, {1: 1.25 * spacing, 2: 1.25 * spacing}
+        s = Fluid(x, np.zeros((n, 3)), np.ones(n), np.zeros(n), np.ones(n, int), mass, h, spacing * np.array([12.0, 4.0, 4.0]), (False, True, True))
+        pair = PAIR.format(kernel="cubic", words=words, path=material).replace("h 1.25", f"h {1.25 * spacing}") + "pair_coeff 1 2 tension yes\n"
+        lines = scene(s, tmp_path / "s.data", pair).replace("boundary f", "boundary s") + f"fix jc all hvi/johnson-cook {JC}\n"
+        lmp(lines + f"velocity all ramp vx -0.6 0.6 x 0 {12 * spacing} units box\ntimestep {0.002 * spacing}\nrun 800\n" + OUT.format("f"))
+        f = read(tmp_path / "f")
+        failed = f["spalled"] == 1
+        opening = f["voids"][failed] / critical
+        # some have been closed for a while, and fail with less
+        assert (opening >= 1).sum() >= 16 and opening.max() < 1.5, (spacing, failed.sum(), opening)
+        assert (f["voids"] <= critical * (f["void_damage"] + 1e-9))[~failed].all()
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_not_integrated(lmp, tmp_path, material, nranks):
+    """what fix hvi/sph does not integrate keeps density and energy: the tension it is seen with does not depend on what flies off"""
+    s = state(seed=23)
+    s.rho[:] = 0.97
+    jc = f"fix jc all hvi/johnson-cook {JC}\n"
+    pair = PAIR.format(kernel="cubic", words="gradient law", path=material) + "pair_coeff 1 2 tension yes\n"
+    lines = scene(s, tmp_path / "s.data", pair, fix="group ours type 1\ngroup walls type 2\nfix sph ours hvi/sph walls walls\n") + jc
+    lmp(lines + "timestep 0.004\nrun 3\nwrite_data half.data\n", nranks=nranks)
+    section = (tmp_path / "half.data").read_text().split("\njc_forces # ")[1].split("\n\n")
+    names, rows = section[0].split(), np.array([line.split() for line in section[1].splitlines()], float)
+    seen = rows[np.argsort(rows[:, 0]), names.index("p_min")]
+    walls = s.type == 2
+    assert np.ptp(seen[~walls]) > 1e-3 and (seen[walls] < -0.1).all() and (seen[walls] > -0.47).all()
+    assert np.ptp(seen[walls]) < 1e-12, np.ptp(seen[walls])
 
 
 @pytest.mark.parametrize("words", ["viscosity 1 2", "gradient law"])

@@ -182,6 +182,9 @@ def test_scene(attempt):
         (pair, hybrid + "pair_coeff 1 2 lj/cut 1 1\npair_coeff 1 2 hvi/sph tension yes\n", "type 2 has no material"),
         (pair, "pair_style hybrid hvi/sph cubic hvi/sph quintic\npair_coeff 1 1 hvi/sph 1 eos tait 1 10 7 h 1.2\n"
          "pair_coeff 2 2 hvi/sph 2 eos tait 1 10 7 h 1.2\npair_coeff 1 2 hvi/sph 1 tension no\n", "More than one pair style hvi/sph"),
+        *[(pair, f"pair_style hybrid/overlay {styles}\npair_coeff * * sph/rhosum 2.4\npair_coeff * * hvi/sph eos tait 1 10 7 h 1.2\n",
+           "integrates density, which pair style sph/rhosum writes over: leave it out, or use stock yes")
+          for styles in ("sph/rhosum 1 hvi/sph cubic", "hvi/sph cubic sph/rhosum 1")],
     ])
 
 

@@ -7,6 +7,7 @@
 #include "hvi_spall_voids.h"
 
 #include <cmath>
+#include <cstring>
 #include <gtest/gtest.h>
 
 using namespace HVI;
@@ -104,6 +105,66 @@ class Logarithmic final : public Eos {
     return rho > 0.0;
   }
   double temperature(double, double) const override { return 0.0; }
+};
+
+// counts how often it is asked
+
+class Counted final : public Eos {
+ public:
+  explicit Counted(std::unique_ptr<Eos> eos) : eos(std::move(eos)) {}
+  const char *name() const override { return eos->name(); }
+  double rho0() const override { return eos->rho0(); }
+  double c0() const override { return eos->c0(); }
+  double rho_max() const override { return eos->rho_max(); }
+  bool evaluate(double rho, double e, double &p, double &csq) const override
+  {
+    count++;
+    return eos->evaluate(rho, e, p, csq);
+  }
+  double temperature(double rho, double e) const override { return eos->temperature(rho, e); }
+  mutable int count = 0;
+
+ private:
+  std::unique_ptr<Eos> eos;
+};
+
+// a solid with LAW and an equation of state that counts
+
+struct Solid {
+  std::shared_ptr<Counted> eos = std::make_shared<Counted>(made("gruneisen", AL));
+  std::unique_ptr<SolidModel> model;
+  SolidState s = SolidModel::blank(), *const list[1] = {&s};
+  SolidInput in = {};
+
+  Solid()
+  {
+    Material material;
+    material.eos = eos;
+    material.sections = {{"spall",
+                          "voids",
+                          {{"sigma", LAW.sigma},
+                           {"rate", LAW.rate},
+                           {"m", LAW.m},
+                           {"phi_c", LAW.phi_c},
+                           {"delta_c", 0.0}}}};
+    SolidOptions options;
+    options.strength = "none";
+    options.damage = options.thermal = false;
+    options.spall = Spall::VOIDS;
+    std::string problem;
+    model = SolidModel::make(material, options, problem);
+    EXPECT_TRUE(model) << problem;
+    put(1.0);
+    model->start(s, in, true);
+    model->prepare(s, in, true);
+  }
+
+  void put(double part)
+  {
+    in.rho = part * RHO0;
+    double csq;
+    EXPECT_TRUE(made("gruneisen", AL)->evaluate(in.rho, 0.0, in.p, csq));
+  }
 };
 
 }    // namespace
@@ -218,4 +279,71 @@ TEST(SpallVoids, Opening)
   law.advance(v, *eos, RHO0 * 0.97, 0.0, 1e-3, 1e-8);
   EXPECT_GT(v.phi, 1e-5);
   EXPECT_NEAR(v.D, v.phi / 0.01, 1e-12);
+}
+
+// what it costs: evaluations of the equation of state in a step, of steps short and long; nothing of sound
+// matter under pressure, in neither half of a step
+
+TEST(SpallVoids, Evaluations)
+{
+  for (double strain : {1e-5, 1e-4, 1e-3, 5e-3}) {
+    const Counted eos(made("gruneisen", AL));
+    SpallVoids::State v = {};
+    int steps = 0;
+    for (double all = strain; v.D < 1.0; all += strain, steps++)
+      LAW.advance(v, eos, RHO0 * std::exp(-all), 0.0, 1.0, strain / 1e5);
+    EXPECT_GE(eos.count, steps);
+    EXPECT_LE(eos.count, (strain < 5e-4 ? 2.1 : 3.2) * steps) << strain;
+  }
+  Solid solid;
+  solid.put(1.001);
+  solid.eos->count = 0;
+  solid.model->first_half(solid.s, solid.in, 1e-8);
+  EXPECT_EQ(solid.s.seen.p_min, -NO_LIMIT);
+  EXPECT_EQ(solid.model->second_half(1, solid.list, &solid.in, 1e-8), -1);
+  EXPECT_EQ(solid.eos->count, 0);
+}
+
+// what a half step shows, and a whole step leaves, is the least pressure of what has these voids
+
+TEST(SpallVoids, LeastPressureOfASolid)
+{
+  const auto close = [](double got, double want) {
+    return got == want || std::fabs(got - want) <= 1e-6 * std::fabs(want) + 1e-2;
+  };
+  for (bool whole : {false, true}) {
+    Solid solid;
+    SolidState &s = solid.s;
+    for (double part : {0.99, 0.985, 0.98, 0.99, 1.0, 1.001}) {
+      solid.put(part);
+      const auto least = [&](const SolidState &now) {
+        return now.voids.phi > 0.0
+            ? std::min(pressure_of(*solid.eos, now.voids, solid.in.rho, 0.0), -1e-300)
+            : -NO_LIMIT;
+      };
+      if (whole) {
+        solid.model->present(s);
+        EXPECT_EQ(s.seen.p_min, -NO_LIMIT);
+        EXPECT_EQ(solid.model->whole_step(1, solid.list, &solid.in, 1e-6), -1);
+        EXPECT_EQ(s.voids.phi > 0.0, part < 1.0);
+        EXPECT_TRUE(close(s.seen.p_min, least(s))) << part;
+      } else {
+        const SpallVoids::State before = s.voids;
+        solid.model->first_half(s, solid.in, 1e-6);
+        EXPECT_EQ(memcmp(&s.voids, &before, sizeof(before)), 0);
+        const double shown = s.seen.p_min;
+        EXPECT_EQ(solid.model->second_half(1, solid.list, &solid.in, 1e-6), -1);
+        EXPECT_EQ(s.seen.p_min, shown);
+        EXPECT_TRUE(close(shown, least(s))) << part;
+      }
+    }
+  }
+  Solid solid;    // rubble
+  solid.put(0.9);
+  for (int k = 0; k < 100 && !solid.s.failed(); k++) {
+    solid.model->present(solid.s);
+    EXPECT_EQ(solid.model->whole_step(1, solid.list, &solid.in, 1e-6), -1);
+  }
+  EXPECT_TRUE(solid.s.failed());
+  EXPECT_EQ(solid.s.seen.p_min, 0.0);
 }

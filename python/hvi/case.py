@@ -1,0 +1,236 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""A shield and what strikes it, as a YAML file says: read and checked, with messages that name line and key."""
+
+import dataclasses
+import difflib
+import math
+import pathlib
+import warnings
+
+import yaml
+
+from . import runs
+from .errors import HVIError, HVIWarning
+
+REQUIRED = object()
+RATIO = 1.2  # of spacings that may be said to differ
+LAYERS = 3  # that in.whipple needs in the wall that decides
+
+
+@dataclasses.dataclass(frozen=True)
+class Wall:
+    thickness_mm: float
+    material: str
+    gap_mm: float = None  # in front of it; wall 1 has none
+    spacings_mm: tuple = None  # of its own, as many as the case has
+    radius_mm: float = None
+    method: str = "sph"
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    name: str
+    diameter_mm: float
+    material: str  # of the projectile
+    speed_km_s: float
+    angle_deg: float
+    walls: tuple
+    spacings_mm: tuple
+    shifts: tuple
+    not_modelled: tuple = ()
+    settings: dict = dataclasses.field(default_factory=dict)
+
+    def variables(self, which, shift):
+        """those of in.whipple: spacing number which, a shift of the lattice"""
+        walls = self.walls
+        found = {"dx": self.spacings_mm[which], "shift": shift, "D": self.diameter_mm, "v0": round(1e3 * self.speed_km_s, 6),
+                 "angle": self.angle_deg, "material_p": self.material, "walls": len(walls),
+                 "thickness": [wall.thickness_mm for wall in walls], "gap": [wall.gap_mm or 0 for wall in walls],
+                 "material": [wall.material for wall in walls]}
+        if any(wall.spacings_mm for wall in walls):
+            found["spacings"] = [(wall.spacings_mm or self.spacings_mm)[which] for wall in walls]
+        if any(wall.radius_mm for wall in walls):
+            found["radius"] = [wall.radius_mm or 0 for wall in walls]
+        if self.not_modelled:
+            found["outside"] = ", ".join(self.not_modelled)
+        return {**found, **self.settings}
+
+    def check(self, wrong):
+        """What numbers say of each other; wrong(key, text) raises the error."""
+        if len(self.spacings_mm) > 1 and max(self.spacings_mm) < RATIO * min(self.spacings_mm):
+            wrong("spacings_mm", f"the largest must be {RATIO:g} times the smallest at least: almost the same twice says nothing of how much it matters")
+        for k, wall in enumerate(self.walls, 1):
+            for dx in wall.spacings_mm or self.spacings_mm:
+                if dx > wall.thickness_mm:
+                    wrong(f"wall {k}: spacings_mm" if wall.spacings_mm else "spacings_mm",
+                          f"{dx:g} mm is more than wall {k} is thick, {wall.thickness_mm:g} mm: a wall needs a layer of particles at least")
+            if wall.radius_mm and wall.radius_mm <= 0.5 * self.diameter_mm:
+                wrong(f"wall {k}: radius_mm", f"wall {k} is no wider than the projectile, {self.diameter_mm:g} mm")
+        for dx in self.spacings_mm:
+            if dx > 0.25 * self.diameter_mm:
+                wrong("spacings_mm", f"{dx:g} mm leaves fewer than 4 particles across the projectile of {self.diameter_mm:g} mm")
+
+
+class Reader:
+    """The nodes of a YAML file, which know their lines."""
+
+    def __init__(self, path):
+        self.path, self.at = pathlib.Path(path), {}  # at: nodes of what was read, by key
+        try:
+            self.root = yaml.compose(self.path.read_text())
+        except OSError as problem:
+            raise HVIError(f"cannot read {path}: {problem.strerror}") from None
+        except yaml.MarkedYAMLError as problem:
+            mark = problem.problem_mark or problem.context_mark
+            raise HVIError(f"{path}, line {mark.line + 1}: not YAML: {problem.problem or problem.context}") from None
+        except (yaml.YAMLError, UnicodeDecodeError) as problem:
+            raise HVIError(f"{path}: not YAML: {' '.join(str(problem).split())}") from None
+        if self.root is None:
+            raise HVIError(f"{path} is empty")
+
+    def wrong(self, key, text, node=None):
+        node = node or self.at.get(key) or self.root
+        raise HVIError(f"{self.path}, line {node.start_mark.line + 1}: {key}: {text}")
+
+    def mapping(self, node, key, fields):
+        """{name: value} of fields {name: (function of node and key, default)}"""
+        inside = f"{key}: " if key else ""
+        if not isinstance(node, yaml.MappingNode):
+            self.wrong(key or "the case", f"must be 'name: value' lines with {', '.join(fields)}", node)
+        found = {}
+        for name_node, value in node.value:
+            name = str(name_node.value)
+            if name not in fields:
+                near = difflib.get_close_matches(name, fields, 1, 0.5)
+                self.wrong(inside + name, "no such key" + (f"; did you mean {near[0]}?" if near else "") + f" (known: {', '.join(fields)})", name_node)
+            if name in found:
+                self.wrong(inside + name, "is there twice", name_node)
+            self.at[inside + name] = value
+            found[name] = fields[name][0](value, inside + name)
+        for name, (_, default) in fields.items():
+            if name not in found and default is REQUIRED:
+                self.wrong(inside + name, "is missing", node)
+            found.setdefault(name, default)
+        return found
+
+    def number(self, above=-math.inf, least=-math.inf, below=math.inf, hint=""):
+        def read(node, key):
+            try:
+                value = float(node.value)
+            except (TypeError, ValueError):
+                value = math.nan
+            unit = next((word for end, word in (("_mm", " mm"), ("_km_s", " km/s"), ("_deg", " degrees")) if key.endswith(end)), "")
+            if not math.isfinite(value):
+                said = f", not {node.value!r}" if isinstance(node, yaml.ScalarNode) else ""
+                self.wrong(key, f"must be a number of{unit}, without the unit{said}" if unit else f"must be a number{said}", node)
+            if not (value > above and value >= least and value < below):
+                bounds = [f"{word} {bound:g}" for word, bound in (("above", above), ("at least", least), ("below", below)) if math.isfinite(bound)]
+                self.wrong(key, f"must be {' and '.join(bounds)}{unit}, not {node.value}" + (f"; {hint}" if hint and value >= below else ""), node)
+            return value
+        return read
+
+    def several(self, item, distinct=False):
+        def read(node, key):
+            if not isinstance(node, yaml.SequenceNode) or not node.value:
+                self.wrong(key, "must be a list, like [0.4, 0.2]", node)
+            values = tuple(item(n, key) for n in node.value)
+            if distinct and len(set(values)) < len(values):
+                self.wrong(key, "a value is there twice", node)
+            return values
+        return read
+
+    def text(self, node, key):
+        if not isinstance(node, yaml.ScalarNode) or not node.value:
+            self.wrong(key, "must be a word", node)
+        return node.value
+
+    def material(self, node, key):
+        """a material file beside the case, or one of the package, by its name without .hvi"""
+        name = self.text(node, key)
+        for path in (self.path.parent / name, self.path.parent / f"{name}.hvi"):
+            if path.is_file():
+                return str(path.resolve())
+        known = sorted({path.stem for folder in runs.potentials() for path in folder.glob("*.hvi")})
+        if name.removesuffix(".hvi") not in known:
+            near = difflib.get_close_matches(name, known, 1, 0.4)
+            self.wrong(key, f"no material {name}" + (f"; did you mean {near[0]}?" if near else "") + f" (known: {', '.join(known)})", node)
+        return name.removesuffix(".hvi") + ".hvi"
+
+    def method(self, node, key):
+        if node.value != "sph":
+            self.wrong(key, f"must be sph, not {node.value}: what this package has no model for belongs into not_modelled", node)
+        return "sph"
+
+    def walls(self, node, key):
+        if not isinstance(node, yaml.SequenceNode) or not node.value:
+            self.wrong(key, "must be a list of walls, '- {thickness_mm: 0.8, material: Al2024-T3}' for each", node)
+        found = []
+        for k, item in enumerate(node.value, 1):
+            self.at[f"wall {k}"] = item
+            wall = Wall(**self.mapping(item, f"wall {k}", {
+                "thickness_mm": (self.number(above=0), REQUIRED), "material": (self.material, REQUIRED),
+                "gap_mm": (self.number(above=0), REQUIRED if k > 1 else None),
+                "spacings_mm": (self.several(self.number(above=0)), None),
+                "radius_mm": (self.number(above=0), None), "method": (self.method, "sph")}))
+            if k == 1 and wall.gap_mm:
+                self.wrong("wall 1: gap_mm", "is the gap in front of a wall; there is nothing in front of wall 1")
+            found.append(wall)
+        return tuple(found)
+
+    def settings(self, node, key):
+        if not isinstance(node, yaml.MappingNode):
+            self.wrong(key, "must be 'variable: value' lines, variables of in.whipple", node)
+        found = {}
+        for name, value in node.value:
+            self.at[f"{key}: {name.value}"] = value
+            values = [self.file(v, f"{key}: {name.value}") for v in (value.value if isinstance(value, yaml.SequenceNode) else [value])]
+            found[name.value] = values if isinstance(value, yaml.SequenceNode) else values[0]
+        return found
+
+    def file(self, node, key):
+        """a word; the whole path if it names a file beside the case, since runs have folders of their own"""
+        text = self.text(node, key)
+        path = self.path.parent / text
+        return str(path.resolve()) if path.is_file() else text
+
+
+def read(path, source):
+    """The Case in a file; source: the runs.Input that it is for. HVIError names line and key of what is wrong."""
+    reader = Reader(path)
+    positive = reader.number(above=0)
+    data = reader.mapping(reader.root, "", {
+        "projectile": (lambda node, key: reader.mapping(node, key, {
+            "diameter_mm": (positive, REQUIRED), "material": (reader.material, REQUIRED)}), REQUIRED),
+        "speed_km_s": (reader.number(above=0, below=100, hint="is it in m/s?"), REQUIRED),
+        "angle_deg": (reader.number(least=0, below=90), 0.0),
+        "walls": (reader.walls, REQUIRED),
+        "spacings_mm": (reader.several(positive, distinct=True), REQUIRED),
+        "shifts": (reader.several(reader.number(least=0, below=1), distinct=True), (0.0, 0.25)),
+        "not_modelled": (reader.several(reader.text), ()),
+        "settings": (reader.settings, {})})
+    data.update(data.pop("projectile"))
+    case = Case(name=reader.path.stem, **data)
+    order = sorted(range(len(case.spacings_mm)), key=lambda k: -case.spacings_mm[k])  # from coarse to fine
+    for k, wall in enumerate(case.walls, 1):
+        if wall.spacings_mm and len(wall.spacings_mm) != len(order):
+            reader.wrong(f"wall {k}: spacings_mm", f"must be {len(order)} values, one for each of spacings_mm of the case")
+    walls = tuple(dataclasses.replace(wall, spacings_mm=wall.spacings_mm and tuple(wall.spacings_mm[k] for k in order)) for wall in case.walls)
+    case = dataclasses.replace(case, walls=walls, spacings_mm=tuple(case.spacings_mm[k] for k in order))
+    reader.at.update({"diameter_mm": reader.at["projectile: diameter_mm"]})
+    case.check(reader.wrong)
+    own = dataclasses.replace(case, settings={}).variables(0, 0.0)
+    for name, value in case.settings.items():
+        key = f"settings: {name}"
+        if name in {*own, "radius", "spacings", "outside", "dry", "resume", "out"}:
+            reader.wrong(key, "is set by the case itself")
+        try:
+            source.check({name: value}, reader.path)
+        except HVIError as problem:
+            reader.wrong(key, str(problem).partition(": ")[2])
+    source.check(own, reader.path)
+    last, coarse = case.walls[-1], (case.walls[-1].spacings_mm or case.spacings_mm)[0]
+    if math.ceil(last.thickness_mm / coarse - 0.01) < LAYERS and "layers" not in case.settings:
+        node = reader.at.get(f"wall {len(case.walls)}: spacings_mm") or reader.at["spacings_mm"]
+        warnings.warn(f"{path}, line {node.start_mark.line + 1}: {coarse:g} mm leaves fewer than {LAYERS} layers of particles in the last wall: if that "
+                      "decides, the verdict will be undecided", HVIWarning, stacklevel=2)
+    return case

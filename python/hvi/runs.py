@@ -1,0 +1,361 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""Many runs of a LAMMPS input: each in its own folder, some at a time, those that are done left alone.
+
+A run is done if its folder has a complete result.yaml and its job.yaml says that input, files that it includes, variables
+and material files were the same. One that was interrupted goes on from its restart files where the input can. Ctrl-C ends
+what runs; what another process is still at (after kill -9 of the first) is waited for.
+"""
+
+import csv
+import fcntl
+import hashlib
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import yaml
+
+from . import progress, tables
+from .errors import HVIError
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+LAST = "package_version"  # the last key of result.yaml: it is there if the file is complete
+
+
+def read_yaml(path):
+    """the mapping in a YAML file; None if there is none"""
+    try:
+        data = yaml.safe_load(path.read_text())
+    except (OSError, yaml.YAMLError, UnicodeDecodeError):
+        return None
+    return data if isinstance(data, dict) else None
+
+
+def potentials():
+    """folders in which LAMMPS finds material files; those of the source tree if the environment names none"""
+    return [pathlib.Path(p) for p in os.environ.get("LAMMPS_POTENTIALS", str(ROOT / "potentials")).split(os.pathsep)]
+
+
+class Input:
+    """A LAMMPS input and what it includes, as texts: copies of them are run."""
+
+    def __init__(self, path):
+        self.path, self.texts = pathlib.Path(path).resolve(), {}
+        self.name = self.path.name
+        self._read(self.name)
+        self.known = {}  # variables that -var may set: {name: may it have several values}
+        for text in self.texts.values():
+            for name, values in re.findall(r'\bvariable\s+(\w+)\s+index\b(?=([^"#\n]*))', text):
+                self.known[name] = self.known.get(name, False) or len(values.split()) > 1
+            for name in re.findall(r"\bis_defined\(variable,(\w+)\)", text):  # lists that have no default
+                self.known.setdefault(name, True)
+        joined = re.sub(r"&[ \t]*\n", " ", "\n".join(self.texts.values()))
+        said = [line.split() for line in re.findall(r"^\s*hvi/variables\s+known\s(.*)", joined, re.M)]
+        if said:  # the input itself says which; what it names as optional may be lists
+            named = {name for line in said for name in line} - {"optional"}
+            self.known = {name: self.known.get(name, True) for name in named}
+
+    def _read(self, name):
+        try:
+            self.texts[name] = text = (self.path.parent / name).read_text()
+        except (OSError, UnicodeDecodeError) as problem:
+            raise HVIError(f"cannot read the input {self.path.parent / name}: {problem}") from None
+        for other in re.findall(r"^\s*include\s+([\w./-]+)\s*(?:#.*)?$", text, re.M):  # names without variables
+            if other not in self.texts:
+                self._read(other)
+
+    def checksum(self):
+        texts = [self.texts[name] for name in sorted(self.texts)]
+        return hashlib.sha256("\0".join(texts).encode()).hexdigest()[:16]
+
+    def check(self, variables, where):
+        """LAMMPS takes any name after -var; one that the input does not know would change nothing"""
+        for name, value in variables.items():
+            if name not in self.known:
+                raise HVIError(f"{where}: {self.name} has no variable '{name}'")
+            if isinstance(value, list) and not self.known[name]:
+                raise HVIError(f"{where}: variable '{name}' of {self.name} is one value, not a list")
+
+    def copy_to(self, folder):
+        for name, text in self.texts.items():  # LAMMPS reads on while it runs
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(text)
+
+
+def words(value):
+    """a value of a variable as LAMMPS's words: a list has a word for each"""
+    return [str(v) for v in (value if isinstance(value, list) else [value])]
+
+
+def job_name(case):
+    """a folder name from what varies: tD-0.1_v0-5000"""
+    return "_".join(re.sub(r"[^\w.+-]", "-", f"{name}-{'+'.join(words(value))}") for name, value in case.items())
+
+
+class Job:
+    """One run of an input in its own folder."""
+
+    def __init__(self, source, name, variables, folder, restart=None, remove=(), weight=1.0,
+                 product="result.yaml", last=LAST):
+        self.input, self.name, self.variables, self.folder = source, name, variables, pathlib.Path(folder)
+        self.restart, self.remove, self.weight = restart, remove, weight  # weight: how much of all work this is
+        self.product, self.last = product, last  # the file that it is run for, and the last key in it
+        self.record = {"input": source.checksum(), "variables": variables}
+        if files := self._files():
+            self.record["files"] = files
+        self.process, self.lock, self.start, self.problem, self.resumed, self.asked = None, None, None, "", False, False
+
+    def _files(self):
+        """checksums of the files that variables name: materials, plates"""
+        found = {}
+        for word in (word for value in self.variables.values() for word in words(value)):
+            for path in (folder / word for folder in potentials()):  # an absolute path stays what it is
+                if re.search(r"\.\w*[a-z]\w*$", word) and path.is_file():
+                    found[word] = hashlib.sha256(path.read_bytes()).hexdigest()[:16]
+                    break
+        return found
+
+    def result(self):
+        """the results if the job is done with these variables, input and files, else None"""
+        if not self.begun():
+            return None
+        result = read_yaml(self.folder / self.product)
+        return result if result and self.last in result else None
+
+    def begun(self):
+        """True if it was started before, with these variables, input and files"""
+        return read_yaml(self.folder / "job.yaml") == self.record
+
+    def restart_files(self):
+        """what the run left to go on from, newest last"""
+        found = self.folder.glob(self.restart) if self.restart and self.begun() else []
+        return sorted(found, key=lambda path: path.stat().st_mtime)
+
+    def words(self):
+        """LAMMPS's options"""
+        options = ["-in", self.input.name, "-log", "log.lammps"]
+        for name, value in self.variables.items():
+            options += ["-var", name, *words(value)]
+        if files := self.restart_files():
+            options += ["-var", "resume", files[-1].suffix[1:] if "*" in self.restart else "yes"]
+        return options
+
+    def take(self):
+        """True if no other process is at this run; from now on none can be. Processes that it starts keep the lock."""
+        self.folder.parent.mkdir(parents=True, exist_ok=True)
+        lock = os.open(self.folder.parent / f".{self.folder.name}.lock", os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            os.close(lock)
+            return False
+        self.lock = lock
+        return True
+
+    def leave(self):
+        if self.lock is not None:
+            os.close(self.lock)
+            self.lock = None
+
+    def begin(self, command):
+        """start it, in an empty folder unless it goes on; nothing left there can be taken for a result"""
+        command = command(self)
+        self.resumed = bool(self.restart_files())
+        if not self.resumed:
+            shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        (self.folder / self.product).unlink(missing_ok=True)
+        self.input.copy_to(self.folder)
+        (self.folder / "job.yaml").write_text(yaml.safe_dump(self.record, sort_keys=False))
+        environment = {"LAMMPS_POTENTIALS": os.pathsep.join(map(str, potentials())), **os.environ}
+        with open(self.folder / "output.txt", "w") as out:
+            self.process = subprocess.Popen(command, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=out, env=environment,
+                                            stderr=subprocess.STDOUT, start_new_session=True, pass_fds=[self.lock])
+
+    def ended(self, command, timeout):
+        """True when it is over, by itself or by the time limit; self.problem then says what is wrong"""
+        if self.start is None:
+            self.start, self.problem = time.monotonic(), ""
+        late = timeout and time.monotonic() - self.start > timeout
+        if self.process is None:  # another process was at it, or it has yet to begin
+            if self.take():
+                if self.result() is None:
+                    self.begin(command)
+                    return False
+            elif late:
+                self.problem = f"another process is at it for more than {timeout:g} s"
+            else:
+                return False
+            self.leave()
+            return True
+        status = self.process.poll()
+        if status is None and not late:
+            return False
+        if status is None:
+            self.end()
+            self.problem = f"stopped after {timeout:g} s"
+        elif status != 0:
+            self.problem = f"exit status {status}"
+        elif self.result() is None:
+            self.problem = f"no complete {self.product}"
+        if self.problem and self.resumed and status is not None:  # what it went on from may be what is wrong: the next try begins anew
+            for path in self.restart_files():
+                path.unlink()
+        for pattern in [] if self.problem else self.remove:
+            for path in self.folder.glob(pattern):
+                path.unlink()
+        self.process = None
+        self.leave()
+        return True
+
+    def ask_to_end(self):
+        """once: a second signal would make mpirun leave without its ranks"""
+        if self.process is not None and not self.asked:
+            self.process.terminate()
+            self.asked = True
+
+    def end(self):
+        """mpirun ends its ranks when it is told to; if it does not listen it is killed"""
+        if self.process is None:
+            return
+        self.ask_to_end()
+        try:
+            self.process.wait(timeout=10)
+        except subprocess.TimeoutExpired:
+            os.killpg(self.process.pid, signal.SIGKILL)
+            self.process.wait()
+        self.leave()
+
+    def stage(self):
+        """(part of the run that is done, words on it) from the last line of its thermo output, if that has stage and togo"""
+        try:
+            with open(self.folder / "output.txt", "rb") as out:
+                out.seek(max(0, os.path.getsize(self.folder / "output.txt") - 20000))
+                lines = [line.split() for line in out.read().decode(errors="replace").splitlines()]
+            head = next(line for line in reversed(lines) if "v_togo" in line and "v_stage" in line)
+            togo, stage = head.index("v_togo"), head.index("v_stage")
+            row = next(line for line in reversed(lines) if len(line) == len(head) and line[0].isdigit() and float(line[togo]) > 0)  # 0: a run begins
+            togo, stage = float(row[togo]), float(row[stage])
+        except (OSError, StopIteration, ValueError):
+            return 0.0, ""
+        spent = time.monotonic() - self.start
+        return spent / (spent + togo), f" stage {stage:g}, {duration(togo)} to go"
+
+    def last_lines(self, n=8):
+        """the end of what LAMMPS and mpirun said, from the first error on if there is one"""
+        try:
+            lines = [line.rstrip() for line in (self.folder / "output.txt").read_text(errors="replace").splitlines()]
+        except OSError:
+            return []
+        lines = [line for line in lines if line]
+        frame = next((i for i, line in enumerate(lines) if re.fullmatch("-{60,}", line)), 0)  # what mpirun says after that hides why
+        lines = lines[:frame] or lines
+        errors = [i for i, line in enumerate(lines) if line.startswith("ERROR")]
+        return lines[max(0, errors[0] - 1):][:n] if errors else lines[-n:]
+
+
+class Runner:
+    """Runs jobs as the options of the command line say."""
+
+    def __init__(self, args, ranks=None, timeout=None):
+        self.jobs, self.ranks = args.jobs, args.ranks or ranks or 2
+        self.timeout, self.mpirun = args.timeout or timeout, args.mpirun
+        self.lmp = pathlib.Path(args.lmp or os.environ.get("HVI_LMP") or ROOT / "build" / "lmp")
+        if not self.lmp.is_file():
+            raise HVIError(f"{self.lmp} does not exist: run make first, or give --lmp FILE")
+        self.lmp = self.lmp.resolve()
+        if not shutil.which(self.mpirun):
+            raise HVIError(f"{self.mpirun} is not there: install MPI, or give --mpirun FILE")
+        if os.sep in self.mpirun:
+            self.mpirun = os.path.abspath(self.mpirun)  # runs have folders of their own
+        signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C
+
+    def command(self, job):
+        command = [self.mpirun, "-np", str(self.ranks), str(self.lmp), *job.words()]
+        env = ROOT / "cmake" / "env.sh"  # lets mpirun run as root, in containers, with more ranks than cores
+        return [str(env), *command] if env.is_file() else command
+
+    def run(self, jobs, what, more=lambda job: []):
+        """Runs those that are not done, some at a time; returns those that failed.
+
+        more(job): jobs that follow from one that is done
+        Ctrl-C ends what runs and is passed on.
+        """
+        waiting, running, failed, over, work = list(jobs), [], [], 0, 0.0
+        start, look = time.monotonic(), 0.0
+        form = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}{postfix}"
+        with progress.bar(1, what, sys.stdout, bar_format=form) as bar:
+            try:
+                while waiting or running:
+                    while waiting and len(running) < self.jobs:
+                        job = waiting.pop(0)
+                        if job.result() is None:
+                            running.append(job)
+                        else:
+                            waiting += more(job)
+                    for job in [j for j in running if j.ended(self.command, self.timeout)]:
+                        running.remove(job)
+                        over, work = over + 1, work + job.weight
+                        if job.problem:
+                            failed.append(job)
+                        else:
+                            waiting += more(job)
+                        left = sum(j.weight for j in waiting + running)
+                        bar.write(f"[{over}/{over + len(waiting) + len(running)}] {self._line(job)}"
+                                  + (f"   about {duration((time.monotonic() - start) / work * left)} left" if left else ""))
+                    if not isinstance(bar, progress.Silent) and time.monotonic() > look:
+                        stages = [job.stage() for job in running]
+                        bar.total = work + sum(j.weight for j in waiting + running)
+                        bar.n = work + sum(part * job.weight for (part, _), job in zip(stages, running))
+                        bar.set_postfix_str("; ".join(job.name + text for (_, text), job in zip(stages, running)))
+                        look = time.monotonic() + 0.5
+                    time.sleep(0.05)
+            except KeyboardInterrupt:
+                print("interrupted: call again to go on", file=sys.stderr)
+                raise
+            finally:
+                for job in running:  # all at once
+                    job.ask_to_end()
+                for job in running:
+                    job.end()
+        return failed
+
+    def _line(self, job):
+        took = f"{time.monotonic() - job.start:.0f} s"
+        if not job.problem:
+            return f"{job.name}  ok  {took}"
+        return "\n".join([f"{job.name}  FAILED: {job.problem}  {took}", *(f"    | {line}" for line in job.last_lines()), f"    | see {job.folder}"])
+
+
+def duration(seconds):
+    return f"{seconds:.0f} s" if seconds < 90 else f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+
+
+def cell(value):
+    """a variable or a result as a cell of a table"""
+    return "; ".join(map(str, value)) if isinstance(value, list) else value
+
+
+def write_table(jobs, path):
+    """A CSV file: job, variables, results of all jobs that are done; returns how many are."""
+    rows = [{"job": job.name, **result, **job.variables} for job in jobs if (result := job.result())]
+    columns = list(dict.fromkeys(["job", *(n for j in jobs for n in j.variables), *(n for row in rows for n in row)]))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with open(path, "w", newline="") as out:
+        writer = csv.DictWriter(out, columns, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({name: cell(value) for name, value in row.items()} for row in rows)
+    return len(rows)
+
+
+def overview(jobs, keys):
+    """A table for the eye: all jobs, with those of the keys that any of them has."""
+    results = [(job, job.result() or {}) for job in jobs]
+    shown = [key for key in keys if any(key in result for _, result in results)]
+    rows = [(job.name, "done" if result else job.problem or "not run", *(cell(result.get(key, "-")) for key in shown)) for job, result in results]
+    return tables.text(("run", "state", *shown), rows)

@@ -1,0 +1,476 @@
+"""python3 -m hvi shield and limit: cases read and refused, runs shared out, verdicts drawn from them; LAMMPS is a fake here."""
+
+import contextlib
+import fcntl
+import os
+import pty
+import re
+import signal
+import struct
+import subprocess
+import sys
+import termios
+import time
+
+import numpy as np
+import pytest
+import yaml
+from hvi import case as cases
+from hvi import cli, limit, runs, shield, sketch
+from hvi.errors import HVIError
+
+CASE = """# a shield
+projectile:
+  diameter_mm: 5
+  material: Al2024-T3
+speed_km_s: 7.1
+walls:
+  - {thickness_mm: 0.8, material: Al2024-T3}
+  - thickness_mm: 1.2
+    material: Al6061-T6
+    gap_mm: 60
+spacings_mm: [0.2, 0.4]
+shifts: [0, 0.5]
+"""
+
+
+@pytest.fixture
+def folder(tmp_path, root, monkeypatch):
+    (tmp_path / "emi.yaml").write_text(CASE)
+    mpirun = tmp_path / "mpirun"
+    mpirun.write_text(f"#!/bin/sh\nexec '{sys.executable}' '{root}/tests/fake_lammps.py' \"$@\"\n")
+    mpirun.chmod(0o755)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("HVI_LMP", str(mpirun))
+    monkeypatch.setenv("PYTHONPATH", str(root / "python"))
+    return tmp_path
+
+
+def front(*words, case="emi.yaml"):
+    """exit status of a command within this process"""
+    before = signal.getsignal(signal.SIGTERM)
+    try:
+        return cli.main([words[0], case, *words[1:], "--mpirun", "./mpirun"])
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def tries(folder):
+    """how many runs were begun in each folder"""
+    return {path.parent.name: len(path.read_text().split()) for path in folder.glob("runs/**/tries")}
+
+
+def begun(folder):
+    """when each run was begun last"""
+    return {path.parent.name: path.stat().st_mtime_ns for path in folder.glob("runs/**/tries")}
+
+
+def wait_for(true, seconds=60):
+    end = time.monotonic() + seconds
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def change(old, new):
+    assert old in CASE
+    return CASE.replace(old, new)
+
+
+# ---------------------------------------------------------------------- cases
+def test_case_as_variables(folder, root):
+    case = cases.read("emi.yaml", runs.Input(shield.INPUT))
+    assert case.spacings_mm == (0.4, 0.2)  # coarse first
+    assert case.variables(1, 0.5) == {
+        "dx": 0.2, "shift": 0.5, "D": 5.0, "v0": 7100.0, "angle": 0.0, "material_p": "Al2024-T3.hvi", "walls": 2, "thickness": [0.8, 1.2],
+        "gap": [0, 60.0], "material": ["Al2024-T3.hvi", "Al6061-T6.hvi"]}
+    (folder / "mine.hvi").write_text("eos")
+    (folder / "emi.yaml").write_text(CASE.replace("gap_mm: 60", "gap_mm: 60\n    spacings_mm: [0.3, 0.5]\n    radius_mm: 40").replace(
+        "0.8, material: Al2024-T3}", "0.8, material: mine}") + "angle_deg: 30\nsettings: {tstop: 40, layers: [2, 3]}\n")
+    found = cases.read("emi.yaml", runs.Input(shield.INPUT)).variables(0, 0.0)
+    assert found["spacings"] == [0.4, 0.5] and found["radius"] == [0, 40.0] and found["angle"] == 30.0
+    assert found["material"] == [str(folder / "mine.hvi"), "Al6061-T6.hvi"] and found["tstop"] == "40" and found["layers"] == ["2", "3"]
+    job = runs.Job(runs.Input(shield.INPUT), "a", found, folder / "a")
+    assert job.words()[-7:] == ["-var", "tstop", "40", "-var", "layers", "2", "3"]
+
+
+WRONG = [
+    (change("speed_km_s: 7.1", "speed_km_s: 7100"), 5, "speed_km_s: must be above 0 and below 100 km/s, not 7100; is it in m/s?"),
+    (change("speed_km_s: 7.1", "speed: 7.1"), 5, "speed: no such key; did you mean speed_km_s?"),
+    (change("speed_km_s: 7.1", "speed_km_s: 7.1 km/s"), 5, "speed_km_s: must be a number of km/s, without the unit, not '7.1 km/s'"),
+    (change("speed_km_s: 7.1", "speed_km_s: .nan"), 5, "speed_km_s: must be a number"),
+    (change("speed_km_s: 7.1", "speed_km_s: 7.1\nspeed_km_s: 6"), 6, "speed_km_s: is there twice"),
+    (change("speed_km_s: 7.1\n", ""), 2, "speed_km_s: is missing"),
+    (change("diameter_mm: 5", "diameter_mm: 0"), 3, "projectile: diameter_mm: must be above 0 mm, not 0"),
+    (change("diameter_mm: 5", "diameter_cm: 5"), 3, "projectile: diameter_cm: no such key; did you mean diameter_mm?"),
+    (change("material: Al6061-T6", "materal: Al6061-T6"), 9, "wall 2: materal: no such key; did you mean material?"),
+    (change("material: Al6061-T6", "material: Al6061-T7"), 9, "wall 2: material: no material Al6061-T7; did you mean Al6061-T6?"),
+    (change("    gap_mm: 60\n", ""), 8, "wall 2: gap_mm: is missing"),
+    (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, gap_mm: 5,"), 7, "wall 1: gap_mm: is the gap in front of a wall"),
+    (change("{thickness_mm: 0.8,", "{thickness_mm: 0.3,"), 11, "spacings_mm: 0.4 mm is more than wall 1 is thick, 0.3 mm"),
+    (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, method: mli,"), 7, "wall 1: method: must be sph, not mli"),
+    (change("gap_mm: 60", "gap_mm: 60\n    spacings_mm: [0.2]"), 11, "wall 2: spacings_mm: must be 2 values, one for each"),
+    (change("gap_mm: 60", "gap_mm: 60\n    radius_mm: 2"), 11, "wall 2: radius_mm: wall 2 is no wider than the projectile, 5 mm"),
+    (change("diameter_mm: 5", "diameter_mm: 1.5"), 11, "spacings_mm: 0.4 mm leaves fewer than 4 particles across the projectile"),
+    (change("[0.2, 0.4]", "0.4"), 11, "spacings_mm: must be a list"),
+    (change("[0.2, 0.4]", "[0.35, 0.4]"), 11, "spacings_mm: the largest must be 1.2 times the smallest at least"),
+    (change("[0.2, 0.4]", "[0.4, 0.4]"), 11, "spacings_mm: a value is there twice"),
+    (CASE + "angle_deg: 90\n", 13, "angle_deg: must be at least 0 and below 90 degrees, not 90"),
+    (CASE + "settings: {tstopp: 40}\n", 13, "settings: tstopp: in.whipple has no variable 'tstopp'"),
+    (CASE + "settings: {C: [1, 2]}\n", 13, "settings: C: variable 'C' of in.whipple is one value, not a list"),
+    (CASE + "settings:\n  D: 4\n", 14, "settings: D: is set by the case itself"),
+    (change("walls:\n", "walls: none\nwall:\n"), 6, "walls: must be a list of walls"),
+    (change("walls:", "walls: ["), 7, "not YAML: "),
+    ("", None, "emi.yaml is empty"),
+    ("- 1\n", 1, "the case: must be 'name: value' lines"),
+]
+
+
+@pytest.mark.parametrize("text, line, message", WRONG, ids=[message[:40] for _, _, message in WRONG])
+def test_wrong_case(folder, capsys, text, line, message):
+    """one line that names line and key, and nothing is run"""
+    (folder / "emi.yaml").write_text(text)
+    assert front("shield") == 1
+    err = capsys.readouterr().err
+    assert err.startswith("hvi: emi.yaml") and err.count("\n") == 1 and message in err
+    assert line is None or f"emi.yaml, line {line}: " in err
+    assert not (folder / "runs").exists()
+
+
+def test_cases_of_the_example(root):
+    source = runs.Input(shield.INPUT)
+    found = [cases.read(path, source) for path in (root / "examples/whipple-shield/cases").glob("*.yaml")]
+    assert len(found) >= 3
+
+
+# ---------------------------------------------------------------------- shield
+@pytest.mark.parametrize("D, verdict, status", [(4.1, "holds", 0), (4.3, "undecided", 4), (4.43, "undecided", 4), (4.6, "fails", 3)])
+def test_verdict_of_all_runs(folder, capsys, D, verdict, status):
+    """limits of the fake: 4.2 and 4.25 at 0.2 mm, 4.4 and 4.45 at 0.4 mm"""
+    (folder / "emi.yaml").write_text(change("diameter_mm: 5", f"diameter_mm: {D}"))
+    assert front("shield", "--jobs", "2") == status
+    out = capsys.readouterr().out
+    saved = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())
+    if D == 4.43:
+        assert "so near the limit finer spacings_mm may decide" in saved["reasons"][2]
+    assert list(saved)[:2] == ["verdict", "reasons"] and saved["verdict"] == verdict and f"\nverdict: {verdict}\n  - {saved['reasons'][0]}\n" in out
+    assert tries(folder) == {name: 1 for name in saved["runs"]} and len(saved["runs"]) == 4
+    assert saved["core_s"] == pytest.approx(2 * (0.2**-4 + 39.1), abs=0.1)
+    for name, said in saved["runs"].items():
+        assert re.search(rf"^ *{name} +done +{said} ", out, re.M)
+    reasons = "\n".join(saved["reasons"])
+    assert ("differs over the spacing" in reasons) == (status == 4) and ("the verdict differs over the shift of the lattice at 0.4 mm: fails with 0, holds with 0.5" in reasons
+                                                                    if D == 4.43 else "differs over the shift" not in reasons)
+
+
+def test_few_layers_are_said_beforehand(folder, capsys):
+    (folder / "emi.yaml").write_text(change("[0.2, 0.4]", "[0.2, 0.61]"))
+    assert front("shield") == 3
+    assert capsys.readouterr().err == ("hvi: warning: emi.yaml, line 11: 0.61 mm leaves fewer than 3 layers of particles in the last wall: if that decides, "
+                                       "the verdict will be undecided\n")
+    (folder / "emi.yaml").write_text(CASE)
+    assert front("shield") == 3 and capsys.readouterr().err == ""
+
+
+PLAN = """projectile_particles: 8169
+""" + "".join(f"wall{k}_{what}: {value}\n" for k in (1, 2) for what, value in (
+    ("particles", 2000), ("layers", 4), ("radius_mm", 15 * k), ("middle_mm", 0), ("struck_at_mm", 0))) + """tstop_us: 31.2
+steps: 3849
+seconds: 700
+ranks: 2
+memory_MB: 378
+disk_MB: 56.6
+"""
+
+
+def test_dry_run(folder, capsys, monkeypatch):
+    """the plan of each spacing, made anew each time, and a sketch that shows who passes beside; nothing else is run"""
+    from matplotlib.image import imread
+
+    monkeypatch.setenv("FAKE_PLAN", PLAN)
+    for k in (1, 2):
+        assert front("shield", "--dry-run", "--jobs", "2") == 0
+        out = capsys.readouterr().out
+        assert "4 runs, 2 of each spacing: about 23 min, 2 at a time on 2 ranks each\n" in out  # 2 * (700 + 700) / 2 seconds
+        assert re.search(r"^ *steps +3849 +3849$", out, re.M) and re.search(r"^ +2 +60.8 +30 +0 +0$", out, re.M)
+        assert sorted(tries(folder)) == ["dx-0.2", "dx-0.4"] and set(tries(folder).values()) == {1}  # in folders that were emptied
+    assert not list(folder.glob("runs/**/result.yaml"))
+    picture = imread(folder / "runs/emi/sketch.png")[..., :3]
+    assert 0.01 < np.mean(picture.min(axis=2) < 0.9) < 0.6
+    case = cases.read("emi.yaml", runs.Input(shield.INPUT))
+    texts = [text.get_text() for text in sketch.draw(case, yaml.safe_load(PLAN)).axes[0].texts]
+    assert "wall 2: 1.2 mm\nAl6061-T6\ncloud passes beside" in texts and "wall 1: 0.8 mm\nAl2024-T3" in texts and "60 mm" in texts
+    texts = [text.get_text() for text in sketch.draw(case, {**yaml.safe_load(PLAN), "wall2_radius_mm": 45}).axes[0].texts]
+    assert "wall 2: 1.2 mm\nAl6061-T6" in texts
+    monkeypatch.setenv("FAKE_FAIL", "plan")
+    assert front("shield", "--dry-run") == 1 and "no plan: dx-0.4, dx-0.2 failed" in capsys.readouterr().err
+
+
+def test_undecided_runs_and_what_is_not_modelled(folder, capsys, monkeypatch):
+    monkeypatch.setenv("FAKE_UNSURE", "9")
+    assert front("shield") == 4
+    assert "verdict: undecided\n  - wall 2: it still moves -- take settings: {tstop: 40.5} (dx-0.4_shift-0.0, " in capsys.readouterr().out
+    monkeypatch.delenv("FAKE_UNSURE")
+    (folder / "emi.yaml").write_text(CASE + "not_modelled: [MLI, honeycomb]\n")
+    assert front("shield") == 4
+    assert runs.read_yaml(folder / "runs/emi/dx-0.2_shift-0.0/job.yaml")["variables"]["outside"] == "MLI, honeycomb"
+
+
+def test_one_spacing_is_no_verdict(folder, capsys):
+    (folder / "emi.yaml").write_text(change("[0.2, 0.4]", "[0.4]"))
+    assert front("shield") == 4
+    assert "verdict: undecided\n  - one spacing only: nothing says how much it matters" in capsys.readouterr().out
+
+
+def test_goes_on(folder, capsys, monkeypatch):
+    """what failed or is changed is run again, and nothing else; no verdict from a part of the runs"""
+    monkeypatch.setenv("FAKE_FAIL", "dx-0.2_shift-0.5")
+    assert front("shield") == 1
+    out, err = capsys.readouterr()
+    assert "dx-0.2_shift-0.5  FAILED: exit status 1" in out and "| ERROR: Lost atoms" in out and "verdict:" not in out
+    assert err == "hvi: no verdict: 1 of 4 runs failed: dx-0.2_shift-0.5\n" and not (folder / "runs/emi/verdict.yaml").exists()
+    monkeypatch.delenv("FAKE_FAIL")
+    first = begun(folder)
+    assert front("shield") == 3 and "4 runs, 3 done before, 1 to run" in capsys.readouterr().out
+    assert {name for name, when in begun(folder).items() if when != first[name]} == {"dx-0.2_shift-0.5"}
+    (folder / "mine.hvi").write_text("eos\n")
+    (folder / "emi.yaml").write_text(change("Al6061-T6", "mine"))
+    assert front("shield") == 3 and "4 runs, 0 done before" in capsys.readouterr().out
+    assert front("shield") == 3 and "4 runs, 4 done before" in capsys.readouterr().out
+    (folder / "mine.hvi").write_text("eos \n")  # the name is the same, the file is not
+    assert front("shield") == 3 and "4 runs, 0 done before" in capsys.readouterr().out
+    assert (folder / "runs/emi/verdict.yaml").exists()
+    (folder / "mine.hvi").write_text("eos")
+    monkeypatch.setenv("FAKE_FAIL", "dx-0.2_shift-0.5")
+    assert front("shield") == 1 and not (folder / "runs/emi/verdict.yaml").exists()  # no verdict is left of other runs
+
+
+def test_run_goes_on_from_what_it_left(folder, capsys):
+    """a run that was stopped is told to go on, in the folder that it has; not if it had other variables"""
+    assert front("shield") == 3
+    stopped = folder / "runs/emi/dx-0.2_shift-0.0"
+    (stopped / "result.yaml").unlink()
+    (stopped / "shield.state").write_text("")
+    assert front("shield") == 3 and tries(folder)[stopped.name] == 2
+    assert (stopped / "tries").read_text().split() == ["no", "yes"] and (stopped / "shield.state").exists()
+    (stopped / "result.yaml").unlink()
+    (folder / "emi.yaml").write_text(change("speed_km_s: 7.1", "speed_km_s: 7"))
+    assert front("shield") == 3 and (stopped / "tries").read_text().split() == ["no"] and not (stopped / "shield.state").exists()
+
+
+def test_result_without_verdict_is_an_error(folder, capsys):
+    assert front("shield") == 3
+    path = folder / "runs/emi/dx-0.4_shift-0.0/result.yaml"
+    path.write_text(path.read_text().replace("verdict: fails", "perforated: no"))
+    assert front("shield") == 1
+    assert "no verdict, holds, fails or undecided, but None" in capsys.readouterr().err
+
+
+def test_another_process_is_at_it(folder, capsys, monkeypatch):
+    """after kill -9 of the front door its runs go on: the next call waits for them, and does not begin them again"""
+    command = [sys.executable, "-m", "hvi", "shield", "emi.yaml", "--mpirun", "./mpirun", "--jobs", "2"]
+    process = subprocess.Popen(command, cwd=folder, env={**os.environ, "FAKE_SLEEP": "4"}, stdout=subprocess.DEVNULL)
+    wait_for(lambda: len(tries(folder)) == 2)
+    process.kill()
+    process.wait()
+    assert not list(folder.glob("runs/emi/*/result.yaml"))
+    first = begun(folder)
+    assert front("shield", "--jobs", "4") == 3
+    assert len(first) == 2 and len(begun(folder)) == 4 and first.items() <= begun(folder).items()
+
+
+# ---------------------------------------------------------------------- limit
+def answer(folder, on="D"):
+    return yaml.safe_load((folder / f"runs/emi/limit-{on}/limit.yaml").read_text())
+
+
+def test_limit(folder, capsys):
+    """limits of the fake: 4.2 and 4.25 at 0.2 mm, 4.4 and 4.45 at 0.4 mm, here by steps of 0.1"""
+    assert front("limit", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1", "--jobs", "3") == 0
+    out, found = capsys.readouterr().out, answer(folder)
+    assert found["limit"] == pytest.approx(4.25) and found["limit_of_spacings"] == {"0.4 mm": 4.45, "0.2 mm": 4.25}
+    assert found["change_by_spacing"] == -0.2 and found["range_over_shifts"] == 0 and found["undecided"] == [4.2, 4.5] and found["step"] == 0.1
+    assert (found["holds"], found["fails"]) == ("up to 4.2", "from 4.5") and set(tries(folder).values()) == {1}
+    assert "limit on diameter_mm: 4.25 mm, holds up to 4.2, fails from 4.5, between them undecided" in out
+    assert found["runs"] == len(tries(folder)) <= 4 * 8 and f"cost: {found['runs']} runs" in out
+    fine = [name for name in tries(folder) if name.startswith("dx-0.2")]
+    assert len(fine) <= 2 * 5  # they begin about what the coarse ones have found
+    before = begun(folder)
+    assert front("limit", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1") == 0
+    assert begun(folder) == before and answer(folder) == found
+
+
+def test_limit_with_an_undecided_region(folder, capsys, monkeypatch):
+    monkeypatch.setenv("FAKE_UNSURE", "0.73")
+    assert front("limit", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1", "--jobs", "3") == 0
+    found, out = answer(folder), capsys.readouterr().out
+    assert found["undecided"] == [4.2, 5.2]  # holds up to 4.2 at least at all, fails beyond 4 + 0.4 + 0.05 + 0.73 at all
+    assert re.search(r"^ *0.2 +0 +4.2 +4.3 to 4.9 +5 ", out, re.M)
+    assert "dx-0.2_shift-0.0_D-4.3" in found["undecided_runs"] and "dx-0.2_shift-0.0_D-4.2" not in found["undecided_runs"]
+    assert "undecided: dx-0.2_shift-0.0_D-4.3\n  - wall 2: it still moves -- take settings: {tstop: 40.5}\n" in out
+
+
+@pytest.mark.parametrize("words, limit", [(("thickness2", "--from", "0.8", "--to", "2.8", "--step", "0.2"), 1.9), (("D",), 4.25)])
+def test_limit_on_what_holds_when_it_is_more(folder, monkeypatch, words, limit):
+    """a wall that is thicker holds: D = 5 needs 1.95 mm and 1.9 mm at 0.2, 1.75 mm and 1.7 at 0.4"""
+    monkeypatch.setenv("FAKE_LIMIT", "4.05")
+    assert front("limit", "--on", *words) == 0
+    found = answer(folder, words[0])
+    assert found["limit"] == pytest.approx(limit, abs=0.25)
+    if words[0] == "thickness2":
+        assert found["holds"] == "from 2" and found["fails"] == "up to 1.6" and found["undecided"] == [1.6, 2.0]
+
+
+def test_no_limit_in_the_range(folder, capsys):
+    assert front("limit", "--on", "D", "--from", "5", "--to", "9") == 4
+    out = capsys.readouterr().out
+    assert "limit: not found\n  - an end of the range neither holds nor fails as it should: choose --from and --to" in out and "dx-0.2_shift-0.0: fails at 5 mm, fails at 9 mm" in out
+    assert answer(folder)["limit"] is None
+
+
+def test_limit_goes_on_after_kill(folder, capsys):
+    """kill -9 amid the search: what was run counts, what still runs is waited for"""
+    words = ["limit", "emi.yaml", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1", "--jobs", "2", "--mpirun", "./mpirun"]
+    process = subprocess.Popen([sys.executable, "-m", "hvi", *words], cwd=folder, env={**os.environ, "FAKE_SLEEP": "0.3"}, stdout=subprocess.DEVNULL)
+    wait_for(lambda: len(list(folder.glob("runs/emi/limit-D/*/result.yaml"))) >= 6)
+    process.kill()
+    process.wait()
+    first = begun(folder)
+    assert not (folder / "runs/emi/limit-D/limit.yaml").exists()
+    assert front(words[0], *words[2:-2]) == 0
+    assert answer(folder)["limit"] == pytest.approx(4.25) and len(begun(folder)) > len(first) and first.items() <= begun(folder).items()
+
+
+@pytest.mark.parametrize("words, message", [
+    (("--on", "mass"), "--on must be D, speed, or thickness1 or thickness2, not mass"), (("--on", "thickness3"), "not thickness3"),
+    (("--on", "D", "--from", "6", "--to", "5"), "there is nothing between"),
+    (("--on", "thickness2", "--from", "0.1"), "--from 0.1 mm: spacings_mm: 0.4 mm is more than wall 2 is thick"),
+])
+def test_wrong_limits(folder, capsys, words, message):
+    assert front("limit", *words) == 1 and message in capsys.readouterr().err and not (folder / "runs").exists()
+
+
+def search(truth, n, **words):
+    """(borders, number of tries) of a search over a function of places"""
+    found = limit.Search(n, **words)
+    while new := found.next():
+        found.said.update({place: truth(place) for place in new})
+    assert found.done
+    return found.borders(), len(found.said)
+
+
+def test_search():
+    """every border in every range is found, whichever window it begins with; a few tries each"""
+    for n in (1, 2, 7, 20):
+        for border in range(1, n + 1):
+            for turned in (False, True):
+                def truth(place):
+                    return "holds" if (place < border) != turned else "fails"
+                low, high = border - 1, border
+                want = (high, low, high, low) if turned else (low, high, low, high)
+                for window in (None, (0, 1), (n - 1, n), (border - 2, border + 1)):
+                    for known in (None, turned):
+                        assert search(truth, n, window=window, turned=known)[0] == want
+        assert search(truth, n)[1] <= 2 + 5
+    for first in range(1, 10):
+        for last in range(first, 10):
+            def unsure(place):
+                return "holds" if place < first else "undecided" if place <= last else "fails"
+            found, count = search(unsure, 10)
+            if found[1] != found[3]:  # a narrow region may lie between places that were tried
+                assert (found[0], found[3]) == (first - 1, last + 1) and count <= 9
+    assert search(lambda place: "holds", 10) == ((None,) * 4, 2)
+    to_and_fro = {0: "holds", 5: "fails", 2: "holds", 3: "holds", 4: "holds", 7: "holds", 10: "fails"}
+    assert search(lambda place: to_and_fro.get(place, "fails" if place > 7 else "holds"), 10)[0] in ((4, 5, 7, 8), (4, 5, 4, 5))
+
+
+# ---------------------------------------------------------------------- the engine
+def test_lists_per_wall_in_a_sweep(folder, capsys):
+    """a list is a word for each wall; one where the input knows a single value is refused, LAMMPS would take the first"""
+    study = {"input": str(shield.INPUT), "variables": {"gap": [0, 40], "shift": 0, "D": 3.5}, "grid": {"thickness": [[0.8, 0.5], [1.0, 0.5]], "dx": [0.4]}}
+    (folder / "s.yaml").write_text(yaml.safe_dump(study, sort_keys=False))
+    assert front("sweep", "--dry-run", case="s.yaml") == 0
+    assert "-var gap 0 40 -var shift 0 -var D 3.5 -var thickness 0.8 0.5 -var dx 0.4\n" in capsys.readouterr().out
+    assert front("sweep", case="s.yaml") == 0
+    assert sorted(tries(folder)) == ["thickness-0.8+0.5_dx-0.4", "thickness-1.0+0.5_dx-0.4"]
+    with open(folder / "runs/s.csv") as table:
+        assert "\nthickness-0.8+0.5_dx-0.4,0; 40,0,3.5,0.8; 0.5,0.4,holds,\"wall 2: no hole" in table.read()
+    (folder / "s.yaml").write_text(yaml.safe_dump({**study, "variables": {"D": [4, 5]}}))
+    assert front("sweep", case="s.yaml") == 1 and "variable 'D' of in.whipple is one value, not a list" in capsys.readouterr().err
+
+
+def test_included_files_are_inputs(folder):
+    """a change in one of them counts; they are copied into the folders of runs, and their variables are known"""
+    (folder / "in.main").write_text("variable D index 1\ninclude more/in.part # walls\n")
+    (folder / "more").mkdir()
+    (folder / "more/in.part").write_text("variable t index 1\n")
+    first = runs.Input(folder / "in.main")
+    assert set(first.known) == {"D", "t"}
+    first.copy_to(folder / "there")
+    assert (folder / "there/more/in.part").read_text() == "variable t index 1\n"
+    (folder / "more/in.part").write_text("variable t index 2\n")
+    assert runs.Input(folder / "in.main").checksum() != first.checksum()
+    (folder / "in.main").write_text("variable D index 1\nvariable n index 1 2\nhvi/variables known D &\n  n optional thickness\n")
+    assert runs.Input(folder / "in.main").known == {"D": False, "n": True, "thickness": True}
+    (folder / "in.main").write_text("include in.lost\n")
+    with pytest.raises(HVIError, match="cannot read the input .*in.lost"):
+        runs.Input(folder / "in.main")
+
+
+def test_stage_of_a_run(folder):
+    """from the last whole line of its thermo output that knows how long it will take; nothing where there is none"""
+    (folder / "in.main").write_text("variable D index 1\n")
+    job = runs.Job(runs.Input(folder / "in.main"), "a", {}, folder / "a")
+    job.start = time.monotonic() - 30
+    assert job.stage() == (0.0, "")
+    (folder / "a").mkdir()
+    (folder / "a/output.txt").write_text("   Step v_us v_stage v_togo \n 5 1.0 1 0 \nLoop time of 3 on 4 procs\n")
+    assert job.stage() == (0.0, "")
+    (folder / "a/output.txt").write_text("   Step v_us v_stage v_togo \n 9 2.0 1.5 90.0 \n   Step v_us v_stage v_togo \n 10 2.1 2 0 \n 11 2.")
+    part, words = job.stage()
+    assert part == pytest.approx(0.25, abs=0.01) and words == " stage 1.5, 2 min to go"
+
+
+def test_bar_on_a_terminal(folder):
+    """the lines of runs stay whole beside it, and nothing of it is left"""
+    master, slave = pty.openpty()
+    fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 120, 0, 0))
+    code = "import hvi.progress as p; p.DELAY = 0.0; from hvi.cli import main; raise SystemExit(main())"
+    process = subprocess.Popen([sys.executable, "-c", code, "shield", "emi.yaml", "--mpirun", "./mpirun"], stdout=slave, stderr=slave)
+    os.close(slave)
+    shown = b""
+    with contextlib.suppress(OSError):  # what a terminal gives when nobody writes any more
+        while part := os.read(master, 10_000):
+            shown += part
+    os.close(master)
+    shown = shown.decode()
+    assert process.wait() == 3 and "emi:   0%|" in shown and "emi:" not in shown.partition("verdict: ")[2].partition("table:")[0]
+    assert all(re.search(rf"(^|\r|\n)\[{k}/4\] dx-0.[24]_shift-0.[05]  ok", shown) for k in (1, 2, 3, 4))
+
+
+# ---------------------------------------------------------------------- the real thing
+REAL = """projectile: {diameter_mm: 6, material: Al2017-T4}
+speed_km_s: 7
+walls:
+  - {thickness_mm: 1.5, material: Al6061-T6, radius_mm: 8}
+  - {thickness_mm: 2.4, material: Al6061-T6, gap_mm: 10, radius_mm: 14}
+spacings_mm: [0.8, 0.66]
+shifts: [0]
+settings: {behind: 20}
+"""
+
+
+def test_real_shield(root, lmp_exe, tmp_path, monkeypatch, capsys):
+    """from a YAML file to a verdict by LAMMPS: two spacings, 3 layers in the wall that decides, which a fast heavy shot goes through"""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("LAMMPS_POTENTIALS", str(root / "potentials"))
+    (tmp_path / "hit.yaml").write_text(REAL)
+    words = ["shield", "hit.yaml", "--lmp", str(lmp_exe), "--ranks", "1", "--jobs", "2"]
+    assert cli.main([*words, "--dry-run"]) == 0
+    out = capsys.readouterr().out
+    assert re.search(r"^ *wall2_layers +3 +4$", out, re.M) and (tmp_path / "runs/hit/sketch.png").stat().st_size > 10000
+    assert cli.main(words) == 3
+    out = capsys.readouterr().out
+    said = yaml.safe_load((tmp_path / "runs/hit/verdict.yaml").read_text())
+    assert said["verdict"] == "fails" and set(said["runs"].values()) == {"fails"} and re.search(r"wall 2 is perforated by a hole of \d", out)
+    assert cli.main(words) == 3 and "2 runs, 2 done before, 0 to run" in capsys.readouterr().out
