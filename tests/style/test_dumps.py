@@ -15,9 +15,9 @@ CASES = {
     "plate": ("single-plate/in.plate", dict(dx=1.25, Rplate=15, frame=[0.5, 1], tstop=1), "frame.*.dump", STATE, "whole"),
     "quarter plate": ("single-plate/in.plate", dict(dx=1.25, Rplate=15, frame=[0.5, 1], tstop=1, quarter="yes"), "frame.*.dump", STATE,
                       "quarter (mirror x 0 lo, mirror y 0 lo)"),
-    "shield": ("whipple-shield/in.whipple", dict(dx=0.8, walls=1, radius1=8, tstop=1), "*.dump", [*STATE, "e"],
+    "shield": ("whipple-shield/in.whipple", dict(dx=0.8, walls=1, radius1=8, tstop=1.5), "*.dump", [*STATE, "e", "eps"],
                "quarter (mirror x 0 lo, mirror y 0 lo)"),
-    "oblique shield": ("whipple-shield/in.whipple", dict(dx=0.8, walls=1, radius1=8, tstop=1, angle=30), "*.dump", [*STATE, "e"], "whole"),
+    "oblique shield": ("whipple-shield/in.whipple", dict(dx=0.8, walls=1, radius1=8, tstop=2, angle=30), "*.dump", [*STATE, "e", "eps"], "whole"),
     "debris": ("debris-cloud/in.debris", dict(N=2000, tstop=1, frames=2, Rplate=10), "debris.dump", [], "whole"),
 }
 
