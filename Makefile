@@ -1,6 +1,7 @@
 # The front door; the work is done by CMake (cmake/CMakeLists.txt).
 #
-#   make demo    dependencies, LAMMPS, the package; then the main job with its picture
+#   make demo    dependencies, LAMMPS, the package; then the verdict on a shield with its picture
+#   make demo-dem                  likewise, a debris cloud of discrete elements
 #   make test    the same; then all tests
 #   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so
 #   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures) and of solids
@@ -28,7 +29,7 @@ TOP := $(CURDIR)
 OUT = $(abspath $(BUILD))
 export CMAKE_BUILD_PARALLEL_LEVEL = $(JOBS)
 
-.PHONY: all build demo test verify doc bench bench-full sanitize clean
+.PHONY: all build demo demo-dem test verify doc bench bench-full sanitize clean
 all: build
 
 # configures quietly; what went wrong is told in one line
@@ -44,13 +45,25 @@ build:
 	    echo "lammps-hvi: cmake failed: see $(BUILD)/configure.log; after a change of compiler remove $(BUILD)"; }; exit 1; } >&2
 	@cmake --build $(BUILD) --parallel $(JOBS)
 
+# a shield, its verdict and a picture; 3 and 4 are verdicts: it fails, it cannot be told
+DEMO = examples/whipple-shield
 demo:
 	@cmake/deps.sh build demo
 	@$(MAKE) build
-	@mkdir -p $(OUT)/demo
+	@python=$$(cmake/find-python.sh numpy scipy matplotlib yaml tqdm) && export PYTHONPATH=$(TOP)/python && \
+	  { cmake/env.sh $$python -m hvi shield $(DEMO)/cases/quick.yaml --lmp $(OUT)/lmp --runs $(OUT)/demo --jobs $(RANKS) --ranks 1; code=$$?; \
+	    [ $$code = 0 ] || [ $$code = 3 ] || [ $$code = 4 ] || exit $$code; } && \
+	  $$python $(DEMO)/plot.py $(OUT)/demo/quick/dx-0.5_shift-0.0 && \
+	  echo "picture: $(OUT)/demo/quick/dx-0.5_shift-0.0/shield.png"
+
+# a debris cloud of discrete elements
+demo-dem:
+	@cmake/deps.sh build demo
+	@$(MAKE) build
+	@mkdir -p $(OUT)/demo-dem
 	cd examples/debris-cloud && $(TOP)/cmake/env.sh mpirun -np $(RANKS) $(OUT)/lmp -in in.debris -var size small \
-	  -var out $(OUT)/demo -log $(OUT)/demo/log.lammps
-	@echo; cat $(OUT)/demo/result.yaml; echo "picture: $(OUT)/demo/cloud.png"
+	  -var out $(OUT)/demo-dem -log $(OUT)/demo-dem/log.lammps
+	@echo; cat $(OUT)/demo-dem/result.yaml; echo "picture: $(OUT)/demo-dem/cloud.png"
 
 test:
 	@cmake/deps.sh build test

@@ -22,6 +22,7 @@ folder = sys.argv[1] if len(sys.argv) > 1 else "."
 with open(os.path.join(folder, "result.yaml")) as f:
     result = yaml.safe_load(f)
 COLORS = ["tab:red", "tab:blue", "tab:green", "tab:orange", "tab:purple"]
+DOT = 4 * max(1.0, result["dx_mm"] / 0.2)  # coarse particles are large
 
 
 def read(path):
@@ -50,11 +51,11 @@ for k, (ax, data) in enumerate(zip(axes[0], frames)):
             m = wall_of(cut) == w
             if not m.any():
                 continue
-            ax.scatter(cut[m, 3], cut[m, 1], s=4, c=color, lw=0, label="wall %d" % w if w else "projectile")
+            ax.scatter(cut[m, 3], cut[m, 1], s=DOT, c=color, lw=0, label="wall %d" % w if w else "projectile")
         ax.legend(loc="upper left", fontsize=8)
         ax.set_title("before wall %d, %.1f us" % (k + 2, result["wall%d_until_us" % (k + 1)]))
     else:
-        dots = ax.scatter(cut[:, 3], cut[:, 1], s=4, c=1e-6 * cut[:, 4], cmap="inferno", vmin=0, vmax=400, lw=0)
+        dots = ax.scatter(cut[:, 3], cut[:, 1], s=DOT, c=1e-6 * cut[:, 4], cmap="inferno", vmin=0, vmax=400, lw=0)
         fig.colorbar(dots, ax=ax, label="von Mises stress, MPa", shrink=0.7)
         ax.set_title("at the end, %.1f us" % result["time_us"])
     ax.set_aspect("equal")
@@ -64,7 +65,7 @@ for w, ax in zip(range(1, walls + 1), axes[1]):
     mine = final[wall_of(final) == w]
     middle = np.median(mine[:, 3])
     mine = mine[np.abs(mine[:, 3] - middle) < 5.0]
-    dots = ax.scatter(mine[:, 1], mine[:, 2], s=3, c=mine[:, 3] - middle, cmap="viridis", lw=0)
+    dots = ax.scatter(mine[:, 1], mine[:, 2], s=DOT, c=mine[:, 3] - middle, cmap="viridis", lw=0)
     fig.colorbar(dots, ax=ax, label="out of plane, mm", shrink=0.7)
     ax.set_aspect("equal")
     ax.set_title("wall %d from the front: hole %.1f mm" % (w, result["hole%d_diameter_mm" % w]))
