@@ -175,8 +175,8 @@ bool SolidModel::parts(SolidState &s, double rho, double p, double Y, double lim
 {
   if (spall == Spall::GRADY) return spalls(spall, p, s.S, limit * grady.limit(rho, eos->c0(), Y));
   if (spall == Spall::TULER_BUTCHER) {
-    const double sigma_1 = principal_above(limit * impulse.sigma_0, p, s.S);
-    s.voids.D = impulse.advance(s.voids.D, sigma_1 / limit, dt);
+    const double over = principal_above(limit * impulse.sigma_0, p, s.S) - limit * impulse.sigma_0;
+    if (over > 0.0) s.voids.D = impulse.advance(s.voids.D, impulse.sigma_0 + over / limit, dt);
   } else if (spall != Spall::VOIDS)
     return spalls(spall, p, s.S, limit * sigma_p);
   return s.voids.D >= 1.0;

@@ -265,6 +265,26 @@ TEST(SpallVoids, Closing)
     }
 }
 
+// matter spread far apart: voids open until no tension is left, not beyond, where equations of state have other roots
+
+TEST(SpallVoids, SpreadFarApart)
+{
+  const auto eos = made("gruneisen", AL);
+  for (double rho = 0.02; rho < 0.5; rho += 0.002)
+    for (double phi : {0.0, 0.05, 0.3})
+      for (double dt : {1e-9, 1e-7, 1e-5}) {
+        SpallVoids::State v = {phi, 0.0, 0.0};
+        const double tension = -pressure_of(*eos, v, rho * RHO0, 0.0);
+        const double most = tension * std::log((1.0 - phi) / rho) / (rho * RHO0);
+        const double least = LAW.advance(v, *eos, rho * RHO0, 0.0, 1.0, dt);
+        ASSERT_LE(rho / (1.0 - v.phi), 1.0 + 1e-6) << rho << " " << phi << " " << dt;
+        ASSERT_LT(least, 0.0);
+        ASSERT_GE(v.work, 0.0);
+        ASSERT_LE(v.work, most);
+        ASSERT_GE(least, -tension);
+      }
+}
+
 // an opening delta_c at failure, of something large
 
 TEST(SpallVoids, Opening)
