@@ -5,6 +5,7 @@ import dataclasses
 import difflib
 import math
 import pathlib
+import re
 import warnings
 
 import yaml
@@ -69,6 +70,14 @@ class Case:
         for dx in self.spacings_mm:
             if dx > 0.25 * self.diameter_mm:
                 wrong("spacings_mm", f"{dx:g} mm leaves fewer than 4 particles across the projectile of {self.diameter_mm:g} mm")
+
+
+def has_strength(path):
+    """True if a material file has a section strength"""
+    try:
+        return re.search(r"^[ \t]*strength\s", path.read_text(), re.M) is not None
+    except (OSError, UnicodeDecodeError) as problem:
+        raise HVIError(f"cannot read {path}: {problem}") from None
 
 
 class Reader:
@@ -145,16 +154,19 @@ class Reader:
         return node.value
 
     def material(self, node, key):
-        """a material file beside the case, or one of the package, by its name without .hvi"""
+        """a material file beside the case, or one of the package, by its name without .hvi; with a section strength: without, the wall is a liquid's"""
         name = self.text(node, key)
-        for path in (self.path.parent / name, self.path.parent / f"{name}.hvi"):
-            if path.is_file():
-                return str(path.resolve())
-        known = sorted({path.stem for folder in runs.potentials() for path in folder.glob("*.hvi")})
-        if name.removesuffix(".hvi") not in known:
-            near = difflib.get_close_matches(name, known, 1, 0.4)
-            self.wrong(key, f"no material {name}" + (f"; did you mean {near[0]}?" if near else "") + f" (known: {', '.join(known)})", node)
-        return name.removesuffix(".hvi") + ".hvi"
+        known = {path.stem: path for folder in reversed(runs.potentials()) for path in sorted(folder.glob("*.hvi"))}
+        solid = sorted(stem for stem, path in known.items() if has_strength(path))
+        offered = f" (known: {', '.join(solid)})"
+        own = next((path for path in (self.path.parent / name, self.path.parent / f"{name}.hvi") if path.is_file()), None)
+        path = own or known.get(name.removesuffix(".hvi"))
+        if path is None:
+            near = difflib.get_close_matches(name, solid, 1, 0.4)
+            self.wrong(key, f"no material {name}" + (f"; did you mean {near[0]}?" if near else "") + offered, node)
+        if not has_strength(path):
+            self.wrong(key, f"{path.stem} has no section strength, it would be a liquid{offered}", node)
+        return str(own.resolve()) if own else path.name
 
     def method(self, node, key):
         if node.value != "sph":

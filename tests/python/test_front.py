@@ -84,7 +84,7 @@ def test_case_as_variables(folder, root):
     assert case.variables(1, 0.5) == {
         "dx": 0.2, "shift": 0.5, "D": 5.0, "v0": 7100.0, "angle": 0.0, "material_p": "Al2024-T3.hvi", "walls": 2, "thickness": [0.8, 1.2],
         "gap": [0, 60.0], "material": ["Al2024-T3.hvi", "Al6061-T6.hvi"]}
-    (folder / "mine.hvi").write_text("eos")
+    (folder / "mine.hvi").write_text("strength perfect")
     (folder / "emi.yaml").write_text(CASE.replace("gap_mm: 60", "gap_mm: 60\n    spacings_mm: [0.3, 0.5]\n    radius_mm: 40").replace(
         "0.8, material: Al2024-T3}", "0.8, material: mine}") + "angle_deg: 30\nsettings: {tstop: 40, layers: [2, 3]}\n")
     found = cases.read("emi.yaml", runs.Input(shield.INPUT)).variables(0, 0.0)
@@ -105,6 +105,9 @@ WRONG = [
     (change("diameter_mm: 5", "diameter_cm: 5"), 3, "projectile: diameter_cm: no such key; did you mean diameter_mm?"),
     (change("material: Al6061-T6", "materal: Al6061-T6"), 9, "wall 2: materal: no such key; did you mean material?"),
     (change("material: Al6061-T6", "material: Al6061-T7"), 9, "wall 2: material: no material Al6061-T7; did you mean Al6061-T6?"),
+    (change("material: Al6061-T6", "material: Al-Tillotson"), 9, "wall 2: material: Al-Tillotson has no section strength, it would be a liquid (known: Al1100-O, "),
+    (change("  material: Al2024-T3", "  material: Fe-Tillotson.hvi"), 4, "projectile: material: Fe-Tillotson has no section strength"),
+    (change("material: Al6061-T6", "material: Ag"), 9, "(known: Al1100-O, Al2017-T4, "),
     (change("    gap_mm: 60\n", ""), 8, "wall 2: gap_mm: is missing"),
     (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, gap_mm: 5,"), 7, "wall 1: gap_mm: is the gap in front of a wall"),
     (change("{thickness_mm: 0.8,", "{thickness_mm: 0.3,"), 11, "spacings_mm: 0.4 mm is more than wall 1 is thick, 0.3 mm"),
@@ -135,6 +138,14 @@ def test_wrong_case(folder, capsys, text, line, message):
     assert err.startswith("hvi: emi.yaml") and err.count("\n") == 1 and message in err
     assert line is None or f"emi.yaml, line {line}: " in err
     assert not (folder / "runs").exists()
+
+
+def test_own_material_without_strength(folder, capsys):
+    """a file beside the case is looked into like those of the package; what is a comment there is none"""
+    (folder / "mine.hvi").write_text("# strength\neos linear # strength\n")
+    (folder / "emi.yaml").write_text(change("Al6061-T6", "mine"))
+    assert front("shield") == 1
+    assert "emi.yaml, line 9: wall 2: material: mine has no section strength" in capsys.readouterr().err
 
 
 def test_cases_of_the_example(root):
@@ -233,14 +244,14 @@ def test_goes_on(folder, capsys, monkeypatch):
     first = begun(folder)
     assert front("shield") == 3 and "4 runs, 3 done before, 1 to run" in capsys.readouterr().out
     assert {name for name, when in begun(folder).items() if when != first[name]} == {"dx-0.2_shift-0.5"}
-    (folder / "mine.hvi").write_text("eos\n")
+    (folder / "mine.hvi").write_text("strength perfect\n")
     (folder / "emi.yaml").write_text(change("Al6061-T6", "mine"))
     assert front("shield") == 3 and "4 runs, 0 done before" in capsys.readouterr().out
     assert front("shield") == 3 and "4 runs, 4 done before" in capsys.readouterr().out
-    (folder / "mine.hvi").write_text("eos \n")  # the name is the same, the file is not
+    (folder / "mine.hvi").write_text("strength perfect \n")  # the name is the same, the file is not
     assert front("shield") == 3 and "4 runs, 0 done before" in capsys.readouterr().out
     assert (folder / "runs/emi/verdict.yaml").exists()
-    (folder / "mine.hvi").write_text("eos")
+    (folder / "mine.hvi").write_text("strength perfect")
     monkeypatch.setenv("FAKE_FAIL", "dx-0.2_shift-0.5")
     assert front("shield") == 1 and not (folder / "runs/emi/verdict.yaml").exists()  # no verdict is left of other runs
 
