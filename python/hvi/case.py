@@ -14,6 +14,7 @@ from . import runs
 from .errors import HVIError, HVIWarning
 
 REQUIRED = object()
+SLOWEST, FASTEST = 0.1, 100  # km/s
 RATIO = 1.2  # of spacings that may be said to differ
 LAYERS = 3  # that in.whipple needs in the wall that decides
 
@@ -58,6 +59,9 @@ class Case:
 
     def check(self, wrong):
         """What numbers say of each other; wrong(key, text) raises the error."""
+        if not SLOWEST <= self.speed_km_s < FASTEST:
+            wrong("speed_km_s", f"must be at least {SLOWEST:g} and below {FASTEST:g} km/s, not {self.speed_km_s:g}; "
+                  f"is it in {'k' if self.speed_km_s < SLOWEST else ''}m/s?")
         if len(self.spacings_mm) > 1 and max(self.spacings_mm) < RATIO * min(self.spacings_mm):
             wrong("spacings_mm", f"the largest must be {RATIO:g} times the smallest at least: almost the same twice says nothing of how much it matters")
         for k, wall in enumerate(self.walls, 1):
@@ -122,7 +126,7 @@ class Reader:
             found.setdefault(name, default)
         return found
 
-    def number(self, above=-math.inf, least=-math.inf, below=math.inf, hint=""):
+    def number(self, above=-math.inf, least=-math.inf, below=math.inf):
         def read(node, key):
             try:
                 value = float(node.value)
@@ -134,7 +138,7 @@ class Reader:
                 self.wrong(key, f"must be a number of{unit}, without the unit{said}" if unit else f"must be a number{said}", node)
             if not (value > above and value >= least and value < below):
                 bounds = [f"{word} {bound:g}" for word, bound in (("above", above), ("at least", least), ("below", below)) if math.isfinite(bound)]
-                self.wrong(key, f"must be {' and '.join(bounds)}{unit}, not {node.value}" + (f"; {hint}" if hint and value >= below else ""), node)
+                self.wrong(key, f"must be {' and '.join(bounds)}{unit}, not {node.value}", node)
             return value
         return read
 
@@ -213,7 +217,7 @@ def read(path, source):
     data = reader.mapping(reader.root, "", {
         "projectile": (lambda node, key: reader.mapping(node, key, {
             "diameter_mm": (positive, REQUIRED), "material": (reader.material, REQUIRED)}), REQUIRED),
-        "speed_km_s": (reader.number(above=0, below=100, hint="is it in m/s?"), REQUIRED),
+        "speed_km_s": (reader.number(), REQUIRED),
         "angle_deg": (reader.number(least=0, below=90), 0.0),
         "walls": (reader.walls, REQUIRED),
         "spacings_mm": (reader.several(positive, distinct=True), REQUIRED),

@@ -95,7 +95,9 @@ def test_case_as_variables(folder, root):
 
 
 WRONG = [
-    (change("speed_km_s: 7.1", "speed_km_s: 7100"), 5, "speed_km_s: must be above 0 and below 100 km/s, not 7100; is it in m/s?"),
+    (change("speed_km_s: 7.1", "speed_km_s: 7100"), 5, "speed_km_s: must be at least 0.1 and below 100 km/s, not 7100; is it in m/s?"),
+    (change("speed_km_s: 7.1", "speed_km_s: 0.071"), 5, "speed_km_s: must be at least 0.1 and below 100 km/s, not 0.071; is it in km/s?"),
+    (change("speed_km_s: 7.1", "speed_km_s: -7"), 5, "speed_km_s: must be at least 0.1 and below 100 km/s, not -7; is it in km/s?"),
     (change("speed_km_s: 7.1", "speed: 7.1"), 5, "speed: no such key; did you mean speed_km_s?"),
     (change("speed_km_s: 7.1", "speed_km_s: 7.1 km/s"), 5, "speed_km_s: must be a number of km/s, without the unit, not '7.1 km/s'"),
     (change("speed_km_s: 7.1", "speed_km_s: .nan"), 5, "speed_km_s: must be a number"),
@@ -356,6 +358,7 @@ def test_limit_goes_on_after_kill(folder, capsys):
     (("--on", "mass"), "--on must be D, speed, or thickness1 or thickness2, not mass"), (("--on", "thickness3"), "not thickness3"),
     (("--on", "D", "--from", "6", "--to", "5"), "there is nothing between"),
     (("--on", "thickness2", "--from", "0.1"), "--from 0.1 mm: spacings_mm: 0.4 mm is more than wall 2 is thick"),
+    (("--on", "speed", "--from", "3000", "--to", "9000"), "--from 3000 km/s: speed_km_s: must be at least 0.1 and below 100 km/s, not 3000; is it in m/s?"),
 ])
 def test_wrong_limits(folder, capsys, words, message):
     assert front("limit", *words) == 1 and message in capsys.readouterr().err and not (folder / "runs").exists()
