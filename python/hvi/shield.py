@@ -143,7 +143,7 @@ def plan(case, source, runner, folder):
           f"{runner.jobs} at a time on {runner.ranks} ranks each")
     plan = jobs[-1].result()
     print(tables.text(("wall", "front_mm", "radius_mm", "middle_mm", "struck_at_mm"), [
-        (k, sketch.faces(case)[k - 1][0], *(plan[f"wall{k}_{what}"] for what in ("radius_mm", "middle_mm", "struck_at_mm"))) for k in range(1, len(case.walls) + 1)]))
+        (k, case.faces()[k - 1][0], *(plan[f"wall{k}_{what}"] for what in ("radius_mm", "middle_mm", "struck_at_mm"))) for k in range(1, len(case.walls) + 1)]))
     for path in figures.save(sketch.draw(case, plan), str(folder / "sketch.png")):
         print(f"sketch: {path}")
     return 0

@@ -115,7 +115,10 @@ WRONG = [
     (change("{thickness_mm: 0.8,", "{thickness_mm: 0.3,"), 11, "spacings_mm: 0.4 mm is more than wall 1 is thick, 0.3 mm"),
     (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, method: mli,"), 7, "wall 1: method: must be sph, not mli"),
     (change("gap_mm: 60", "gap_mm: 60\n    spacings_mm: [0.2]"), 11, "wall 2: spacings_mm: must be 2 values, one for each"),
-    (change("gap_mm: 60", "gap_mm: 60\n    radius_mm: 2"), 11, "wall 2: radius_mm: wall 2 is no wider than the projectile, 5 mm"),
+    (change("gap_mm: 60", "gap_mm: 60\n    radius_mm: 2"), 11,
+     "wall 2: radius_mm: with 2 mm a projectile of 5 mm at 0 degrees strikes its edge or beside it: at least 3.75 mm are needed; without the key it is what the cloud needs"),
+    (change("gap_mm: 60", "gap_mm: 60\n    radius_mm: 35") + "angle_deg: 45\n", 11,
+     "wall 2: radius_mm: with 35 mm a projectile of 5 mm at 45 degrees strikes its edge or beside it: at least 36.3 mm are needed"),
     (change("diameter_mm: 5", "diameter_mm: 1.5"), 11, "spacings_mm: 0.4 mm leaves fewer than 4 particles across the projectile"),
     (change("[0.2, 0.4]", "0.4"), 11, "spacings_mm: must be a list"),
     (change("[0.2, 0.4]", "[0.35, 0.4]"), 11, "spacings_mm: the largest must be 1.2 times the smallest at least"),
@@ -123,6 +126,21 @@ WRONG = [
     (CASE + "angle_deg: 90\n", 13, "angle_deg: must be at least 0 and below 90 degrees, not 90"),
     (CASE + "settings: {tstopp: 40}\n", 13, "settings: tstopp: in.whipple has no variable 'tstopp'"),
     (CASE + "settings: {C: [1, 2]}\n", 13, "settings: C: variable 'C' of in.whipple is one value, not a list"),
+    (CASE + "settings: {t2: 4}\n", 13, "settings: t2: is set by the case itself"),
+    (CASE + "settings: {radius2: 40}\n", 13, "settings: radius2: is set by the case itself"),
+    (CASE + "settings: {tstop: 40 us}\n", 13, "settings: tstop: must be a number, not '40 us'"),
+    (CASE + "settings:\n  edge: free\n  tstop: -1\n", 15, "settings: tstop: must be at least 0, not -1"),
+    (CASE + "settings: {tstop: 9}\n", 13, "settings: tstop: 9 us are over before anything can have struck wall 2 and crossed it: at least 9.9 are needed; 0 takes what is enough"),
+    (CASE + "settings: {C: 0}\n", 13, "settings: C: must be above 0, not 0"),
+    (CASE + "settings: {eta: big}\n", 13, "settings: eta: must be a number, not 'big'"),
+    (CASE + "settings: {keep: often}\n", 13, "settings: keep: must be a number, not 'often'"),
+    (CASE + "settings: {zones: 1.5}\n", 13, "settings: zones: must be a whole number from 1 on, not 1.5"),
+    (CASE + "settings: {probe_at: [60, far]}\n", 13, "settings: probe_at: must be a number, not 'far'"),
+    (CASE + "settings: {layers: 3}\n", 13, "settings: layers: must be 2 values, one for each wall"),
+    (CASE + "settings: {layers: [3, 0]}\n", 13, "settings: layers: must be a whole number from 1 on, not 0"),
+    (CASE + "settings: {plate: [plain, none.data]}\n", 13, "settings: plate: none.data is neither plain nor a file"),
+    (CASE + "settings: {edge: soft}\n", 13, "settings: edge: must be free, clamp or absorb, not soft"),
+    (CASE + "angle_deg: 30\nsettings: {quarter: yes}\n", 14, "settings: quarter: yes needs angle_deg of 0"),
     (CASE + "settings:\n  D: 4\n", 14, "settings: D: is set by the case itself"),
     (change("walls:\n", "walls: none\nwall:\n"), 6, "walls: must be a list of walls"),
     (change("walls:", "walls: ["), 7, "not YAML: "),
@@ -174,6 +192,14 @@ def test_verdict_of_all_runs(folder, capsys, D, verdict, status):
     reasons = "\n".join(saved["reasons"])
     assert ("differs over the spacing" in reasons) == (status == 4) and ("the verdict differs over the shift of the lattice at 0.4 mm: fails with 0, holds with 0.5" in reasons
                                                                     if D == 4.43 else "differs over the shift" not in reasons)
+
+
+def test_settings_that_are_right(folder):
+    (folder / "p.data").write_text("")
+    (folder / "emi.yaml").write_text(CASE + "settings: {tstop: 0, keep: -1, C: 0.5, pair: riemann, solid: no damage, edge: clamp, quarter: no, probe_at: [0, 5], "
+                                     "layers: [3, 4], plate: [plain, p.data]}\n")
+    found = cases.read("emi.yaml", runs.Input(shield.INPUT)).variables(0, 0.0)
+    assert found["keep"] == "-1" and found["solid"] == "no damage" and found["plate"] == ["plain", str(folder / "p.data")]
 
 
 def test_few_layers_are_said_beforehand(folder, capsys):
@@ -358,9 +384,11 @@ def test_limit_goes_on_after_kill(folder, capsys):
     (("--on", "mass"), "--on must be D, speed, or thickness1 or thickness2, not mass"), (("--on", "thickness3"), "not thickness3"),
     (("--on", "D", "--from", "6", "--to", "5"), "there is nothing between"),
     (("--on", "thickness2", "--from", "0.1"), "--from 0.1 mm: spacings_mm: 0.4 mm is more than wall 2 is thick"),
+    (("--on", "D", "--from", "4", "--to", "60"), "--to 60 mm: wall 2: radius_mm: with 40 mm a projectile of 60 mm at 0 degrees strikes its edge"),
     (("--on", "speed", "--from", "3000", "--to", "9000"), "--from 3000 km/s: speed_km_s: must be at least 0.1 and below 100 km/s, not 3000; is it in m/s?"),
 ])
 def test_wrong_limits(folder, capsys, words, message):
+    (folder / "emi.yaml").write_text(change("gap_mm: 60", "gap_mm: 60\n    radius_mm: 40"))
     assert front("limit", *words) == 1 and message in capsys.readouterr().err and not (folder / "runs").exists()
 
 
