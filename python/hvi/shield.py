@@ -123,6 +123,12 @@ def main(args):
     return STATUS[said]
 
 
+def trial(plan, walls):
+    """seconds of the trial that a plan is from: 20 steps of the projectile and wall 1"""
+    number = [plan["projectile_particles"], *(plan[f"wall{k}_particles"] for k in range(1, walls + 1))]
+    return plan["seconds"] * 20 / plan["steps"] * sum(number[:2]) / sum(number)
+
+
 def plan(case, source, runner, folder):
     """what would be run: particles, steps, time and memory of each spacing, by in.whipple itself, and a sketch"""
     from . import figures, sketch
@@ -137,10 +143,13 @@ def plan(case, source, runner, folder):
         raise HVIError(f"no plan: {', '.join(j.name for j in failed)} failed")
     keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, len(case.walls) + 1) for what in ("particles", "layers")),
             "tstop_us", "steps", "seconds", "memory_MB", "disk_MB"]
-    print(tables.text(("each run", *(j.name for j in jobs)), [(key, *(j.result().get(key, "-") for j in jobs)) for key in keys]))
+    print(tables.text(("each run", *(j.name for j in jobs)), [
+        (key, *(f"about {tables.number(j.result().get(key, '-'))}" if key == "seconds" else j.result().get(key, "-") for j in jobs)) for key in keys]))
+    brief = [j.name for j in jobs if trial(j.result(), len(case.walls)) < 0.5]
     seconds = sum(j.result().get("seconds", 0) for j in jobs) * len(case.shifts)
     print(f"{len(members(case))} runs, {len(case.shifts)} of each spacing: about {runs.duration(seconds / runner.jobs)}, "
-          f"{runner.jobs} at a time on {runner.ranks} ranks each")
+          f"{runner.jobs} at a time on {runner.ranks} ranks each"
+          + (f"; from less than half a second of trial, which may be several times too much or too little: {', '.join(brief)}" if brief else ""))
     plan = jobs[-1].result()
     print(tables.text(("wall", "front_mm", "radius_mm", "middle_mm", "struck_at_mm"), [
         (k, case.faces()[k - 1][0], *(plan[f"wall{k}_{what}"] for what in ("radius_mm", "middle_mm", "struck_at_mm"))) for k in range(1, len(case.walls) + 1)]))

@@ -231,8 +231,15 @@ def test_dry_run(folder, capsys, monkeypatch):
         assert front("shield", "--dry-run", "--jobs", "2") == 0
         out = capsys.readouterr().out
         assert "4 runs, 2 of each spacing: about 23 min, 2 at a time on 2 ranks each\n" in out  # 2 * (700 + 700) / 2 seconds
+        # of 12169 particles the trial had 10169, 20 steps: 700 * 20 / 3849 * 10169 / 12169 = 3 s
+        assert re.search(r"^ *seconds +about 700 +about 700$", out, re.M) and "second of trial" not in out
         assert re.search(r"^ *steps +3849 +3849$", out, re.M) and re.search(r"^ +2 +60.8 +30 +0 +0$", out, re.M)
         assert sorted(tries(folder)) == ["dx-0.2", "dx-0.4"] and set(tries(folder).values()) == {1}  # in folders that were emptied
+    monkeypatch.setenv("FAKE_PLAN", PLAN.replace("seconds: 700", "seconds: 114"))
+    assert front("shield", "--dry-run", "--jobs", "2") == 0
+    out = capsys.readouterr().out
+    assert "about 4 min, 2 at a time on 2 ranks each; from less than half a second of trial, which may be several times too much or too little: dx-0.4, dx-0.2\n" in out
+    monkeypatch.setenv("FAKE_PLAN", PLAN)
     assert not list(folder.glob("runs/**/result.yaml"))
     picture = imread(folder / "runs/emi/sketch.png")[..., :3]
     assert 0.01 < np.mean(picture.min(axis=2) < 0.9) < 0.6
