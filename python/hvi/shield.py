@@ -37,22 +37,27 @@ def job(case, source, member, folder, name=None, remove=()):
 
 
 def verdict(job):
-    """(verdict, reasons) of a run that is done"""
+    """(verdict, reasons, notes) of a run that is done; notes: what is doubtful in a run that fails nevertheless"""
     result = job.result()
-    said, reasons = result.get("verdict"), result.get("reasons") or []
+    said = result.get("verdict")
     if said not in STATUS:
         raise HVIError(f"{job.folder / 'result.yaml'}: no verdict, holds, fails or undecided, but {said}")
-    return said, [as_key(str(reason)) for reason in (reasons if isinstance(reasons, list) else [reasons])]
+    lists = [result.get(key) or [] for key in ("reasons", "notes")]
+    return said, *([as_key(str(text)) for text in (found if isinstance(found, list) else [found])] for found in lists)
 
 
-def as_key(reason):
-    """a remedy of in.whipple, -var NAME VALUE, as a key of the case"""
-    reason = re.sub(r"-var dx ([\d.]+)", r"spacings_mm of \1", reason)
-    return re.sub(r"-var (\w+) ([\d.]+)", r"settings: {\1: \2}", reason)
+def as_key(text):
+    """remedies of in.whipple, -var NAME VALUE, as keys of the case"""
+    value = r"(\d+(?:\.\d+)?)"
+    for old, new in ((rf"-var dx {value}", r"spacings_mm of \1"), (r"-var dx\b", "spacings_mm"),
+                     (rf"-var radius(\d) {value}", r"radius_mm of \2 of wall \1"), (r"(?:-var )?\bradius(\d)\b", r"radius_mm of wall \1"),
+                     (rf"-var (\w+) {value}", r"settings: {\1: \2}"), (r"-var (\w+)", r"settings: \1")):
+        text = re.sub(old, new, text)
+    return text
 
 
 def decide(case, said):
-    """The verdict of all runs, {member: (verdict, reasons)}, with reasons: undecided where they differ."""
+    """(verdict, reasons, notes) of all runs, {member: the same of each}: undecided where they differ."""
     def where(which):
         return f"{case.spacings_mm[which]:g} mm"
 
@@ -68,17 +73,19 @@ def decide(case, said):
         reasons.append("the verdict differs over the spacing: " + ", ".join(f"{' or '.join(sorted(found))} at {where(which)}" for which, found in per.items()))
     if {"holds", "fails"} <= set.union(*per.values()):
         reasons.append("so near the limit finer spacings_mm may decide; python3 -m hvi limit says how near it is")
+    finest = len(case.spacings_mm) - 1, case.shifts[-1]
     texts = {}  # why runs are undecided; if all agree on another verdict, what the finest says of it
-    for member, (verdict, why) in said.items():
+    for member, (verdict, why, _) in said.items():
         for text in why:
-            if verdict == "undecided" or not reasons and member == (len(case.spacings_mm) - 1, case.shifts[-1]):
+            if verdict == "undecided" or not reasons and member == finest:
                 texts.setdefault(text, []).append(member_name(case, member))
     told = [f"{text} ({', '.join(names)})" for text, names in texts.items()]
     if reasons or per[0] == {"undecided"}:
-        return "undecided", reasons + told
+        return "undecided", reasons + told, []
     (verdict,) = per[0]
+    notes = [f"{text} ({member_name(case, finest)})" for text in said[finest][2]]
     return verdict, [f"all {len(said)} runs say so: spacings of {', '.join(f'{dx:g}' for dx in case.spacings_mm)} mm, "
-                     f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told]
+                     f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told], notes
 
 
 def shown(case):
@@ -113,12 +120,11 @@ def main(args):
     print(runs.overview(jobs.values(), shown(case)))
     if failed:
         raise HVIError(f"no verdict: {len(failed)} of {len(jobs)} runs failed: {', '.join(j.name for j in failed)}")
-    said, reasons = decide(case, {member: verdict(j) for member, j in jobs.items()})
-    save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, "runs": {j.name: verdict(j)[0] for j in jobs.values()},
+    said, reasons, notes = decide(case, {member: verdict(j) for member, j in jobs.items()})
+    save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **({"notes": notes} if notes else {}), "runs": {j.name: verdict(j)[0] for j in jobs.values()},
                                    "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1)})
     print(f"verdict: {said}")
-    for reason in reasons:
-        print(f"  - {reason}")
+    print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes)]))
     print(f"table: {folder / 'runs.csv'}, verdict: {folder / 'verdict.yaml'}")
     return STATUS[said]
 
