@@ -76,6 +76,7 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"initiation", VOIDS, offsetof(Solid, initiation)},
 
     // made anew when a run begins
+    {nullptr, 0, offsetof(Solid, least)},
     {nullptr, 0, offsetof(Solid, yield)},
     {nullptr, 0, offsetof(Solid, carried.xx)},
     {nullptr, 0, offsetof(Solid, carried.yy)},
@@ -333,7 +334,7 @@ void FixHVIJohnsonCook::first_half(double dt, int integrated)
     const HVI::SolidModel *const model = of(i);
     if (!model) continue;
     if (whole) {
-      model->present(extra[i]);
+      model->present(extra[i], model->own_limit() ? input(i, STATE) : HVI::SolidInput());
       continue;
     }
     if (fresh || !model->ready(extra[i])) {
@@ -409,13 +410,19 @@ template <class Step> void FixHVIJohnsonCook::each_solid(const Step &step)
 }
 
 /* ----------------------------------------------------------------------
-   what forces come of, after whole_step()
+   What forces come of, after whole_step().  In a setup nothing may be left of that: state was read
+   from a data file, or pair_coeff has changed the material.
 ------------------------------------------------------------------------- */
 
 HVI::SphStress FixHVIJohnsonCook::settled(int i) const
 {
   const Solid &s = extra[i];
-  const double p_min = of(i) ? s.seen.p_min : -HVI::NO_LIMIT;
+  const HVI::SolidModel *const model = of(i);
+  double p_min = -HVI::NO_LIMIT;
+  if (model && fresh)
+    p_min = model->p_min(s, model->looks(s) ? settled_input(i) : HVI::SolidInput());
+  else if (model)
+    p_min = s.failed() ? 0.0 : s.least;
   return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, p_min, s.shear};
 }
 

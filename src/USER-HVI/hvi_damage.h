@@ -26,7 +26,7 @@ namespace HVI {
      problem(const double *)      if it has any: what is wrong with values that are right one by one
      make(const double *)         from values in the order of params
      increment(...)               as below
-     u_f                          likewise
+     u_f                          a number: see displacement(); 0 if it fails at once
 ------------------------------------------------------------------------- */
 
 class Damage {

@@ -69,23 +69,28 @@ void HVIRecall::command(int narg, char **arg)
 
 /* ---------------------------------------------------------------------- */
 
-bool HVIRecall::is_index(const std::string &name) const
+HVI::VariableText HVIRecall::index_variable(const std::string &name) const
 {
   for (const auto &variable : HVI::variable_list(lmp))
-    if (variable.name == name) return variable.style == "index";
-  return false;
+    if (variable.name == name && variable.style == "index") return variable;
+  error->all(FLERR, "hvi/recall: variable {} is not of style index", name);
+  return {};
 }
 
 /* ----------------------------------------------------------------------
-   LAMMPS tells values of a list one by one only: it is gone through, which
-   removes it, and made again
+   LAMMPS tells values of a list one by one only: one of several is gone through,
+   which removes it, and made again, now the last of all variables.  Whoever keeps
+   places of variables from an init() is wrong then.
 ------------------------------------------------------------------------- */
 
-std::vector<std::string> HVIRecall::values(const std::string &name) const
+std::vector<std::string> HVIRecall::values(const HVI::VariableText &variable) const
 {
-  std::vector<std::string> list;
+  const std::string &name = variable.name;
   std::string copy = name;
   char *arg = &copy[0];
+  std::vector<std::string> list = {input->variable->retrieve(arg)};
+  if (list[0] == variable.value) return list;
+  list.clear();
   do list.emplace_back(input->variable->retrieve(arg));
   while (input->variable->next(1, &arg) == 0);
   define(name, list);
@@ -111,8 +116,7 @@ void HVIRecall::recall(const std::string &name, const std::vector<std::string> &
     define(name, was);
     return;
   }
-  if (!is_index(name)) error->all(FLERR, "hvi/recall: variable {} is not of style index", name);
-  const auto now = values(name);
+  const auto now = values(index_variable(name));
   if (now != was)
     error->all(FLERR,
                "This run cannot be gone on with, for a variable has changed: {} was '{}', and is "
@@ -128,7 +132,7 @@ std::string HVIRecall::given(const std::vector<std::string> &except) const
   for (const auto &variable : HVI::variable_list(lmp)) {
     if (variable.style != "index" || is_in(except, variable.name)) continue;
     text += "hvi/recall variable " + variable.name;
-    for (const auto &value : values(variable.name)) text += " " + quoted(value);
+    for (const auto &value : values(variable)) text += " " + quoted(value);
     text += "\n";
   }
   return text;
@@ -144,7 +148,7 @@ std::string HVIRecall::state(const std::vector<std::string> &except) const
     if (is_in(except, name)) continue;
     if (variable.style == "index") {
       text += "variable " + name + " delete\nvariable " + name + " index";
-      for (const auto &value : values(name)) text += " " + quoted(value);
+      for (const auto &value : values(variable)) text += " " + quoted(value);
       text += "\n";
     } else if (variable.style == "string" || variable.style == "equal") {
       text += "variable " + name + " " + variable.style + " " + quoted(variable.value) + "\n";

@@ -16,6 +16,7 @@ CommandStyle(hvi/recall,HVIRecall);
 #define LMP_HVI_RECALL_H
 
 #include "command.h"
+#include "hvi_variable_list.h"
 
 #include <string>
 #include <vector>
@@ -33,8 +34,8 @@ class HVIRecall : public Command {
   void command(int, char **) override;
 
  private:
-  bool is_index(const std::string &) const;
-  std::vector<std::string> values(const std::string &) const;    // those not yet used up
+  HVI::VariableText index_variable(const std::string &) const;
+  std::vector<std::string> values(const HVI::VariableText &) const;    // those not yet used up
   void define(const std::string &, const std::vector<std::string> &) const;
   void recall(const std::string &, const std::vector<std::string> &) const;
   std::string given(const std::vector<std::string> &) const;

@@ -175,8 +175,8 @@ bool SolidModel::parts(SolidState &s, double rho, double p, double Y, double lim
 {
   if (spall == Spall::GRADY) return spalls(spall, p, s.S, limit * grady.limit(rho, eos->c0(), Y));
   if (spall == Spall::TULER_BUTCHER) {
-    const double sigma_1 = principal_above(limit * impulse.sigma_0, p, s.S);
-    s.voids.D = impulse.advance(s.voids.D, sigma_1 / limit, dt);
+    const double over = principal_above(limit * impulse.sigma_0, p, s.S) - limit * impulse.sigma_0;
+    if (over > 0.0) s.voids.D = impulse.advance(s.voids.D, impulse.sigma_0 + over / limit, dt);
   } else if (spall != Spall::VOIDS)
     return spalls(spall, p, s.S, limit * sigma_p);
   return s.voids.D >= 1.0;
@@ -213,7 +213,7 @@ void SolidModel::grow_damage(SolidState &s, const SolidInput &in, const Conditio
 SolidState SolidModel::blank()
 {
   SolidState s = {};
-  s.seen.p_min = -NO_LIMIT;
+  s.seen.p_min = s.least = -NO_LIMIT;
   s.seen.shear = UNSEEN;
   s.yield = UNKNOWN;
   return s;
@@ -227,9 +227,15 @@ void SolidModel::liquefy(SolidState &s)
 
 /* ---------------------------------------------------------------------- */
 
+// The limit that was seen is that of this run.  It was that of the sound, if it was below 0, even of who has
+// failed since.
+
 void SolidModel::start(SolidState &s, SolidInput in, bool anew) const
 {
-  if (!anew && started(s)) return;
+  if (!anew && started(s)) {
+    if (!with_voids && s.seen.p_min < 0.0) s.seen.p_min = closed(false, in);
+    return;
+  }
   in.p = 0.0;    // there is no pressure yet
   if (s.shear == 0.0 && !s.failed()) s.shear = law->shear_modulus(conditions(s, in));
   s.yield = UNKNOWN;
@@ -263,9 +269,9 @@ void SolidModel::first_half(SolidState &s, const SolidInput &end, double dt) con
   s.seen = {ahead, least, s.shear};
 }
 
-void SolidModel::present(SolidState &s) const
+void SolidModel::present(SolidState &s, const SolidInput &in) const
 {
-  s.seen = {s.S, least_pressure(spall, s.failed(), sigma_p), s.shear};
+  s.seen = {s.S, closed(s.failed(), in), s.shear};
 }
 
 void SolidModel::rest(SolidState &s)
@@ -276,14 +282,13 @@ void SolidModel::rest(SolidState &s)
 
 int SolidModel::second_half(int n, SolidState *const *state, const SolidInput *in, double dt) const
 {
-  double least[LANES];
   const auto trial_of = [dt](SolidState &s, const SolidInput &input) {
     Deviator trial = s.carried;
     s.carried = elastic_rate(s, input);
     add(trial, 0.5 * dt, s.carried);
     return trial;
   };
-  return settle(n, state, in, dt, trial_of, least);
+  return settle(n, state, in, dt, trial_of);
 }
 
 // S turns with that of the middle of the step: so it keeps its size to fourth order
@@ -298,19 +303,15 @@ void SolidModel::try_out(SolidState &s, const VelocityGradient &L, double dt) co
 
 int SolidModel::whole_step(int n, SolidState *const *state, const SolidInput *in, double dt) const
 {
-  double least[LANES];
   const auto trial_of = [](SolidState &s, const SolidInput &) {
     return s.carried;
   };
-  const int wrong = settle(n, state, in, dt, trial_of, least);
-  for (int k = 0; k < n && wrong < 0; k++)
-    state[k]->seen.p_min = state[k]->failed() ? 0.0 : least[k];
-  return wrong;
+  return settle(n, state, in, dt, trial_of);
 }
 
 template <class Trial>
 int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, double dt,
-                       const Trial &trial_of, double *least) const
+                       const Trial &trial_of) const
 {
   Conditions c[LANES] = {};
   Deviator trial[LANES] = {};
@@ -323,8 +324,8 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
     SolidInput now = in[k];
     begun[k] = with_voids && s.voids.D > BEGUN;
     limit[k] = threshold(now);
-    least[k] = grow_voids(s, now, limit[k], dt);
-    now.p = clip_tension(now.p, least[k]);
+    s.least = grow_voids(s, now, limit[k], dt);
+    now.p = clip_tension(now.p, s.least);
     c[k] = conditions(s, now);
     shear[k] = s.shear = law->shear_modulus(c[k]);
     eps[k] = s.eps;

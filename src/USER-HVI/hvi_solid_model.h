@@ -36,8 +36,10 @@ struct SolidState {
 
   struct Seen {
     Deviator S;
-    double p_min, shear;    // with whole steps p_min is of the end, too
+    double p_min, shear;
   } seen;
+
+  double least;    // pressure borne at the end of the last step, if it has not failed in it
 
   // what one half of a step leaves to the other: after the first half S of the middle of the step,
   // the trial stress so far; after the second half the rate of S.  Of a whole step the trial stress
@@ -97,11 +99,12 @@ struct SolidOptions {
 
    or at once, before the forces:
 
-     present()        seen = S of the begin of the step, and the least pressure of what has no voids
+     present()        seen = S of the begin of the step, and the least pressure of what has no voids:
+                      what sleeps goes on showing that
      ... the velocity gradient of the middle of the step ...
      try_out()        the trial stress
      ... density, energy, pressure of the end of the step ...
-     whole_step()     all of the above; the least pressure of the end of the step in seen
+     whole_step()     all of the above; seen stays, for forces of this time that are asked for again
 
    What has failed is rubble: it bears no shear and no tension, and keeps its state.
 
@@ -145,7 +148,7 @@ class SolidModel {
   void prepare(SolidState &, const SolidInput &, bool begin) const;
 
   void first_half(SolidState &, const SolidInput &ahead, double dt) const;
-  void present(SolidState &) const;
+  void present(SolidState &, const SolidInput &) const;
   void try_out(SolidState &, const VelocityGradient &L, double dt) const;
 
   // in place of the second half or of the whole, where nothing changes
@@ -165,14 +168,13 @@ class SolidModel {
   bool open(const SolidState &s) const { return with_voids && s.voids.phi > 0.0 && !s.failed(); }
   bool looks(const SolidState &s) const { return open(s) || (own_limit() && !s.failed()); }
   bool looks() const { return with_voids || own_limit(); }
+  bool own_limit() const { return spall == Spall::PRESSURE && reference > 0.0; }
 
   // the least pressure borne, and what is left of p; see clip_tension()
 
   double p_min(const SolidState &s, const SolidInput &in) const
   {
-    return open(s) ? SpallVoids::least(s.voids.phi, *eos, in.rho, in.e)
-                   : least_pressure(spall, s.failed(),
-                                    own_limit() && !s.failed() ? threshold(in) * sigma_p : sigma_p);
+    return open(s) ? SpallVoids::least(s.voids.phi, *eos, in.rho, in.e) : closed(s.failed(), in);
   }
   double pressure(const SolidState &s, const SolidInput &in) const
   {
@@ -246,11 +248,14 @@ class SolidModel {
     return reference > 0.0 ? factor * size_factor(in.size, reference, dim, weibull) : factor;
   }
   double threshold(const SolidInput &in) const { return reference > 0.0 ? scatter(in) : 1.0; }
-  bool own_limit() const { return spall == Spall::PRESSURE && reference > 0.0; }
+  double closed(bool failed, const SolidInput &in) const    // p_min() without voids
+  {
+    return least_pressure(spall, failed,
+                          own_limit() && !failed ? threshold(in) * sigma_p : sigma_p);
+  }
   Conditions conditions(const SolidState &, const SolidInput &) const;
   template <class Trial>
-  int settle(int n, SolidState *const *, const SolidInput *, double dt, const Trial &,
-             double *least) const;
+  int settle(int n, SolidState *const *, const SolidInput *, double dt, const Trial &) const;
 };
 
 }    // namespace HVI

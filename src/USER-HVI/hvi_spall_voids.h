@@ -106,7 +106,7 @@ struct SpallVoids {
     double K = std::max(rho * csq + 3.0 * tension, full > 1.0 ? tension / (1.0 - 1.0 / full) : 0.0);
     double g = growth(tension, K, v.D, dt), now = tension, left = before;
     if (g == 0.0) return std::min(-tension, NO_TENSION);
-    double lo = 0.0, hi = std::max(full, 1.0);
+    double lo = 0.0, hi = full > 1.0 ? 1.0 + std::log(full) : 1.0;
     for (int k = 0; k < 200; k++) {
       const bool chord = k % 4 < 3 && g > lo && g < hi;
       if (!chord) g = 0.5 * (lo + hi);

@@ -71,6 +71,8 @@ void HVIVariables::command(int narg, char **arg)
     names.push_back(name);
   }
 
+  if (names.empty()) utils::missing_cmd_args(FLERR, "hvi/variables", error);
+
   for (const auto &variable : HVI::variable_list(lmp)) {
     const std::string &given = variable.name;
     if (variable.style != "index") continue;

@@ -311,6 +311,73 @@ def test_restart(lmp, tmp_path, pair, words, nranks):
     assert not wrong
 
 
+MELTED, LIQUID = "", "strength none damage no spall zero"
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("jc", [MELTED, LIQUID])
+def test_failure_without_modulus(lmp, tmp_path, pair, jc, nranks):
+    """melted particles and those without strength, in the very steps in which they spall: forces of a setup are those of the step, and runs in
+    parts and from restart files are the same bits"""
+    def head(more=""):
+        text = script(body(seed=46), tmp_path, pair, jc=jc, tension=False, sort=False)
+        for t in RHO0:
+            path = tmp_path / f"m{t}.hvi"
+            path.write_text(path.read_text().replace("sigma_p 3.0", "sigma_p 0.4").replace("Tref 300", "Tref 200").replace("Tm 900", "Tm 290"))
+        return text + "neigh_modify every 1 delay 0 check no\n" + more
+
+    dump = "dump a all custom 1 {} id fx fy fz c_Q[*]\ndump_modify a format float %.17g sort id\n"
+    each = "".join(f"{dump.format(f'then{k}')}run 1 post no\nundump a\n{OUT.format(f'now{k}')}" for k in range(1, 21))
+    each = "compute Q all property/atom drho desph\n" + each
+    lmp(head("restart 1 half\n") + "run 20\n" + OUT.format("whole") + "\n" + head(each), nranks=nranks)
+    whole, now = read(tmp_path / "whole"), {k: read(tmp_path / f"now{k}") for k in range(1, 21)}
+    failed = [(now[k]["spalled"] > 0).sum() for k in now]
+    print(jc, "failed", failed)
+    assert 40 < failed[-1] < len(whole["x"]) and not whole["vm"].any()
+    steps = [k for k in range(2, 20) if failed[k - 1] > failed[k - 2]]  # in the step before the restart file
+    assert len(steps) > 5
+    again = "clear\nread_restart half.{}\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check no\nfix sph all hvi/sph\n" + JC.format(jc)
+    lmp("".join(again.format(k) + f"run {20 - k}\n" + OUT.format(f"from{k}") for k in steps), nranks=nranks)
+    wrong = []
+    for k in now:
+        then = read_forces(tmp_path / f"then{k}")
+        wrong += [(k, name, np.abs(then[name] - now[k][name]).max()) for name in then if not np.array_equal(then[name], now[k][name])]
+    wrong += [(f"from{k}", name) for k in steps for name, a in read(tmp_path / f"from{k}").items() if not np.array_equal(a, whole[name])]
+    wrong += [("parts", name) for name in whole if not np.array_equal(now[20][name], whole[name])]
+    assert not wrong, wrong
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("words, size", [("", ""), ("", "weibull 6 17 weibull_size 2"), ("gradient law", "")])
+def test_limit_of_another_run(lmp, tmp_path, pair, words, size, nranks):
+    """at rest, under spall pressure: forces go with the limit that pair_coeff has set, from the first ones on, and back"""
+    s = lump(types=1)
+    s.v *= 0
+    s.rho *= 0.9
+    text = script(s, tmp_path, pair, words, f"strength none damage no spall pressure {size}") + "timestep 1e-8\n"
+    own = (tmp_path / "m1.hvi").read_text()
+    for sigma in (0.4, 0.2, 0.1):
+        (tmp_path / f"limit.{sigma}").write_text(own.replace("sigma_p 3.0", f"sigma_p {sigma}"))
+        text += f"pair_coeff 1 1 file limit.{sigma} h {H[1]}\nrun 0\n" + OUT.format(f"before.{sigma}") + "run 1\n" + OUT.format(f"after.{sigma}")
+    text += f"pair_coeff 1 1 file limit.0.4 h {H[1]}\n" + OUT.format("again")
+    lmp(text, nranks=nranks)
+    first = read(tmp_path / "before.0.4")
+    assert np.abs(first["f"]).max() > 0.01 and first["p"].max() < -0.1
+    for name in ("before", "after"):
+        for sigma in (0.4, 0.2, 0.1):
+            f, want = read(tmp_path / f"{name}.{sigma}")["f"], sigma / 0.4 * first["f"]
+            assert np.abs(f - want).max() < 1e-5 * np.abs(want).max(), (name, sigma)
+    assert np.abs(read(tmp_path / "again")["f"] - first["f"]).max() < 1e-5 * np.abs(first["f"]).max()
+
+
+def read_forces(path):
+    """of the last frame"""
+    lines = path.read_text().splitlines()
+    first = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
+    a = np.array([line.split() for line in lines[first:]], float)
+    return dict(f=a[:, 1:4], drho=a[:, 4], de=a[:, 5])
+
+
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("words", FAILING)
 def test_data_file(lmp, tmp_path, pair, words, nranks):

@@ -56,6 +56,17 @@ def told(result):
     return lines[at : at + 3]
 
 
+def test_in_the_middle_of_a_run(lmp):
+    """variables of one value stay in their places, which thermo output knows them by"""
+    r = lmp("variable z index 'one value'\nvariable a equal 5\nvariable b equal 7\n" + BOX + """mass 1 1
+thermo_style custom step v_a v_b
+thermo 4
+run 0
+run 8 pre no post no every 4 "hvi/recall state run.state"
+""")
+    assert (r.thermo["v_a"] == 5).all() and (r.thermo["v_b"] == 7).all()
+
+
 def test_state(lmp):
     """as variables are, with their formulas; lists from where they are"""
     r = lmp(BOX + STATE + "next frame\n" + 2 * "hvi/recall state run.state except out\n" + TELL, vars=GIVEN)

@@ -45,7 +45,7 @@ def test_included_files_are_looked_at(lmp, tmp_path):
 
 @pytest.mark.parametrize("words, message", [
     ("", "Illegal hvi/variables command"), ("known", "Illegal hvi/variables command"), ("dx", "Illegal hvi/variables command"),
-    ("some dx", "Illegal hvi/variables command"), ("known dx thickness gap", "variable gap is not defined"),
+    ("known optional", "Illegal hvi/variables command"), ("some dx", "Illegal hvi/variables command"), ("known dx thickness gap", "variable gap is not defined"),
     ("known dx dx", "names dx twice"), ("known dx thickness optional dx", "names dx twice")])
 def test_wrong_input(lmp, words, message):
     assert message in lmp(TEXT.format(words=words, more=""), expect_fail=True).error

@@ -53,7 +53,7 @@ void step(const SolidModel &model, SolidState &s, const SolidInput &in, double d
 {
   SolidState *const list[] = {&s};
   if (whole) {
-    model.present(s);
+    model.present(s, in);
     model.try_out(s, in.L, dt);
     EXPECT_EQ(model.whole_step(1, list, &in, dt), -1);
     return;

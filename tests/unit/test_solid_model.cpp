@@ -110,7 +110,7 @@ SolidState leapt(const SolidModel &model, const SolidInput &in, double end, int 
 {
   SolidState s = begun(model, in), *const list[] = {&s};
   for (int i = 0; i < n; i++) {
-    model.present(s);
+    model.present(s, in);
     const Deviator before = s.S;
     model.try_out(s, in.L, end / n);
     if (!s.failed()) { EXPECT_EQ(model.whole_step(1, list, &in, end / n), -1); }
