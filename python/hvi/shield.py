@@ -50,8 +50,7 @@ def as_key(text):
     """remedies of in.whipple, -var NAME VALUE, as keys of the case"""
     value = r"(\d+(?:\.\d+)?)"
     for old, new in ((rf"-var dx {value}", r"spacings_mm of \1"), (r"-var dx\b", "spacings_mm"),
-                     (rf"-var radius(\d) {value}", r"radius_mm of \2 of wall \1"), (r"(?:-var )?\bradius(\d)\b", r"radius_mm of wall \1"),
-                     (rf"-var (\w+) {value}", r"settings: {\1: \2}"), (r"-var (\w+)", r"settings: \1")):
+                     (rf"-var radius\d? {value}", r"radius_mm of \1"), (rf"-var (\w+) {value}", r"settings: {\1: \2}"), (r"-var (\w+)", r"settings: \1")):
         text = re.sub(old, new, text)
     return text
 

@@ -207,11 +207,11 @@ def test_undecided_runs_and_what_is_not_modelled(folder, capsys, monkeypatch):
 
 def test_notes_are_not_causes(folder, capsys, monkeypatch):
     """what would make a run undecided if it did not fail comes after the causes, by itself, with keys of the case"""
-    monkeypatch.setenv("FAKE_NOTE", "1 percent is still on its way -- take -var tstop 32.5|12 percent passed beside -- take -var radius2 45, or a smaller -var dx")
+    monkeypatch.setenv("FAKE_NOTE", "1 percent is still on its way -- take -var tstop 32.5|12 percent passed beside wall 2 -- take -var radius2 45 for it")
     assert front("shield") == 3
     causes = ["all 4 runs say so: spacings of 0.4, 0.2 mm, 2 shifts of the lattice", "wall 2: perforated (dx-0.2_shift-0.5)"]
     notes = ["1 percent is still on its way -- take settings: {tstop: 32.5} (dx-0.2_shift-0.5)",
-             "12 percent passed beside -- take radius_mm of 45 of wall 2, or a smaller spacings_mm (dx-0.2_shift-0.5)"]
+             "12 percent passed beside wall 2 -- take radius_mm of 45 for it (dx-0.2_shift-0.5)"]
     assert "\n".join(["verdict: fails", *(f"  - {text}" for text in causes), "notes:", *(f"  - {text}" for text in notes), "table: "]) in capsys.readouterr().out
     saved = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())
     assert list(saved)[:3] == ["verdict", "reasons", "notes"] and saved["reasons"] == causes and saved["notes"] == notes
@@ -222,7 +222,8 @@ def test_notes_are_not_causes(folder, capsys, monkeypatch):
 
 @pytest.mark.parametrize("reason, key", [
     ("take -var dx 0.25 or finer", "take spacings_mm of 0.25 or finer"), ("take a smaller -var C", "take a smaller settings: C"),
-    ("leave radius1, radius2 and back at 0", "leave radius_mm of wall 1, radius_mm of wall 2 and back at 0"), ("take -var tstop 32.5.", "take settings: {tstop: 32.5}.")])
+    ("passed beside wall 3 -- take -var radius 45 for it", "passed beside wall 3 -- take radius_mm of 45 for it"), ("a smaller -var dx", "a smaller spacings_mm"),
+    ("take -var tstop 32.5.", "take settings: {tstop: 32.5}.")])
 def test_remedies_as_keys(reason, key):
     assert shield.as_key(reason) == key
 
