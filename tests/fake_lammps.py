@@ -2,7 +2,7 @@
 
 The shield holds up to a diameter of FAKE_LIMIT + dx + shift / 10, then is undecided, and fails from FAKE_UNSURE more on; a
 thickness of wall 2 adds to the limit what it has more than 1.2 mm. FAKE_SLEEP: seconds that it takes; FAKE_FAIL: fails in
-folders whose name has this in it; FAKE_PLAN: what plan.yaml says.
+folders whose name has this in it; FAKE_PLAN: what plan.yaml says; FAKE_NOTE: the list notes of a verdict fails, "|" between.
 """
 
 import os
@@ -37,9 +37,11 @@ verdict = "holds" if D <= limit else "undecided" if D <= limit + unsure else "fa
 if "outside" in variables:
     verdict = "undecided"
 reason = {"holds": "'wall 2: no hole, no detached spall'", "fails": "'wall 2: perforated'", "undecided": "'wall 2: it still moves -- take -var tstop 40.5'"}[verdict]
+notes = os.environ.get("FAKE_NOTE", "") if verdict == "fails" else ""
+notes = "\n".join(["", "notes:", *(f"  - {note}" for note in notes.split("|"))]) if notes else ""
 pathlib.Path("result.yaml").write_text(f"""verdict: {verdict}
 reasons:
-  - {reason}
+  - {reason}{notes}
 hole1_diameter_mm: {D + 3}
 particles: {int((D / dx)**3)}
 core_s: {dx**-4:.1f}

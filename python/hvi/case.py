@@ -5,6 +5,7 @@ import dataclasses
 import difflib
 import math
 import pathlib
+import re
 import warnings
 
 import yaml
@@ -13,8 +14,15 @@ from . import runs
 from .errors import HVIError, HVIWarning
 
 REQUIRED = object()
+SLOWEST, FASTEST = 0.1, 100  # km/s
+SOUND = 5  # km/s, as in.whipple has it
 RATIO = 1.2  # of spacings that may be said to differ
 LAYERS = 3  # that in.whipple needs in the wall that decides
+
+# settings of in.whipple: what their values must be, beside numbers where its own are numbers
+ABOVE_0, FROM_0, WHOLE = {"eta", "C", "skin", "rim", "probe_size"}, {"tstop", "back", "behind", "probe_at"}, {"zones", "layers"}
+CHOICES = {"quarter": ("auto", "yes", "no"), "edge": ("free", "clamp", "absorb"), "probes": ("yes", "no")}
+SET_BY_CASE = {"t1", "t2", "spacing", "material_t", "radius1", "radius2", "radius", "spacings", "outside", "dry", "resume", "out"}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,20 +63,57 @@ class Case:
             found["outside"] = ", ".join(self.not_modelled)
         return {**found, **self.settings}
 
+    def faces(self):
+        """(front, rear) of each wall in mm, the front of wall 1 at 0"""
+        found, z = [], 0.0
+        for wall in self.walls:
+            z += wall.gap_mm or 0.0
+            found.append((z, z + wall.thickness_mm))
+            z += wall.thickness_mm
+        return found
+
     def check(self, wrong):
         """What numbers say of each other; wrong(key, text) raises the error."""
+        if not SLOWEST <= self.speed_km_s < FASTEST:
+            wrong("speed_km_s", f"must be at least {SLOWEST:g} and below {FASTEST:g} km/s, not {self.speed_km_s:g}; "
+                  f"is it in {'k' if self.speed_km_s < SLOWEST else ''}m/s?")
         if len(self.spacings_mm) > 1 and max(self.spacings_mm) < RATIO * min(self.spacings_mm):
             wrong("spacings_mm", f"the largest must be {RATIO:g} times the smallest at least: almost the same twice says nothing of how much it matters")
+        angle, R = math.radians(self.angle_deg), 0.5 * self.diameter_mm
         for k, wall in enumerate(self.walls, 1):
             for dx in wall.spacings_mm or self.spacings_mm:
                 if dx > wall.thickness_mm:
                     wrong(f"wall {k}: spacings_mm" if wall.spacings_mm else "spacings_mm",
                           f"{dx:g} mm is more than wall {k} is thick, {wall.thickness_mm:g} mm: a wall needs a layer of particles at least")
-            if wall.radius_mm and wall.radius_mm <= 0.5 * self.diameter_mm:
-                wrong(f"wall {k}: radius_mm", f"wall {k} is no wider than the projectile, {self.diameter_mm:g} mm")
+            least = 0.5 * self.faces()[k - 1][1] * math.tan(angle) + 1.5 * R / math.cos(angle)  # as in.whipple has it
+            if wall.radius_mm and wall.radius_mm < least:
+                wrong(f"wall {k}: radius_mm", f"with {wall.radius_mm:g} mm a projectile of {self.diameter_mm:g} mm at {self.angle_deg:g} degrees strikes its edge "
+                      f"or beside it: at least {least:.4g} mm are needed; without the key it is what the cloud needs")
+        front, rear = self.faces()[-1]
+        least = (front + 3 * R) / (self.speed_km_s * math.cos(angle)) + (rear - front) / SOUND
+        if 0 < float(self.settings.get("tstop", 0)) < least:
+            wrong("settings: tstop", f"{self.settings['tstop']} us are over before anything can have struck wall {len(self.walls)} and crossed it: "
+                  f"at least {least:.1f} are needed; 0 takes what is enough")
+        if self.settings.get("quarter") == "yes" and self.angle_deg:
+            wrong("settings: quarter", f"yes needs angle_deg of 0, not {self.angle_deg:g}")
         for dx in self.spacings_mm:
             if dx > 0.25 * self.diameter_mm:
                 wrong("spacings_mm", f"{dx:g} mm leaves fewer than 4 particles across the projectile of {self.diameter_mm:g} mm")
+
+
+def has_strength(path):
+    """True if a material file has a section strength"""
+    try:
+        return re.search(r"^[ \t]*strength\s", path.read_text(), re.M) is not None
+    except (OSError, UnicodeDecodeError) as problem:
+        raise HVIError(f"cannot read {path}: {problem}") from None
+
+
+def is_number(word):
+    try:
+        return math.isfinite(float(word))
+    except ValueError:
+        return False
 
 
 class Reader:
@@ -113,7 +158,7 @@ class Reader:
             found.setdefault(name, default)
         return found
 
-    def number(self, above=-math.inf, least=-math.inf, below=math.inf, hint=""):
+    def number(self, above=-math.inf, least=-math.inf, below=math.inf):
         def read(node, key):
             try:
                 value = float(node.value)
@@ -125,7 +170,7 @@ class Reader:
                 self.wrong(key, f"must be a number of{unit}, without the unit{said}" if unit else f"must be a number{said}", node)
             if not (value > above and value >= least and value < below):
                 bounds = [f"{word} {bound:g}" for word, bound in (("above", above), ("at least", least), ("below", below)) if math.isfinite(bound)]
-                self.wrong(key, f"must be {' and '.join(bounds)}{unit}, not {node.value}" + (f"; {hint}" if hint and value >= below else ""), node)
+                self.wrong(key, f"must be {' and '.join(bounds)}{unit}, not {node.value}", node)
             return value
         return read
 
@@ -145,16 +190,19 @@ class Reader:
         return node.value
 
     def material(self, node, key):
-        """a material file beside the case, or one of the package, by its name without .hvi"""
+        """a material file beside the case, or one of the package, by its name without .hvi; with a section strength: without, the wall is a liquid's"""
         name = self.text(node, key)
-        for path in (self.path.parent / name, self.path.parent / f"{name}.hvi"):
-            if path.is_file():
-                return str(path.resolve())
-        known = sorted({path.stem for folder in runs.potentials() for path in folder.glob("*.hvi")})
-        if name.removesuffix(".hvi") not in known:
-            near = difflib.get_close_matches(name, known, 1, 0.4)
-            self.wrong(key, f"no material {name}" + (f"; did you mean {near[0]}?" if near else "") + f" (known: {', '.join(known)})", node)
-        return name.removesuffix(".hvi") + ".hvi"
+        known = {path.stem: path for folder in reversed(runs.potentials()) for path in sorted(folder.glob("*.hvi"))}
+        solid = sorted(stem for stem, path in known.items() if has_strength(path))
+        offered = f" (known: {', '.join(solid)})"
+        own = next((path for path in (self.path.parent / name, self.path.parent / f"{name}.hvi") if path.is_file()), None)
+        path = own or known.get(name.removesuffix(".hvi"))
+        if path is None:
+            near = difflib.get_close_matches(name, solid, 1, 0.4)
+            self.wrong(key, f"no material {name}" + (f"; did you mean {near[0]}?" if near else "") + offered, node)
+        if not has_strength(path):
+            self.wrong(key, f"{path.stem} has no section strength, it would be a liquid{offered}", node)
+        return str(own.resolve()) if own else path.name
 
     def method(self, node, key):
         if node.value != "sph":
@@ -187,6 +235,25 @@ class Reader:
             found[name.value] = values if isinstance(value, yaml.SequenceNode) else values[0]
         return found
 
+    def setting(self, name, source, walls):
+        """a value, or several, of a variable of in.whipple"""
+        key, default = f"settings: {name}", source.defaults.get(name)
+        node = self.at[key]
+        nodes = node.value if isinstance(node, yaml.SequenceNode) else [node]
+        if default is None and len(nodes) != walls:
+            self.wrong(key, f"must be {walls} values, one for each wall")
+        number = self.number(above=0) if name in ABOVE_0 else self.number(least=0) if name in FROM_0 else self.number()
+        for item in nodes:
+            if name in WHOLE or default and all(map(is_number, default)):
+                value = number(item, key)
+                if name in WHOLE and (value < 1 or value != int(value)):
+                    self.wrong(key, f"must be a whole number from 1 on, not {item.value}", item)
+            elif name in CHOICES and item.value not in CHOICES[name]:
+                *most, last = CHOICES[name]
+                self.wrong(key, f"must be {', '.join(most)} or {last}, not {item.value}", item)
+            elif name == "plate" and item.value != "plain" and not (self.path.parent / item.value).is_file():
+                self.wrong(key, f"{item.value} is neither plain nor a file", item)
+
     def file(self, node, key):
         """a word; the whole path if it names a file beside the case, since runs have folders of their own"""
         text = self.text(node, key)
@@ -201,7 +268,7 @@ def read(path, source):
     data = reader.mapping(reader.root, "", {
         "projectile": (lambda node, key: reader.mapping(node, key, {
             "diameter_mm": (positive, REQUIRED), "material": (reader.material, REQUIRED)}), REQUIRED),
-        "speed_km_s": (reader.number(above=0, below=100, hint="is it in m/s?"), REQUIRED),
+        "speed_km_s": (reader.number(), REQUIRED),
         "angle_deg": (reader.number(least=0, below=90), 0.0),
         "walls": (reader.walls, REQUIRED),
         "spacings_mm": (reader.several(positive, distinct=True), REQUIRED),
@@ -217,16 +284,17 @@ def read(path, source):
     walls = tuple(dataclasses.replace(wall, spacings_mm=wall.spacings_mm and tuple(wall.spacings_mm[k] for k in order)) for wall in case.walls)
     case = dataclasses.replace(case, walls=walls, spacings_mm=tuple(case.spacings_mm[k] for k in order))
     reader.at.update({"diameter_mm": reader.at["projectile: diameter_mm"]})
-    case.check(reader.wrong)
     own = dataclasses.replace(case, settings={}).variables(0, 0.0)
     for name, value in case.settings.items():
         key = f"settings: {name}"
-        if name in {*own, "radius", "spacings", "outside", "dry", "resume", "out"}:
+        if name in {*own, *SET_BY_CASE}:
             reader.wrong(key, "is set by the case itself")
         try:
             source.check({name: value}, reader.path)
         except HVIError as problem:
             reader.wrong(key, str(problem).partition(": ")[2])
+        reader.setting(name, source, len(case.walls))
+    case.check(reader.wrong)
     source.check(own, reader.path)
     last, coarse = case.walls[-1], (case.walls[-1].spacings_mm or case.spacings_mm)[0]
     if math.ceil(last.thickness_mm / coarse - 0.01) < LAYERS and "layers" not in case.settings:

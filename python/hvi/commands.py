@@ -255,7 +255,12 @@ def compare(args):
         both = [{key: result[key] for key in args.keys if key in result} for result in both]
     table = comparison.rows(*both)
     names = ("", "A", "B", "B - A", "relative")
-    print(tables.text(names, table))
+    print(tables.text(names, [[comparison.cut(value) for value in row] for row in table]))
+    for key, left, right, *_ in table:
+        if (left, right) != (comparison.cut(left), comparison.cut(right)):
+            print(key)
+            for name, value in (("A", left), ("B", right)):
+                print(f"  {name}: " + "\n     ".join(tables.number(value).split("; ")))
     if args.out:
         tables.write_csv(args.out, ("key", *names[1:]), table)
     if args.rtol is not None and not comparison.largest(table) <= args.rtol:

@@ -7,6 +7,7 @@ import os
 from .errors import HVIError
 
 MISSING = "-"
+WIDE = 40  # characters of a text in a table
 
 
 def read_result(path):
@@ -76,6 +77,11 @@ def rows(a, b):
         else:
             table.append((key, left, right, "", "" if left == right else "differs"))
     return table
+
+
+def cut(value):
+    """a text short enough for a table"""
+    return f"{value[:WIDE - 3]}..." if isinstance(value, str) and len(value) > WIDE else value
 
 
 def largest(table):

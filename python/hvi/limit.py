@@ -157,7 +157,7 @@ class Limit:
     def undecided(self):
         """{run: its reasons} of those that are undecided themselves"""
         found = {job.name: shield.verdict(job) for member, place, job in self.jobs.values() if place in self.searches[member].said}
-        return {name: reasons for name, (verdict, reasons) in found.items() if verdict == "undecided"}
+        return {name: reasons for name, (verdict, reasons, _) in found.items() if verdict == "undecided"}
 
     def answer(self):
         """The mapping of limit.yaml; limit is None where it is not in the range, reasons say why."""

@@ -49,9 +49,11 @@ class Input:
         self.name = self.path.name
         self._read(self.name)
         self.known = {}  # variables that -var may set: {name: may it have several values}
+        self.defaults = {}  # {name: words} where there are any
         for text in self.texts.values():
             for name, values in re.findall(r'\bvariable\s+(\w+)\s+index\b(?=([^"#\n]*))', text):
                 self.known[name] = self.known.get(name, False) or len(values.split()) > 1
+                self.defaults.setdefault(name, values.split())  # the first is the default
             for name in re.findall(r"\bis_defined\(variable,(\w+)\)", text):  # lists that have no default
                 self.known.setdefault(name, True)
         joined = re.sub(r"&[ \t]*\n", " ", "\n".join(self.texts.values()))

@@ -37,22 +37,26 @@ def job(case, source, member, folder, name=None, remove=()):
 
 
 def verdict(job):
-    """(verdict, reasons) of a run that is done"""
+    """(verdict, reasons, notes) of a run that is done; notes: what is doubtful in a run that fails nevertheless"""
     result = job.result()
-    said, reasons = result.get("verdict"), result.get("reasons") or []
+    said = result.get("verdict")
     if said not in STATUS:
         raise HVIError(f"{job.folder / 'result.yaml'}: no verdict, holds, fails or undecided, but {said}")
-    return said, [as_key(str(reason)) for reason in (reasons if isinstance(reasons, list) else [reasons])]
+    lists = [result.get(key) or [] for key in ("reasons", "notes")]
+    return said, *([as_key(str(text)) for text in (found if isinstance(found, list) else [found])] for found in lists)
 
 
-def as_key(reason):
-    """a remedy of in.whipple, -var NAME VALUE, as a key of the case"""
-    reason = re.sub(r"-var dx ([\d.]+)", r"spacings_mm of \1", reason)
-    return re.sub(r"-var (\w+) ([\d.]+)", r"settings: {\1: \2}", reason)
+def as_key(text):
+    """remedies of in.whipple, -var NAME VALUE, as keys of the case"""
+    value = r"(\d+(?:\.\d+)?)"
+    for old, new in ((rf"-var dx {value}", r"spacings_mm of \1"), (r"-var dx\b", "spacings_mm"),
+                     (rf"-var radius\d? {value}", r"radius_mm of \1"), (rf"-var (\w+) {value}", r"settings: {\1: \2}"), (r"-var (\w+)", r"settings: \1")):
+        text = re.sub(old, new, text)
+    return text
 
 
 def decide(case, said):
-    """The verdict of all runs, {member: (verdict, reasons)}, with reasons: undecided where they differ."""
+    """(verdict, reasons, notes) of all runs, {member: the same of each}: undecided where they differ."""
     def where(which):
         return f"{case.spacings_mm[which]:g} mm"
 
@@ -68,17 +72,19 @@ def decide(case, said):
         reasons.append("the verdict differs over the spacing: " + ", ".join(f"{' or '.join(sorted(found))} at {where(which)}" for which, found in per.items()))
     if {"holds", "fails"} <= set.union(*per.values()):
         reasons.append("so near the limit finer spacings_mm may decide; python3 -m hvi limit says how near it is")
+    finest = len(case.spacings_mm) - 1, case.shifts[-1]
     texts = {}  # why runs are undecided; if all agree on another verdict, what the finest says of it
-    for member, (verdict, why) in said.items():
+    for member, (verdict, why, _) in said.items():
         for text in why:
-            if verdict == "undecided" or not reasons and member == (len(case.spacings_mm) - 1, case.shifts[-1]):
+            if verdict == "undecided" or not reasons and member == finest:
                 texts.setdefault(text, []).append(member_name(case, member))
     told = [f"{text} ({', '.join(names)})" for text, names in texts.items()]
     if reasons or per[0] == {"undecided"}:
-        return "undecided", reasons + told
+        return "undecided", reasons + told, []
     (verdict,) = per[0]
+    notes = [f"{text} ({member_name(case, finest)})" for text in said[finest][2]]
     return verdict, [f"all {len(said)} runs say so: spacings of {', '.join(f'{dx:g}' for dx in case.spacings_mm)} mm, "
-                     f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told]
+                     f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told], notes
 
 
 def shown(case):
@@ -113,14 +119,19 @@ def main(args):
     print(runs.overview(jobs.values(), shown(case)))
     if failed:
         raise HVIError(f"no verdict: {len(failed)} of {len(jobs)} runs failed: {', '.join(j.name for j in failed)}")
-    said, reasons = decide(case, {member: verdict(j) for member, j in jobs.items()})
-    save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, "runs": {j.name: verdict(j)[0] for j in jobs.values()},
+    said, reasons, notes = decide(case, {member: verdict(j) for member, j in jobs.items()})
+    save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **({"notes": notes} if notes else {}), "runs": {j.name: verdict(j)[0] for j in jobs.values()},
                                    "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1)})
     print(f"verdict: {said}")
-    for reason in reasons:
-        print(f"  - {reason}")
+    print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes)]))
     print(f"table: {folder / 'runs.csv'}, verdict: {folder / 'verdict.yaml'}")
     return STATUS[said]
+
+
+def trial(plan, walls):
+    """seconds of the trial that a plan is from: 20 steps of the projectile and wall 1"""
+    number = [plan["projectile_particles"], *(plan[f"wall{k}_particles"] for k in range(1, walls + 1))]
+    return plan["seconds"] * 20 / plan["steps"] * sum(number[:2]) / sum(number)
 
 
 def plan(case, source, runner, folder):
@@ -137,13 +148,16 @@ def plan(case, source, runner, folder):
         raise HVIError(f"no plan: {', '.join(j.name for j in failed)} failed")
     keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, len(case.walls) + 1) for what in ("particles", "layers")),
             "tstop_us", "steps", "seconds", "memory_MB", "disk_MB"]
-    print(tables.text(("each run", *(j.name for j in jobs)), [(key, *(j.result().get(key, "-") for j in jobs)) for key in keys]))
+    print(tables.text(("each run", *(j.name for j in jobs)), [
+        (key, *(f"about {tables.number(j.result().get(key, '-'))}" if key == "seconds" else j.result().get(key, "-") for j in jobs)) for key in keys]))
+    brief = [j.name for j in jobs if trial(j.result(), len(case.walls)) < 0.5]
     seconds = sum(j.result().get("seconds", 0) for j in jobs) * len(case.shifts)
     print(f"{len(members(case))} runs, {len(case.shifts)} of each spacing: about {runs.duration(seconds / runner.jobs)}, "
-          f"{runner.jobs} at a time on {runner.ranks} ranks each")
+          f"{runner.jobs} at a time on {runner.ranks} ranks each"
+          + (f"; from less than half a second of trial, which may be several times too much or too little: {', '.join(brief)}" if brief else ""))
     plan = jobs[-1].result()
     print(tables.text(("wall", "front_mm", "radius_mm", "middle_mm", "struck_at_mm"), [
-        (k, sketch.faces(case)[k - 1][0], *(plan[f"wall{k}_{what}"] for what in ("radius_mm", "middle_mm", "struck_at_mm"))) for k in range(1, len(case.walls) + 1)]))
+        (k, case.faces()[k - 1][0], *(plan[f"wall{k}_{what}"] for what in ("radius_mm", "middle_mm", "struck_at_mm"))) for k in range(1, len(case.walls) + 1)]))
     for path in figures.save(sketch.draw(case, plan), str(folder / "sketch.png")):
         print(f"sketch: {path}")
     return 0

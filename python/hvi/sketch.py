@@ -10,27 +10,17 @@ from matplotlib.patches import Circle, Polygon, Rectangle
 OPEN = 0.75  # a cloud is that wide over its way, to all sides of the normal and of the shot, as in.whipple takes it
 
 
-def faces(case):
-    """(front, rear) of each wall in mm, the front of wall 1 at 0"""
-    found, z = [], 0.0
-    for wall in case.walls:
-        z += wall.gap_mm or 0.0
-        found.append((z, z + wall.thickness_mm))
-        z += wall.thickness_mm
-    return found
-
-
 def cloud(case, z):
     """(lowest, highest) x in mm that is struck at z: by the projectile on wall 1, behind it by the cloud of wall 1"""
     angle, R = math.radians(case.angle_deg), 0.5 * case.diameter_mm
-    way = max(OPEN * (z - faces(case)[0][1]), R) / math.cos(angle)
+    way = max(OPEN * (z - case.faces()[0][1]), R) / math.cos(angle)
     return R * math.tan(angle) - way, (max(z, 0.0) + R) * math.tan(angle) + way
 
 
 def draw(case, plan):
     """A Figure; plan: that of in.whipple, with wallK_radius_mm, wallK_middle_mm, wallK_struck_at_mm"""
     radii, middles, spots = ([plan[f"wall{k}_{what}"] for k in range(1, len(case.walls) + 1)] for what in ("radius_mm", "middle_mm", "struck_at_mm"))
-    places, R, slope = faces(case), 0.5 * case.diameter_mm, math.tan(math.radians(case.angle_deg))
+    places, R, slope = case.faces(), 0.5 * case.diameter_mm, math.tan(math.radians(case.angle_deg))
     end = places[-1][1]
     low, high = (min(m - r for m, r in zip(middles, radii)), max(m + r for m, r in zip(middles, radii)))
     begin, stop = -max(6 * R, 0.25 * end), 1.15 * end + 2 * R  # of what is drawn along z

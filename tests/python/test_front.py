@@ -1,11 +1,10 @@
-"""python3 -m hvi shield and limit: cases read and refused, runs shared out, verdicts drawn from them; LAMMPS is a fake here."""
+"""python3 -m hvi shield: cases read and refused, runs shared out, verdicts drawn from them; LAMMPS is a fake here."""
 
 import contextlib
 import fcntl
 import os
 import pty
 import re
-import signal
 import struct
 import subprocess
 import sys
@@ -15,66 +14,10 @@ import time
 import numpy as np
 import pytest
 import yaml
+from front_runs import CASE, begun, case_folder, change, front, tries, wait_for  # noqa: F401
 from hvi import case as cases
-from hvi import cli, limit, runs, shield, sketch
+from hvi import cli, runs, shield, sketch
 from hvi.errors import HVIError
-
-CASE = """# a shield
-projectile:
-  diameter_mm: 5
-  material: Al2024-T3
-speed_km_s: 7.1
-walls:
-  - {thickness_mm: 0.8, material: Al2024-T3}
-  - thickness_mm: 1.2
-    material: Al6061-T6
-    gap_mm: 60
-spacings_mm: [0.2, 0.4]
-shifts: [0, 0.5]
-"""
-
-
-@pytest.fixture
-def folder(tmp_path, root, monkeypatch):
-    (tmp_path / "emi.yaml").write_text(CASE)
-    mpirun = tmp_path / "mpirun"
-    mpirun.write_text(f"#!/bin/sh\nexec '{sys.executable}' '{root}/tests/fake_lammps.py' \"$@\"\n")
-    mpirun.chmod(0o755)
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("HVI_LMP", str(mpirun))
-    monkeypatch.setenv("PYTHONPATH", str(root / "python"))
-    return tmp_path
-
-
-def front(*words, case="emi.yaml"):
-    """exit status of a command within this process"""
-    before = signal.getsignal(signal.SIGTERM)
-    try:
-        return cli.main([words[0], case, *words[1:], "--mpirun", "./mpirun"])
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-def tries(folder):
-    """how many runs were begun in each folder"""
-    return {path.parent.name: len(path.read_text().split()) for path in folder.glob("runs/**/tries")}
-
-
-def begun(folder):
-    """when each run was begun last"""
-    return {path.parent.name: path.stat().st_mtime_ns for path in folder.glob("runs/**/tries")}
-
-
-def wait_for(true, seconds=60):
-    end = time.monotonic() + seconds
-    while not true():
-        assert time.monotonic() < end
-        time.sleep(0.05)
-
-
-def change(old, new):
-    assert old in CASE
-    return CASE.replace(old, new)
 
 
 # ---------------------------------------------------------------------- cases
@@ -84,7 +27,7 @@ def test_case_as_variables(folder, root):
     assert case.variables(1, 0.5) == {
         "dx": 0.2, "shift": 0.5, "D": 5.0, "v0": 7100.0, "angle": 0.0, "material_p": "Al2024-T3.hvi", "walls": 2, "thickness": [0.8, 1.2],
         "gap": [0, 60.0], "material": ["Al2024-T3.hvi", "Al6061-T6.hvi"]}
-    (folder / "mine.hvi").write_text("eos")
+    (folder / "mine.hvi").write_text("strength perfect")
     (folder / "emi.yaml").write_text(CASE.replace("gap_mm: 60", "gap_mm: 60\n    spacings_mm: [0.3, 0.5]\n    radius_mm: 40").replace(
         "0.8, material: Al2024-T3}", "0.8, material: mine}") + "angle_deg: 30\nsettings: {tstop: 40, layers: [2, 3]}\n")
     found = cases.read("emi.yaml", runs.Input(shield.INPUT)).variables(0, 0.0)
@@ -95,7 +38,9 @@ def test_case_as_variables(folder, root):
 
 
 WRONG = [
-    (change("speed_km_s: 7.1", "speed_km_s: 7100"), 5, "speed_km_s: must be above 0 and below 100 km/s, not 7100; is it in m/s?"),
+    (change("speed_km_s: 7.1", "speed_km_s: 7100"), 5, "speed_km_s: must be at least 0.1 and below 100 km/s, not 7100; is it in m/s?"),
+    (change("speed_km_s: 7.1", "speed_km_s: 0.071"), 5, "speed_km_s: must be at least 0.1 and below 100 km/s, not 0.071; is it in km/s?"),
+    (change("speed_km_s: 7.1", "speed_km_s: -7"), 5, "speed_km_s: must be at least 0.1 and below 100 km/s, not -7; is it in km/s?"),
     (change("speed_km_s: 7.1", "speed: 7.1"), 5, "speed: no such key; did you mean speed_km_s?"),
     (change("speed_km_s: 7.1", "speed_km_s: 7.1 km/s"), 5, "speed_km_s: must be a number of km/s, without the unit, not '7.1 km/s'"),
     (change("speed_km_s: 7.1", "speed_km_s: .nan"), 5, "speed_km_s: must be a number"),
@@ -105,12 +50,18 @@ WRONG = [
     (change("diameter_mm: 5", "diameter_cm: 5"), 3, "projectile: diameter_cm: no such key; did you mean diameter_mm?"),
     (change("material: Al6061-T6", "materal: Al6061-T6"), 9, "wall 2: materal: no such key; did you mean material?"),
     (change("material: Al6061-T6", "material: Al6061-T7"), 9, "wall 2: material: no material Al6061-T7; did you mean Al6061-T6?"),
+    (change("material: Al6061-T6", "material: Al-Tillotson"), 9, "wall 2: material: Al-Tillotson has no section strength, it would be a liquid (known: Al1100-O, "),
+    (change("  material: Al2024-T3", "  material: Fe-Tillotson.hvi"), 4, "projectile: material: Fe-Tillotson has no section strength"),
+    (change("material: Al6061-T6", "material: Ag"), 9, "(known: Al1100-O, Al2017-T4, "),
     (change("    gap_mm: 60\n", ""), 8, "wall 2: gap_mm: is missing"),
     (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, gap_mm: 5,"), 7, "wall 1: gap_mm: is the gap in front of a wall"),
     (change("{thickness_mm: 0.8,", "{thickness_mm: 0.3,"), 11, "spacings_mm: 0.4 mm is more than wall 1 is thick, 0.3 mm"),
     (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, method: mli,"), 7, "wall 1: method: must be sph, not mli"),
     (change("gap_mm: 60", "gap_mm: 60\n    spacings_mm: [0.2]"), 11, "wall 2: spacings_mm: must be 2 values, one for each"),
-    (change("gap_mm: 60", "gap_mm: 60\n    radius_mm: 2"), 11, "wall 2: radius_mm: wall 2 is no wider than the projectile, 5 mm"),
+    (change("gap_mm: 60", "gap_mm: 60\n    radius_mm: 2"), 11,
+     "wall 2: radius_mm: with 2 mm a projectile of 5 mm at 0 degrees strikes its edge or beside it: at least 3.75 mm are needed; without the key it is what the cloud needs"),
+    (change("gap_mm: 60", "gap_mm: 60\n    radius_mm: 35") + "angle_deg: 45\n", 11,
+     "wall 2: radius_mm: with 35 mm a projectile of 5 mm at 45 degrees strikes its edge or beside it: at least 36.3 mm are needed"),
     (change("diameter_mm: 5", "diameter_mm: 1.5"), 11, "spacings_mm: 0.4 mm leaves fewer than 4 particles across the projectile"),
     (change("[0.2, 0.4]", "0.4"), 11, "spacings_mm: must be a list"),
     (change("[0.2, 0.4]", "[0.35, 0.4]"), 11, "spacings_mm: the largest must be 1.2 times the smallest at least"),
@@ -118,6 +69,21 @@ WRONG = [
     (CASE + "angle_deg: 90\n", 13, "angle_deg: must be at least 0 and below 90 degrees, not 90"),
     (CASE + "settings: {tstopp: 40}\n", 13, "settings: tstopp: in.whipple has no variable 'tstopp'"),
     (CASE + "settings: {C: [1, 2]}\n", 13, "settings: C: variable 'C' of in.whipple is one value, not a list"),
+    (CASE + "settings: {t2: 4}\n", 13, "settings: t2: is set by the case itself"),
+    (CASE + "settings: {radius2: 40}\n", 13, "settings: radius2: is set by the case itself"),
+    (CASE + "settings: {tstop: 40 us}\n", 13, "settings: tstop: must be a number, not '40 us'"),
+    (CASE + "settings:\n  edge: free\n  tstop: -1\n", 15, "settings: tstop: must be at least 0, not -1"),
+    (CASE + "settings: {tstop: 9}\n", 13, "settings: tstop: 9 us are over before anything can have struck wall 2 and crossed it: at least 9.9 are needed; 0 takes what is enough"),
+    (CASE + "settings: {C: 0}\n", 13, "settings: C: must be above 0, not 0"),
+    (CASE + "settings: {eta: big}\n", 13, "settings: eta: must be a number, not 'big'"),
+    (CASE + "settings: {keep: often}\n", 13, "settings: keep: must be a number, not 'often'"),
+    (CASE + "settings: {zones: 1.5}\n", 13, "settings: zones: must be a whole number from 1 on, not 1.5"),
+    (CASE + "settings: {probe_at: [60, far]}\n", 13, "settings: probe_at: must be a number, not 'far'"),
+    (CASE + "settings: {layers: 3}\n", 13, "settings: layers: must be 2 values, one for each wall"),
+    (CASE + "settings: {layers: [3, 0]}\n", 13, "settings: layers: must be a whole number from 1 on, not 0"),
+    (CASE + "settings: {plate: [plain, none.data]}\n", 13, "settings: plate: none.data is neither plain nor a file"),
+    (CASE + "settings: {edge: soft}\n", 13, "settings: edge: must be free, clamp or absorb, not soft"),
+    (CASE + "angle_deg: 30\nsettings: {quarter: yes}\n", 14, "settings: quarter: yes needs angle_deg of 0"),
     (CASE + "settings:\n  D: 4\n", 14, "settings: D: is set by the case itself"),
     (change("walls:\n", "walls: none\nwall:\n"), 6, "walls: must be a list of walls"),
     (change("walls:", "walls: ["), 7, "not YAML: "),
@@ -135,6 +101,14 @@ def test_wrong_case(folder, capsys, text, line, message):
     assert err.startswith("hvi: emi.yaml") and err.count("\n") == 1 and message in err
     assert line is None or f"emi.yaml, line {line}: " in err
     assert not (folder / "runs").exists()
+
+
+def test_own_material_without_strength(folder, capsys):
+    """a file beside the case is looked into like those of the package; what is a comment there is none"""
+    (folder / "mine.hvi").write_text("# strength\neos linear # strength\n")
+    (folder / "emi.yaml").write_text(change("Al6061-T6", "mine"))
+    assert front("shield") == 1
+    assert "emi.yaml, line 9: wall 2: material: mine has no section strength" in capsys.readouterr().err
 
 
 def test_cases_of_the_example(root):
@@ -161,6 +135,14 @@ def test_verdict_of_all_runs(folder, capsys, D, verdict, status):
     reasons = "\n".join(saved["reasons"])
     assert ("differs over the spacing" in reasons) == (status == 4) and ("the verdict differs over the shift of the lattice at 0.4 mm: fails with 0, holds with 0.5" in reasons
                                                                     if D == 4.43 else "differs over the shift" not in reasons)
+
+
+def test_settings_that_are_right(folder):
+    (folder / "p.data").write_text("")
+    (folder / "emi.yaml").write_text(CASE + "settings: {tstop: 0, keep: -1, C: 0.5, pair: riemann, solid: no damage, edge: clamp, quarter: no, probe_at: [0, 5], "
+                                     "layers: [3, 4], plate: [plain, p.data]}\n")
+    found = cases.read("emi.yaml", runs.Input(shield.INPUT)).variables(0, 0.0)
+    assert found["keep"] == "-1" and found["solid"] == "no damage" and found["plate"] == ["plain", str(folder / "p.data")]
 
 
 def test_few_layers_are_said_beforehand(folder, capsys):
@@ -192,8 +174,15 @@ def test_dry_run(folder, capsys, monkeypatch):
         assert front("shield", "--dry-run", "--jobs", "2") == 0
         out = capsys.readouterr().out
         assert "4 runs, 2 of each spacing: about 23 min, 2 at a time on 2 ranks each\n" in out  # 2 * (700 + 700) / 2 seconds
+        # of 12169 particles the trial had 10169, 20 steps: 700 * 20 / 3849 * 10169 / 12169 = 3 s
+        assert re.search(r"^ *seconds +about 700 +about 700$", out, re.M) and "second of trial" not in out
         assert re.search(r"^ *steps +3849 +3849$", out, re.M) and re.search(r"^ +2 +60.8 +30 +0 +0$", out, re.M)
         assert sorted(tries(folder)) == ["dx-0.2", "dx-0.4"] and set(tries(folder).values()) == {1}  # in folders that were emptied
+    monkeypatch.setenv("FAKE_PLAN", PLAN.replace("seconds: 700", "seconds: 114"))
+    assert front("shield", "--dry-run", "--jobs", "2") == 0
+    out = capsys.readouterr().out
+    assert "about 4 min, 2 at a time on 2 ranks each; from less than half a second of trial, which may be several times too much or too little: dx-0.4, dx-0.2\n" in out
+    monkeypatch.setenv("FAKE_PLAN", PLAN)
     assert not list(folder.glob("runs/**/result.yaml"))
     picture = imread(folder / "runs/emi/sketch.png")[..., :3]
     assert 0.01 < np.mean(picture.min(axis=2) < 0.9) < 0.6
@@ -216,6 +205,29 @@ def test_undecided_runs_and_what_is_not_modelled(folder, capsys, monkeypatch):
     assert runs.read_yaml(folder / "runs/emi/dx-0.2_shift-0.0/job.yaml")["variables"]["outside"] == "MLI, honeycomb"
 
 
+def test_notes_are_not_causes(folder, capsys, monkeypatch):
+    """what would make a run undecided if it did not fail comes after the causes, by itself, with keys of the case"""
+    monkeypatch.setenv("FAKE_NOTE", "1 percent is still on its way -- take -var tstop 32.5|12 percent passed beside wall 2 -- take -var radius2 45 for it")
+    assert front("shield") == 3
+    causes = ["all 4 runs say so: spacings of 0.4, 0.2 mm, 2 shifts of the lattice", "wall 2: perforated (dx-0.2_shift-0.5)"]
+    notes = ["1 percent is still on its way -- take settings: {tstop: 32.5} (dx-0.2_shift-0.5)",
+             "12 percent passed beside wall 2 -- take radius_mm of 45 for it (dx-0.2_shift-0.5)"]
+    assert "\n".join(["verdict: fails", *(f"  - {text}" for text in causes), "notes:", *(f"  - {text}" for text in notes), "table: "]) in capsys.readouterr().out
+    saved = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())
+    assert list(saved)[:3] == ["verdict", "reasons", "notes"] and saved["reasons"] == causes and saved["notes"] == notes
+    monkeypatch.delenv("FAKE_NOTE")
+    (folder / "emi.yaml").write_text(change("speed_km_s: 7.1", "speed_km_s: 7"))
+    assert front("shield") == 3 and "notes:" not in capsys.readouterr().out + (folder / "runs/emi/verdict.yaml").read_text()
+
+
+@pytest.mark.parametrize("reason, key", [
+    ("take -var dx 0.25 or finer", "take spacings_mm of 0.25 or finer"), ("take a smaller -var C", "take a smaller settings: C"),
+    ("passed beside wall 3 -- take -var radius 45 for it", "passed beside wall 3 -- take radius_mm of 45 for it"), ("a smaller -var dx", "a smaller spacings_mm"),
+    ("take -var tstop 32.5.", "take settings: {tstop: 32.5}.")])
+def test_remedies_as_keys(reason, key):
+    assert shield.as_key(reason) == key
+
+
 def test_one_spacing_is_no_verdict(folder, capsys):
     (folder / "emi.yaml").write_text(change("[0.2, 0.4]", "[0.4]"))
     assert front("shield") == 4
@@ -233,14 +245,14 @@ def test_goes_on(folder, capsys, monkeypatch):
     first = begun(folder)
     assert front("shield") == 3 and "4 runs, 3 done before, 1 to run" in capsys.readouterr().out
     assert {name for name, when in begun(folder).items() if when != first[name]} == {"dx-0.2_shift-0.5"}
-    (folder / "mine.hvi").write_text("eos\n")
+    (folder / "mine.hvi").write_text("strength perfect\n")
     (folder / "emi.yaml").write_text(change("Al6061-T6", "mine"))
     assert front("shield") == 3 and "4 runs, 0 done before" in capsys.readouterr().out
     assert front("shield") == 3 and "4 runs, 4 done before" in capsys.readouterr().out
-    (folder / "mine.hvi").write_text("eos \n")  # the name is the same, the file is not
+    (folder / "mine.hvi").write_text("strength perfect \n")  # the name is the same, the file is not
     assert front("shield") == 3 and "4 runs, 0 done before" in capsys.readouterr().out
     assert (folder / "runs/emi/verdict.yaml").exists()
-    (folder / "mine.hvi").write_text("eos")
+    (folder / "mine.hvi").write_text("strength perfect")
     monkeypatch.setenv("FAKE_FAIL", "dx-0.2_shift-0.5")
     assert front("shield") == 1 and not (folder / "runs/emi/verdict.yaml").exists()  # no verdict is left of other runs
 
@@ -277,111 +289,6 @@ def test_another_process_is_at_it(folder, capsys, monkeypatch):
     first = begun(folder)
     assert front("shield", "--jobs", "4") == 3
     assert len(first) == 2 and len(begun(folder)) == 4 and first.items() <= begun(folder).items()
-
-
-# ---------------------------------------------------------------------- limit
-def answer(folder, on="D"):
-    return yaml.safe_load((folder / f"runs/emi/limit-{on}/limit.yaml").read_text())
-
-
-def test_limit(folder, capsys):
-    """limits of the fake: 4.2 and 4.25 at 0.2 mm, 4.4 and 4.45 at 0.4 mm, here by steps of 0.1"""
-    assert front("limit", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1", "--jobs", "3") == 0
-    out, found = capsys.readouterr().out, answer(folder)
-    assert found["limit"] == pytest.approx(4.25) and found["limit_of_spacings"] == {"0.4 mm": 4.45, "0.2 mm": 4.25}
-    assert found["change_by_spacing"] == -0.2 and found["range_over_shifts"] == 0 and found["undecided"] == [4.2, 4.5] and found["step"] == 0.1
-    assert (found["holds"], found["fails"]) == ("up to 4.2", "from 4.5") and set(tries(folder).values()) == {1}
-    assert "limit on diameter_mm: 4.25 mm, holds up to 4.2, fails from 4.5, between them undecided" in out
-    assert found["runs"] == len(tries(folder)) <= 4 * 8 and f"cost: {found['runs']} runs" in out
-    fine = [name for name in tries(folder) if name.startswith("dx-0.2")]
-    assert len(fine) <= 2 * 5  # they begin about what the coarse ones have found
-    before = begun(folder)
-    assert front("limit", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1") == 0
-    assert begun(folder) == before and answer(folder) == found
-
-
-def test_limit_with_an_undecided_region(folder, capsys, monkeypatch):
-    monkeypatch.setenv("FAKE_UNSURE", "0.73")
-    assert front("limit", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1", "--jobs", "3") == 0
-    found, out = answer(folder), capsys.readouterr().out
-    assert found["undecided"] == [4.2, 5.2]  # holds up to 4.2 at least at all, fails beyond 4 + 0.4 + 0.05 + 0.73 at all
-    assert re.search(r"^ *0.2 +0 +4.2 +4.3 to 4.9 +5 ", out, re.M)
-    assert "dx-0.2_shift-0.0_D-4.3" in found["undecided_runs"] and "dx-0.2_shift-0.0_D-4.2" not in found["undecided_runs"]
-    assert "undecided: dx-0.2_shift-0.0_D-4.3\n  - wall 2: it still moves -- take settings: {tstop: 40.5}\n" in out
-
-
-@pytest.mark.parametrize("words, limit", [(("thickness2", "--from", "0.8", "--to", "2.8", "--step", "0.2"), 1.9), (("D",), 4.25)])
-def test_limit_on_what_holds_when_it_is_more(folder, monkeypatch, words, limit):
-    """a wall that is thicker holds: D = 5 needs 1.95 mm and 1.9 mm at 0.2, 1.75 mm and 1.7 at 0.4"""
-    monkeypatch.setenv("FAKE_LIMIT", "4.05")
-    assert front("limit", "--on", *words) == 0
-    found = answer(folder, words[0])
-    assert found["limit"] == pytest.approx(limit, abs=0.25)
-    if words[0] == "thickness2":
-        assert found["holds"] == "from 2" and found["fails"] == "up to 1.6" and found["undecided"] == [1.6, 2.0]
-
-
-def test_no_limit_in_the_range(folder, capsys):
-    assert front("limit", "--on", "D", "--from", "5", "--to", "9") == 4
-    out = capsys.readouterr().out
-    assert "limit: not found\n  - an end of the range neither holds nor fails as it should: choose --from and --to" in out and "dx-0.2_shift-0.0: fails at 5 mm, fails at 9 mm" in out
-    assert answer(folder)["limit"] is None
-
-
-def test_limit_goes_on_after_kill(folder, capsys):
-    """kill -9 amid the search: what was run counts, what still runs is waited for"""
-    words = ["limit", "emi.yaml", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1", "--jobs", "2", "--mpirun", "./mpirun"]
-    process = subprocess.Popen([sys.executable, "-m", "hvi", *words], cwd=folder, env={**os.environ, "FAKE_SLEEP": "0.3"}, stdout=subprocess.DEVNULL)
-    wait_for(lambda: len(list(folder.glob("runs/emi/limit-D/*/result.yaml"))) >= 6)
-    process.kill()
-    process.wait()
-    first = begun(folder)
-    assert not (folder / "runs/emi/limit-D/limit.yaml").exists()
-    assert front(words[0], *words[2:-2]) == 0
-    assert answer(folder)["limit"] == pytest.approx(4.25) and len(begun(folder)) > len(first) and first.items() <= begun(folder).items()
-
-
-@pytest.mark.parametrize("words, message", [
-    (("--on", "mass"), "--on must be D, speed, or thickness1 or thickness2, not mass"), (("--on", "thickness3"), "not thickness3"),
-    (("--on", "D", "--from", "6", "--to", "5"), "there is nothing between"),
-    (("--on", "thickness2", "--from", "0.1"), "--from 0.1 mm: spacings_mm: 0.4 mm is more than wall 2 is thick"),
-])
-def test_wrong_limits(folder, capsys, words, message):
-    assert front("limit", *words) == 1 and message in capsys.readouterr().err and not (folder / "runs").exists()
-
-
-def search(truth, n, **words):
-    """(borders, number of tries) of a search over a function of places"""
-    found = limit.Search(n, **words)
-    while new := found.next():
-        found.said.update({place: truth(place) for place in new})
-    assert found.done
-    return found.borders(), len(found.said)
-
-
-def test_search():
-    """every border in every range is found, whichever window it begins with; a few tries each"""
-    for n in (1, 2, 7, 20):
-        for border in range(1, n + 1):
-            for turned in (False, True):
-                def truth(place):
-                    return "holds" if (place < border) != turned else "fails"
-                low, high = border - 1, border
-                want = (high, low, high, low) if turned else (low, high, low, high)
-                for window in (None, (0, 1), (n - 1, n), (border - 2, border + 1)):
-                    for known in (None, turned):
-                        assert search(truth, n, window=window, turned=known)[0] == want
-        assert search(truth, n)[1] <= 2 + 5
-    for first in range(1, 10):
-        for last in range(first, 10):
-            def unsure(place):
-                return "holds" if place < first else "undecided" if place <= last else "fails"
-            found, count = search(unsure, 10)
-            if found[1] != found[3]:  # a narrow region may lie between places that were tried
-                assert (found[0], found[3]) == (first - 1, last + 1) and count <= 9
-    assert search(lambda place: "holds", 10) == ((None,) * 4, 2)
-    to_and_fro = {0: "holds", 5: "fails", 2: "holds", 3: "holds", 4: "holds", 7: "holds", 10: "fails"}
-    assert search(lambda place: to_and_fro.get(place, "fails" if place > 7 else "holds"), 10)[0] in ((4, 5, 7, 8), (4, 5, 4, 5))
 
 
 # ---------------------------------------------------------------------- the engine

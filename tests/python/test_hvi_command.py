@@ -250,6 +250,19 @@ def test_compare_lists_in_results(files):
     assert cli.main(["compare", "a.yaml", "b.yaml", "--keys", "margins.layers", "verdict", "--rtol", "0"]) == 0
 
 
+def test_compare_of_long_texts(command, files):
+    """reasons do not make the table wider: they are cut there, and below it in full"""
+    text = "verdict: {}\nreasons:\n  - {}\n  - spall\nsteps: 5\n"
+    (files / "a.yaml").write_text(text.format("fails", "wall 2 is perforated by a hole of 20.02 mm"))
+    (files / "b.yaml").write_text(text.format("holds", "none"))
+    status, out, err = command("compare", "a.yaml", "b.yaml", "--out", "d.csv")
+    table, found, below = out.partition("\nreasons\n")
+    assert (status, err, found) == (0, "", "\nreasons\n") and max(map(len, table.splitlines())) < 80
+    assert "  wall 2 is perforated by a hole of 20....  none; spall " in table
+    assert below == "  A: wall 2 is perforated by a hole of 20.02 mm\n     spall\n  B: none\n     spall\n"
+    assert read_csv("d.csv")[1]["A"] == "wall 2 is perforated by a hole of 20.02 mm; spall"
+
+
 def test_compare_dumps(files, capsys):
     text = (files / "a.dump").read_text()
     (files / "b.dump").write_text(text[:text.index("ITEM: TIMESTEP\n200")])

@@ -1,0 +1,65 @@
+"""For tests of python3 -m hvi shield, limit and sweep: a case, a folder with it and a fake of LAMMPS, the command."""
+
+import signal
+import sys
+import time
+
+import pytest
+from hvi import cli
+
+CASE = """# a shield
+projectile:
+  diameter_mm: 5
+  material: Al2024-T3
+speed_km_s: 7.1
+walls:
+  - {thickness_mm: 0.8, material: Al2024-T3}
+  - thickness_mm: 1.2
+    material: Al6061-T6
+    gap_mm: 60
+spacings_mm: [0.2, 0.4]
+shifts: [0, 0.5]
+"""
+
+
+@pytest.fixture(name="folder")
+def case_folder(tmp_path, root, monkeypatch):
+    (tmp_path / "emi.yaml").write_text(CASE)
+    mpirun = tmp_path / "mpirun"
+    mpirun.write_text(f"#!/bin/sh\nexec '{sys.executable}' '{root}/tests/fake_lammps.py' \"$@\"\n")
+    mpirun.chmod(0o755)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("HVI_LMP", str(mpirun))
+    monkeypatch.setenv("PYTHONPATH", str(root / "python"))
+    return tmp_path
+
+
+def front(*words, case="emi.yaml"):
+    """exit status of a command within this process"""
+    before = signal.getsignal(signal.SIGTERM)
+    try:
+        return cli.main([words[0], case, *words[1:], "--mpirun", "./mpirun"])
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def tries(folder):
+    """how many runs were begun in each folder"""
+    return {path.parent.name: len(path.read_text().split()) for path in folder.glob("runs/**/tries")}
+
+
+def begun(folder):
+    """when each run was begun last"""
+    return {path.parent.name: path.stat().st_mtime_ns for path in folder.glob("runs/**/tries")}
+
+
+def wait_for(true, seconds=60):
+    end = time.monotonic() + seconds
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def change(old, new):
+    assert old in CASE
+    return CASE.replace(old, new)

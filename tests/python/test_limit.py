@@ -1,0 +1,118 @@
+"""python3 -m hvi limit: searches that end where they should, and say what they rest on; LAMMPS is a fake here."""
+
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+import yaml
+from front_runs import begun, case_folder, change, front, tries, wait_for  # noqa: F401
+from hvi import limit
+
+
+def answer(folder, on="D"):
+    return yaml.safe_load((folder / f"runs/emi/limit-{on}/limit.yaml").read_text())
+
+
+def test_limit(folder, capsys):
+    """limits of the fake: 4.2 and 4.25 at 0.2 mm, 4.4 and 4.45 at 0.4 mm, here by steps of 0.1"""
+    assert front("limit", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1", "--jobs", "3") == 0
+    out, found = capsys.readouterr().out, answer(folder)
+    assert found["limit"] == pytest.approx(4.25) and found["limit_of_spacings"] == {"0.4 mm": 4.45, "0.2 mm": 4.25}
+    assert found["change_by_spacing"] == -0.2 and found["range_over_shifts"] == 0 and found["undecided"] == [4.2, 4.5] and found["step"] == 0.1
+    assert (found["holds"], found["fails"]) == ("up to 4.2", "from 4.5") and set(tries(folder).values()) == {1}
+    assert "limit on diameter_mm: 4.25 mm, holds up to 4.2, fails from 4.5, between them undecided" in out
+    assert found["runs"] == len(tries(folder)) <= 4 * 8 and f"cost: {found['runs']} runs" in out
+    fine = [name for name in tries(folder) if name.startswith("dx-0.2")]
+    assert len(fine) <= 2 * 5  # they begin about what the coarse ones have found
+    before = begun(folder)
+    assert front("limit", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1") == 0
+    assert begun(folder) == before and answer(folder) == found
+
+
+def test_limit_with_an_undecided_region(folder, capsys, monkeypatch):
+    monkeypatch.setenv("FAKE_UNSURE", "0.73")
+    assert front("limit", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1", "--jobs", "3") == 0
+    found, out = answer(folder), capsys.readouterr().out
+    assert found["undecided"] == [4.2, 5.2]  # holds up to 4.2 at least at all, fails beyond 4 + 0.4 + 0.05 + 0.73 at all
+    assert re.search(r"^ *0.2 +0 +4.2 +4.3 to 4.9 +5 ", out, re.M)
+    assert "dx-0.2_shift-0.0_D-4.3" in found["undecided_runs"] and "dx-0.2_shift-0.0_D-4.2" not in found["undecided_runs"]
+    assert "undecided: dx-0.2_shift-0.0_D-4.3\n  - wall 2: it still moves -- take settings: {tstop: 40.5}\n" in out
+
+
+@pytest.mark.parametrize("words, limit", [(("thickness2", "--from", "0.8", "--to", "2.8", "--step", "0.2"), 1.9), (("D",), 4.25)])
+def test_limit_on_what_holds_when_it_is_more(folder, monkeypatch, words, limit):
+    """a wall that is thicker holds: D = 5 needs 1.95 mm and 1.9 mm at 0.2, 1.75 mm and 1.7 at 0.4"""
+    monkeypatch.setenv("FAKE_LIMIT", "4.05")
+    assert front("limit", "--on", *words) == 0
+    found = answer(folder, words[0])
+    assert found["limit"] == pytest.approx(limit, abs=0.25)
+    if words[0] == "thickness2":
+        assert found["holds"] == "from 2" and found["fails"] == "up to 1.6" and found["undecided"] == [1.6, 2.0]
+
+
+def test_no_limit_in_the_range(folder, capsys):
+    assert front("limit", "--on", "D", "--from", "5", "--to", "9") == 4
+    out = capsys.readouterr().out
+    assert "limit: not found\n  - an end of the range neither holds nor fails as it should: choose --from and --to" in out and "dx-0.2_shift-0.0: fails at 5 mm, fails at 9 mm" in out
+    assert answer(folder)["limit"] is None
+
+
+def test_limit_goes_on_after_kill(folder, capsys):
+    """kill -9 amid the search: what was run counts, what still runs is waited for"""
+    words = ["limit", "emi.yaml", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1", "--jobs", "2", "--mpirun", "./mpirun"]
+    process = subprocess.Popen([sys.executable, "-m", "hvi", *words], cwd=folder, env={**os.environ, "FAKE_SLEEP": "0.3"}, stdout=subprocess.DEVNULL)
+    wait_for(lambda: len(list(folder.glob("runs/emi/limit-D/*/result.yaml"))) >= 6)
+    process.kill()
+    process.wait()
+    first = begun(folder)
+    assert not (folder / "runs/emi/limit-D/limit.yaml").exists()
+    assert front(words[0], *words[2:-2]) == 0
+    assert answer(folder)["limit"] == pytest.approx(4.25) and len(begun(folder)) > len(first) and first.items() <= begun(folder).items()
+
+
+@pytest.mark.parametrize("words, message", [
+    (("--on", "mass"), "--on must be D, speed, or thickness1 or thickness2, not mass"), (("--on", "thickness3"), "not thickness3"),
+    (("--on", "D", "--from", "6", "--to", "5"), "there is nothing between"),
+    (("--on", "thickness2", "--from", "0.1"), "--from 0.1 mm: spacings_mm: 0.4 mm is more than wall 2 is thick"),
+    (("--on", "D", "--from", "4", "--to", "60"), "--to 60 mm: wall 2: radius_mm: with 40 mm a projectile of 60 mm at 0 degrees strikes its edge"),
+    (("--on", "speed", "--from", "3000", "--to", "9000"), "--from 3000 km/s: speed_km_s: must be at least 0.1 and below 100 km/s, not 3000; is it in m/s?"),
+])
+def test_wrong_limits(folder, capsys, words, message):
+    (folder / "emi.yaml").write_text(change("gap_mm: 60", "gap_mm: 60\n    radius_mm: 40"))
+    assert front("limit", *words) == 1 and message in capsys.readouterr().err and not (folder / "runs").exists()
+
+
+def search(truth, n, **words):
+    """(borders, number of tries) of a search over a function of places"""
+    found = limit.Search(n, **words)
+    while new := found.next():
+        found.said.update({place: truth(place) for place in new})
+    assert found.done
+    return found.borders(), len(found.said)
+
+
+def test_search():
+    """every border in every range is found, whichever window it begins with; a few tries each"""
+    for n in (1, 2, 7, 20):
+        for border in range(1, n + 1):
+            for turned in (False, True):
+                def truth(place):
+                    return "holds" if (place < border) != turned else "fails"
+                low, high = border - 1, border
+                want = (high, low, high, low) if turned else (low, high, low, high)
+                for window in (None, (0, 1), (n - 1, n), (border - 2, border + 1)):
+                    for known in (None, turned):
+                        assert search(truth, n, window=window, turned=known)[0] == want
+        assert search(truth, n)[1] <= 2 + 5
+    for first in range(1, 10):
+        for last in range(first, 10):
+            def unsure(place):
+                return "holds" if place < first else "undecided" if place <= last else "fails"
+            found, count = search(unsure, 10)
+            if found[1] != found[3]:  # a narrow region may lie between places that were tried
+                assert (found[0], found[3]) == (first - 1, last + 1) and count <= 9
+    assert search(lambda place: "holds", 10) == ((None,) * 4, 2)
+    to_and_fro = {0: "holds", 5: "fails", 2: "holds", 3: "holds", 4: "holds", 7: "holds", 10: "fails"}
+    assert search(lambda place: to_and_fro.get(place, "fails" if place > 7 else "holds"), 10)[0] in ((4, 5, 7, 8), (4, 5, 4, 5))
