@@ -20,7 +20,7 @@ def known(text):
     """styles that 'info styles' names, as (kind, name)"""
     found, kind = set(), None
     for line in text.splitlines():
-        title = re.match(r"(\w+) styles:", line)
+        title = re.match(r"(\w+) styles\b.*:", line)
         if title:
             kind = title.group(1).lower()
         elif kind:
