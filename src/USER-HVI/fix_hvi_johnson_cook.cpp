@@ -199,13 +199,21 @@ void FixHVIJohnsonCook::count_particles()
 }
 
 /* ----------------------------------------------------------------------
-   solids that are liquids in this run, unless they are meant to be
+   solids that are liquids in this run, unless they are meant to be; softening that takes up more than is
+   asked for
 ------------------------------------------------------------------------- */
 
 void FixHVIJohnsonCook::setup(int /*vflag*/)
 {
   if (checked) return;
   checked = true;
+  std::vector<double> largest(atom->ntypes + 1, 0.0);    // of spacings, where they count
+  for (int i = 0; i < atom->nlocal; i++) {
+    const HVI::SolidModel *const model = of(i);
+    if (model && model->softens())
+      largest[atom->type[i]] = std::max(largest[atom->type[i]], spacing(i));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), largest.size(), MPI_DOUBLE, MPI_MAX, world);
   for (int itype = 1; itype <= atom->ntypes; itype++) {
     const HVI::Material *const material = store->materials.of(itype);
     if (!material || material->is_liquid() || comm->me) continue;
@@ -220,6 +228,14 @@ void FixHVIJohnsonCook::setup(int /*vflag*/)
                      "Fix hvi/johnson-cook: {} particles of material {} (type {}) are not in group "
                      "{}: they bear no shear and do not spall",
                      outside[itype], material->name, itype, group->names[igroup]);
+    if (models[itype] && largest[itype] >= models[itype]->largest_size())
+      error->warning(
+          FLERR,
+          "Fix hvi/johnson-cook: the spacing {:.4g} of material {} (type {}) must be less "
+          "than 3 G u_f/Y = {:.4g}, else stress that softens falls faster than elastic "
+          "strain can follow.  Use finer particles or u_f above {:.4g}",
+          largest[itype], material->name, itype, models[itype]->largest_size(),
+          models[itype]->softening_displacement() * largest[itype] / models[itype]->largest_size());
   }
 }
 
@@ -301,12 +317,11 @@ double FixHVIJohnsonCook::spacing(int i) const
 
 HVI::SolidInput FixHVIJohnsonCook::extrapolated(int i, double dt, int integrated) const
 {
-  static constexpr double GAMMA = 4.0;    // dp/de/rho of solids is less
   HVI::SolidInput in = input(i, FORCES);
   if (!(atom->mask[i] & integrated)) return in;
   const double drho = dt * atom->drho[i], de = dt * atom->desph[i] / mass(i);
   const double c = store->fields.view().state[i].c;
-  in.p -= 2.0 * (c * c * std::fabs(drho) + GAMMA * in.rho * std::fabs(de));
+  in.p -= 2.0 * (c * c * std::fabs(drho) + of(i)->gamma() * in.rho * std::fabs(de));
   in.rho += drho;
   in.e += de;
   return in;

@@ -115,6 +115,13 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
   const double little = 1.0e-4 * eos.c0() * eos.c0();
   model->cp = little / (eos.temperature(eos.rho0(), little) - model->T0);
   model->take_energy(material);
+  model->find_gamma();
+  if (model->softens()) {
+    const Conditions rest = {model->rho0, model->rho0, 0.0,
+                             options.thermal ? model->T0 : NOT_A_NUMBER};
+    const double Y = model->law->yield(0.0, 0.0, rest);
+    if (Y > 0.0) model->biggest = 3.0 * model->law->shear_modulus(rest) * model->u_f / Y;
+  }
   const Section *const heat = material.section("thermal", "work");
   if (heat) model->chi = heat->values.at("chi");
   if (options.from_work && !(model->cp > 0.0)) {
@@ -166,6 +173,28 @@ void SolidModel::take_energy(const Material &material)
   else if (g)
     fragment_energy = g->values.at("eps_c") *
         law->yield(0.0, 0.0, {rho0, rho0, 0.0, thermal ? T0 : NOT_A_NUMBER});
+}
+
+/* ----------------------------------------------------------------------
+   The largest dp/de/rho from 0.6 to 1.6 times the density, and energies up to 0.1 c0^2; 1 km/s is 0.02
+------------------------------------------------------------------------- */
+
+void SolidModel::find_gamma()
+{
+  const double csq = eos->c0() * eos->c0();
+  for (int k = 6; k <= 16; k++) {
+    const double rho = 0.1 * k * rho0;
+    double lower = 0.0, p0, p, c;
+    bool known = eos->evaluate(rho, lower, p0, c);
+    for (double part : {1e-4, 1e-3, 1e-2, 3e-2, 0.1}) {
+      const double upper = part * csq;
+      const bool now = eos->evaluate(rho, upper, p, c);
+      if (known && now) steepest = std::max(steepest, (p - p0) / (rho * (upper - lower)));
+      known = now;
+      lower = upper;
+      p0 = p;
+    }
+  }
 }
 
 // Whether it spalls at the end of this step, under the pressure of the law.  limit: the factor of

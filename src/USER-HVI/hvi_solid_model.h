@@ -133,6 +133,13 @@ class SolidModel {
     return (with_voids && voids.delta_c > 0.0) || u_f > 0.0 || reference > 0.0;
   }
   bool softens() const { return u_f > 0.0; }
+  double softening_displacement() const { return u_f; }
+
+  // Below that size, 3 G u_f/Y at rest, elastic strain can follow the stress of what softens.  The largest
+  // dp/de/rho of the equation of state around rest.
+
+  double largest_size() const { return biggest; }
+  double gamma() const { return steepest; }
 
   // of something new, without stress; of something that has no model any more: a liquid
 
@@ -208,6 +215,7 @@ class SolidModel {
   std::unique_ptr<Strength> law;
   std::unique_ptr<Damage> fracture;
   double u_f = 0.0;    // of fracture
+  double biggest = NO_LIMIT, steepest = 0.0;
   std::shared_ptr<const Eos> eos;
   double rho0;
   Spall spall;
@@ -225,6 +233,7 @@ class SolidModel {
   SolidModel() = default;
   std::string take_spall(const Material &);
   void take_energy(const Material &);
+  void find_gamma();
   bool parts(SolidState &, double rho, double p, double Y, double limit, double dt) const;
   double grow_voids(SolidState &, const SolidInput &, double limit, double dt) const;
   void grow_damage(SolidState &, const SolidInput &, const Conditions &, double d_eps,

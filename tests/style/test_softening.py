@@ -9,6 +9,7 @@ from test_solid_state import FIXES, NEIGHBOR, factor, reader
 from test_solid_wrong_input import refused  # noqa: F401: a fixture
 
 SOFT = MATERIAL.replace("spall limit", "  u_f 0.04\nspall limit")
+ALWAYS = "neigh_modify check no\n"
 JC = "spall voids weibull 6 17 weibull_size 2"
 
 
@@ -19,6 +20,11 @@ def material(tmp_path):
     return path
 
 
+def melt(material):
+    """at the temperature of the start; spalls within some steps"""
+    material.write_text(material.read_text().replace("Tref 300", "Tref 200").replace("Tm 900", "Tm 290").replace("sigma 0.6", "sigma 0.2"))
+
+
 def softened(f):
     """some have begun to fail, some have failed, by damage and by voids; nothing is damaged that has not begun, and what softens bears less"""
     soft = (f["damage"] > 0) & (f["damage"] < 1)
@@ -27,7 +33,8 @@ def softened(f):
     assert (f["vm"][f["damage"] >= 1] == 0).all() and (f["vm"][soft] > 0).sum() > 20
 
 
-@pytest.mark.parametrize("nranks, words", [(1, "viscosity 1 2"), (2, "gradient law"), (2, "viscosity 1 2 h variable")])
+@pytest.mark.parametrize("nranks, words", [
+    (1, "viscosity 1 2 gradient corrected"), (2, "gradient law"), (2, "gradient plain"), (2, "gradient corrected h variable")])
 def test_restart(lmp, tmp_path, material, nranks, words):
     """30 steps, restart, 30 more: the same bits as 60 at once"""
     s = state(seed=23)
@@ -39,15 +46,37 @@ def test_restart(lmp, tmp_path, material, nranks, words):
         assert np.array_equal(one[name], two[name]), name
 
 
-@pytest.mark.parametrize("words", ["viscosity 1 2", "gradient law"])
-def test_ranks(lmp, tmp_path, material, words):
-    """1 to 4 ranks, newton on and off"""
+@pytest.mark.parametrize("nranks, newton", [(1, "off"), (2, "on"), (3, "off")])
+@pytest.mark.parametrize("words", ["gradient corrected", "gradient law"])
+def test_restart_of_the_melted(lmp, tmp_path, material, words, nranks, newton):
+    """from steps in which melted particles spall: the same bits, newton on and off"""
+    melt(material)
+    text = start(state(seed=23), tmp_path, material, words, steps=0, sort=False, jc=JC, newton=newton, more="restart 1 half\n" + ALWAYS)
+    lmp(text + "".join(f"run 1\n{voids.OUT.format(f'f{k}')}" for k in range(1, 31)), nranks=nranks)
+    f = {k: voids.read(tmp_path / f"f{k}") for k in range(1, 31)}
+    failed = [f[k]["spalled"].sum() for k in f]
+    steps = [k for k in range(2, 30) if failed[k - 1] > failed[k - 2]][::3]
+    print(words, failed, steps)
+    assert len(steps) > 2 and not f[30]["vm"].any()
+    again = f"clear\nnewton {newton}\n" + "read_restart half.{}\n" + NEIGHBOR + ALWAYS + FIXES.format(JC)
+    lmp("".join(again.format(k) + f"run {30 - k}\n" + voids.OUT.format(f"from{k}") for k in steps), nranks=nranks)
+    wrong = [(k, name) for k in steps for name, a in voids.read(tmp_path / f"from{k}").items() if not np.array_equal(a, f[30][name])]
+    assert not wrong, wrong
+
+
+@pytest.mark.parametrize("melted", [False, True])
+@pytest.mark.parametrize("words", ["gradient corrected", "gradient law", "gradient plain"])
+def test_ranks(lmp, tmp_path, material, words, melted):
+    """1 to 4 ranks, newton on and off; melted particles spall by voids only"""
+    if melted:
+        melt(material)
+
     def text(name, newton="on"):
         return start(state(seed=23), tmp_path, material, words, steps=40, jc=JC, newton=newton) + voids.OUT.format(name)
 
     lmp(text("one"))
     one = voids.read(tmp_path / "one")
-    assert 5 < ((one["damage"] > 0) & (one["damage"] < 1)).sum() < 500
+    assert (one["spalled"].sum() > 5 and not one["vm"].any()) if melted else 5 < ((one["damage"] > 0) & (one["damage"] < 1)).sum() < 500
     for nranks, newton in ((1, "off"), (2, "on"), (3, "off"), (4, "off")):
         lmp(text("all", newton), nranks=nranks)
         got = voids.read(tmp_path / "all")
@@ -136,6 +165,18 @@ run 0
         assert abs(weakest.mean() - 1) < 3 * weakest.std() / volumes**0.5
         without.append(factor(4, 100 + parts, tag).reshape(volumes, parts).min(1).mean())
     assert without[2] < 0.6 * without[0]
+
+
+@pytest.mark.parametrize("nranks", [1, 3])
+def test_spacing_of_softening(lmp, tmp_path, material, nranks):
+    """a spacing of 1, G 6, Y 0.25: u_f must be above 0.25/18 = 0.01389; once per type, whatever ranks have it"""
+    for u_f, n in (("0.0138", 2), ("0.0139", 0)):
+        material.write_text(SOFT.format(sigma_p=3.0).replace("u_f 0.04", f"u_f {u_f}"))
+        r = lmp(start(state(), tmp_path, material, steps=0, jc="spall none") + "run 1\n", nranks=nranks)
+        said = [w for w in r.warnings if "3 G u_f/Y" in w]
+        assert len(said) == n, r.warnings
+        for itype, w in enumerate(said, 1):
+            assert f"the spacing 1 of material {material} (type {itype}) must be less than 3 G u_f/Y = 0.9936" in w and "u_f above 0.01389" in w, w
 
 
 @pytest.mark.parametrize("words, message", [

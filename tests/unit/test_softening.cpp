@@ -65,6 +65,25 @@ void step(const SolidModel &model, SolidState &s, const SolidInput &in, double d
 
 }    // namespace
 
+// dp/de/rho is (g0 + a mu) rho0/rho: it may be largest where matter is thin, or dense
+
+TEST(SolidModel, LargestGamma)
+{
+  const auto gamma = [](const std::string &eos) {
+    return made(eos + PERFECT, options(Spall::NONE, false))->gamma();
+  };
+  EXPECT_NEAR(gamma(EOS), (2.0 - 0.4 * 0.5) / 0.6, 1e-9);
+  EXPECT_NEAR(gamma("eos polynomial\nrho0 2700\nA1 70e9\nT1 70e9\nB0 3\nB1 15\ncp 900\n"),
+              (3.0 + 0.6 * 15.0) / 1.6, 1e-9);
+}
+
+TEST(SolidModel, LargestSize)
+{
+  const auto model = made(EOS + PERFECT + DAMAGE + "u_f 20e-6\n", options(Spall::NONE, true));
+  EXPECT_DOUBLE_EQ(model->largest_size(), 3.0 * 26.0 / 0.3 * 20e-6);
+  EXPECT_EQ(made(EOS + PERFECT + DAMAGE, options(Spall::NONE, true))->largest_size(), NO_LIMIT);
+}
+
 /* ----------------------------------------------------------------------
    A layer as thick as its particles, sheared until it has failed: plastic work per area is Y (0.2 size + u_f/2), so what
    softening takes up is Y u_f/2, whatever the size.  Before that the law's damage counts as initiation.

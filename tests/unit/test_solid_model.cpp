@@ -241,6 +241,19 @@ TEST(SolidModel, SpallsAtItsLimit)
   EXPECT_FALSE(s.failed());
   EXPECT_EQ(s.seen.p_min, -1.2);
   EXPECT_EQ(borne(*limited, s, -5.0), -1.2);
+
+  // what sleeps goes on showing a limit of its own
+  o.weibull = 3.0;
+  o.reference = 1.0;
+  const auto scattered = made(EOS + PERFECT + SPALL, o);
+  SolidInput in = input(uniaxial(1.0), -5.0);
+  in.id = 7;
+  in.size = 0.5;
+  SolidState own = begun(*scattered, in);
+  own.seen.p_min = 0.0;
+  scattered->present(own, in);
+  EXPECT_EQ(own.seen.p_min, -1.2 * weibull_factor(0, 7, 3.0) * 2.0);
+  o.weibull = o.reference = 0.0;
   EXPECT_NEAR(von_mises(s.S), Y, 1e-14);
 
   o.spall = Spall::ZERO;
