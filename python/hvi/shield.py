@@ -154,7 +154,7 @@ def plan(case, source, runner, folder):
     seconds = sum(j.result().get("seconds", 0) for j in jobs) * len(case.shifts)
     print(f"{len(members(case))} runs, {len(case.shifts)} of each spacing: about {runs.duration(seconds / runner.jobs)}, "
           f"{runner.jobs} at a time on {runner.ranks} ranks each"
-          + (f"; from less than half a second of trial, which may be several times too much or too little: {', '.join(brief)}" if brief else ""))
+          + (f"; no more than a guess, from less than half a second of trial: {', '.join(brief)}" if brief else ""))
     plan = jobs[-1].result()
     print(tables.text(("wall", "front_mm", "radius_mm", "middle_mm", "struck_at_mm"), [
         (k, case.faces()[k - 1][0], *(plan[f"wall{k}_{what}"] for what in ("radius_mm", "middle_mm", "struck_at_mm"))) for k in range(1, len(case.walls) + 1)]))

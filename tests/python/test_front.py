@@ -181,7 +181,7 @@ def test_dry_run(folder, capsys, monkeypatch):
     monkeypatch.setenv("FAKE_PLAN", PLAN.replace("seconds: 700", "seconds: 114"))
     assert front("shield", "--dry-run", "--jobs", "2") == 0
     out = capsys.readouterr().out
-    assert "about 4 min, 2 at a time on 2 ranks each; from less than half a second of trial, which may be several times too much or too little: dx-0.4, dx-0.2\n" in out
+    assert "about 4 min, 2 at a time on 2 ranks each; no more than a guess, from less than half a second of trial: dx-0.4, dx-0.2\n" in out
     monkeypatch.setenv("FAKE_PLAN", PLAN)
     assert not list(folder.glob("runs/**/result.yaml"))
     picture = imread(folder / "runs/emi/sketch.png")[..., :3]
