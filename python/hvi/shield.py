@@ -47,6 +47,7 @@ def verdict(job):
 
 def as_key(reason):
     """a remedy of in.whipple, -var NAME VALUE, as a key of the case"""
+    reason = re.sub(r"-var radius[12]? ([\d.]+) for it", r"radius_mm of \1 for it", reason)
     reason = re.sub(r"-var dx ([\d.]+)", r"spacings_mm of \1", reason)
     return re.sub(r"-var (\w+) ([\d.]+)", r"settings: {\1: \2}", reason)
 
