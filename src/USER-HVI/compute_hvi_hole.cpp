@@ -201,7 +201,7 @@ void ComputeHVIHole::find_layer()
 
   const double least = std::sqrt((most[2] + most[4]) * (most[3] + most[5]) / everywhere);
   half = (thickness > 0.0) ? 0.5 * thickness : least;
-  if (thickness == 0.0 && farthest > least) {
+  if (thickness == 0.0 && farthest > 0.0) {
     const int nbins = OCTAVES * PER_OCTAVE;
     std::vector<int64_t> number(nbins, 0);
     for (const Particle &p : layer) {
