@@ -27,7 +27,7 @@ using namespace LAMMPS_NS;
 
 // clang-format off
 enum {
-  DIAMETER, SMALLEST, LARGEST, CENTER, AREA = CENTER + 2, SHARE, LAYER, REFERENCE, SPACING, NVALUES
+  DIAMETER, SMALLEST, LARGEST, CENTER, AREA = CENTER + 2, SHARE, LAYER, REFERENCE, SPACING, FOUND, NVALUES
 };
 // clang-format on
 
@@ -123,6 +123,7 @@ void ComputeHVIHole::compute_vector()
 {
   invoked_vector = update->ntimestep;
   std::fill(vector, vector + NVALUES, 0.0);
+  vector[FOUND] = -1.0;
 
   find_layer();
   if (!find_extent()) return;
@@ -149,7 +150,9 @@ void ComputeHVIHole::compute_vector()
     error->warning(FLERR, "Compute hvi/hole: no plate around the centre, the hole is taken as 0");
     warned_open = true;
   }
+  if (found == HVI::Plate::NO_HOLE) vector[FOUND] = 0.0;
   if (found != HVI::Plate::HOLE) return;
+  vector[FOUND] = 1.0;
 
   const HVI::Plate::Hole hole = map.measure(sectors);
   vector[DIAMETER] = hole.diameter;
@@ -162,13 +165,16 @@ void ComputeHVIHole::compute_vector()
 /* ----------------------------------------------------------------------
    Particles of the group near the plane.  How near is told by a fixed point: half
    the layer is 4 times the median distance of its own particles from the plane,
-   that is the thickness of an even plate with the plane in its middle.
+   that is the thickness of an even plate with the plane in its middle.  In a single
+   layer this is 0, or round-off: half the layer is no less than the group's width
+   over the root of its number, which is the spacing there.
 ------------------------------------------------------------------------- */
 
 void ComputeHVIHole::find_layer()
 {
   layer.clear();
-  double mine[2] = {0.0, 0.0}, most[2];
+  double mine[6] = {0.0, 0.0}, most[6];    // the last 4: minus the lowest, and the highest
+  std::fill(mine + 2, mine + 6, -HUGE_VAL);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     double x[3];
@@ -179,15 +185,23 @@ void ComputeHVIHole::find_layer()
     if (!std::isfinite(p.s + p.y[0] + p.y[1])) continue;
     mine[0] = std::max(mine[0], std::fabs(p.s));
     mine[1] = std::max(mine[1], p.mass);
+    for (int k = 0; k < 2; k++) {
+      mine[2 + k] = std::max(mine[2 + k], -p.y[k]);
+      mine[4 + k] = std::max(mine[4 + k], p.y[k]);
+    }
     layer.push_back(p);
   }
-  MPI_Allreduce(mine, most, 2, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(mine, most, 6, MPI_DOUBLE, MPI_MAX, world);
+  const int64_t here = layer.size();
+  int64_t everywhere;
+  MPI_Allreduce(&here, &everywhere, 1, MPI_INT64_T, MPI_SUM, world);
   farthest = most[0];
   if (most[1] == 0.0) return;
   unit = std::ldexp(1.0, 57 - std::ilogb(most[1]) - std::ilogb((double) atom->natoms + 1.0));
 
-  half = 0.5 * thickness;
-  if (half == 0.0 && farthest > 0.0) {
+  const double least = std::sqrt((most[2] + most[4]) * (most[3] + most[5]) / everywhere);
+  half = (thickness > 0.0) ? 0.5 * thickness : least;
+  if (thickness == 0.0 && farthest > 0.0) {
     const int nbins = OCTAVES * PER_OCTAVE;
     std::vector<int64_t> number(nbins, 0);
     for (const Particle &p : layer) {
@@ -209,7 +223,7 @@ void ComputeHVIHole::find_layer()
       if (next >= last) break;
       last = next;
     }
-    half = farthest * std::exp2((last + 1.0) / PER_OCTAVE - OCTAVES);
+    half = std::max(least, farthest * std::exp2((last + 1.0) / PER_OCTAVE - OCTAVES));
   }
   layer.erase(std::remove_if(layer.begin(), layer.end(),
                              [this](const Particle &p) {

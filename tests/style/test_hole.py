@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-NAMES = "d dmin dmax x y area share layer reference dr".split()
+NAMES = "d dmin dmax x y area share layer reference dr found".split()
 MEAN, EXTREME, CHANGE = 0.15, 1.0, 0.1
 
 
@@ -85,7 +85,7 @@ run 0
 
 
 def values(thermo, name="h"):
-    return dict(zip(NAMES, [thermo[f"c_{name}[{k}]"][0] for k in range(1, 11)]))
+    return dict(zip(NAMES, [thermo[f"c_{name}[{k}]"][0] for k in range(1, 12)]))
 
 
 def measure(lmp, tmp_path, plates, keywords="", nranks=1):
@@ -214,7 +214,7 @@ def test_nothing_left(lmp, tmp_path):
     got, r = measure(lmp, tmp_path, [x[radius(x, (12, 0)) < 3], beside])
     assert sum("no plate around the centre" in w for w in r.warnings) == 2
     for g in got:
-        assert [g[n] for n in NAMES[:6]] == [0] * 6
+        assert [g[n] for n in NAMES[:6]] == [0] * 6 and g["found"] == -1
 
     few = [np.zeros((1, 3)), np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0, 0, 0], [1, 1, 0.5]]),
            np.stack([np.arange(50) - 25.0, np.sin(np.arange(50)), 0 * np.arange(50)], -1)]
@@ -227,7 +227,9 @@ group none empty
 compute h none hvi/hole axis z centre 0 0 plane 0
 compute g all hvi/hole axis z centre 0 0 plane 9 thickness 1
 """ + THERMO.format("c_h[*] c_g[*]"), nranks=2)
-    assert set(values(r.thermo, "h").values()) == set(values(r.thermo, "g").values()) == {0}
+    for name in "hg":
+        *rest, found = values(r.thermo, name).values()
+        assert set(rest) == {0} and found == -1
 
 
 # ---------------------------------------------------------------------- the same in any guise
@@ -291,7 +293,7 @@ def definition(x, dr, layer, fill=0.5, sectors=36, fine=16):
     r = np.sqrt((np.roll(rsq, 1) + 2 * rsq + np.roll(rsq, -1)) / 4 + extra)
     across = r[:sectors // 2] + r[sectors // 2:]
     return dict(zip(NAMES, [2 * np.sqrt(area / np.pi), across.min(), across.max(), px.mean(), py.mean(), area, 1, layer,
-                            reference, dr]))
+                            reference, dr, 1]))
 
 
 def test_definition(lmp, tmp_path):
@@ -411,6 +413,19 @@ def test_thickness(lmp, tmp_path):
     got = [values(t) for t in lmp(text).runs]
     error = abs(table(got, "d") - 32)
     assert len(got) == n and error.mean() <= MEAN and error.max() <= 2 * MEAN
+
+
+def test_single_layer(lmp, tmp_path):
+    """flat but for round-off, whole or with a hole, in quarters, too: the layer holds all of it"""
+    rng = np.random.default_rng(15)
+    x = plate("sc", 1, 20, rng, shift=False)
+    x[:, 2] = rng.choice([0, 1e-13, -1e-13], len(x))
+    quarter = x[(x[:, 0] > 0) & (x[:, 1] > 0)]
+    got, r = measure(lmp, tmp_path, [x, x[radius(x) > 10], quarter, quarter[radius(quarter) > 10]])
+    assert np.all(table(got, "found") == [0, 1, 0, 1]) and np.all(table(got, "d")[::2] == 0)
+    assert table(got, "d")[1::2] == pytest.approx(20, abs=2 * MEAN)
+    assert np.all(table(got, "layer") > 1.5) and np.all(table(got, "layer") < 3)
+    assert not [w for w in r.warnings if "hvi/hole" in w]
 
 
 # ---------------------------------------------------------------------- in LAMMPS
