@@ -307,3 +307,33 @@ def test_an_ordinary_shot_with_its_own_walls(shield):
     r = shield(D=3, v0=6000, thickness=[0.9, 3], spacing=20, material="Al6061-T6.hvi Al6061-T6.hvi".split(), material_p="Al2017-T4.hvi", dx=0.6, keep=-1)
     assert r["particles_left_the_box"] > 0 and r["margins"]["missed_fraction"] < 1e-3
     assert not [reason for reason in r["reasons"] + r.get("notes", []) if "beside" in reason or "left the box" in reason]
+
+
+def test_notes_of_a_failure(shield, tmp_path):
+    """what speaks against a verdict that fails all the same is not among its reasons"""
+    r = shield(**COARSE, quarter="no", walls=1, v0=1500, t1=2.4, radius1=8, behind=5, back=10, tstop=10, keep=-1)
+    assert r["verdict"] == "fails" and all("perforated" in reason or "came through" in reason or "spall" in reason for reason in r["reasons"])
+    assert any("is still pushed" in note for note in r["notes"]) and any("from the rear perhaps" in note for note in r["notes"])
+    r = shield(**COARSE, folder="holds", walls=1, v0=1500, t1=8, radius1=8, tstop=10, keep=-1)
+    assert r["verdict"] == "holds" and "notes" not in r
+
+
+def test_no_plate_where_it_is_struck(shield, tmp_path):
+    """whether that has a hole is not known, and not said"""
+    import dataclasses
+
+    from hvi import plates
+
+    whole = plates.make(8e-3, 2.4e-3, 0.8e-3, 3, [0])
+    there = whole.x[:, 0] > 3.5e-3
+    plates.write(tmp_path / "side.data", dataclasses.replace(whole, x=whole.x[there], type=whole.type[there]), 2785.0)
+    r = shield(**COARSE, quarter="no", walls=1, v0=4000, t1=2.4, radius1=8, plate=tmp_path / "side.data", tstop=10, keep=-1)
+    assert r["wall1_perforated"] == r["perforated"] == "unknown" and np.isnan([r["hole1_diameter_mm"], r["margins"]["hole_mm"]]).all()
+    assert r["verdict"] == "fails" and any("whether wall 1 has a hole is unknown" in note for note in r["notes"])
+
+
+def test_rubble_on_a_bulge(shield):
+    """it has passed, but is not apart: nothing came through the place that is thin"""
+    r = shield(**COARSE, quarter="no", walls=1, v0=1500, t1=3.2, radius1=8, behind=15, back=10, tstop=10, keep=-1)
+    assert r["wall1_passed_mass_mg"] > 0 and r["wall1_apart_mass_mg"] == 0 and r["perforated"]
+    undecided(r, "but nothing came through")
