@@ -60,7 +60,9 @@ class Input:
         said = [line.split() for line in re.findall(r"^\s*hvi/variables\s+known\s(.*)", joined, re.M)]
         if said:  # the input itself says which; what it names as optional may be lists
             named = {name for line in said for name in line} - {"optional"}
-            self.known = {name: self.known.get(name, True) for name in named}
+            optional = {name for line in said if "optional" in line for name in line[line.index("optional") + 1:]}
+            self.known = {name: name in optional or self.known.get(name, True) for name in named}
+            self.defaults = {name: words for name, words in self.defaults.items() if name not in optional}
 
     def _read(self, name):
         try:

@@ -278,7 +278,7 @@ DEFAULT = dict(material_t="Al6061-T6.hvi", keep=-1)
 
 def test_past_the_rim(shield, tmp_path):
     """what flies beside a wall that is too small has not come through it"""
-    case = dict(DEFAULT, D=4, v0=6000, t1=2, t2=8, spacing=20, dx=0.8)
+    case = dict(DEFAULT, material_p="Al6061-T6.hvi", D=4, v0=6000, t1=2, t2=8, spacing=20, dx=0.8)
     r = shield(**case, radius2=13)
     frame = hvi.Dump(str(tmp_path / "run" / "cloud2.dump"))[0]
     f = frame.select((frame["type"] == 1) & (frame.x[:, 2] > 30e-3) & (frame.v[:, 2] > 0))
@@ -293,7 +293,7 @@ def test_a_bulge_is_no_hole(shield):
     r = shield(**DEFAULT, D=3, v0=5500, t1=4, t2=1.5, spacing=15, dx=0.5)
     assert r["margins"]["bulge_over_thickness"] > 1 and r["margins"]["apart_mass_mg"] == 0
     assert r["verdict"] != "fails" and not r["perforated"] and r["margins"]["hole_mm"] == 0
-    assert r["particles_left_the_box"] > 10 and r["margins"]["missed_fraction"] < 1e-3
+    assert r["particles_left_the_box"] > 0 and r["margins"]["missed_fraction"] < 1e-3
 
 
 def test_an_edge_that_comes_off(shield):
