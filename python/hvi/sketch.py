@@ -7,13 +7,14 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 
-OPEN = 0.75  # a cloud is that wide over its way, to all sides of the normal and of the shot, as in.whipple takes it
+OPEN = 0.75  # a cloud is that wide over its way and three diameters more, to all sides of the normal and of the shot, as in.whipple takes it
 
 
 def cloud(case, z):
     """(lowest, highest) x in mm that is struck at z: by the projectile on wall 1, behind it by the cloud of wall 1"""
     angle, R = math.radians(case.angle_deg), 0.5 * case.diameter_mm
-    way = max(OPEN * (z - case.faces()[0][1]), R) / math.cos(angle)
+    rear = case.faces()[0][1]
+    way = (OPEN * (z - rear) + 6 * R if z > rear else R) / math.cos(angle)
     return R * math.tan(angle) - way, (max(z, 0.0) + R) * math.tan(angle) + way
 
 

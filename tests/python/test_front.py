@@ -189,7 +189,7 @@ def test_dry_run(folder, capsys, monkeypatch):
     case = cases.read("emi.yaml", runs.Input(shield.INPUT))
     texts = [text.get_text() for text in sketch.draw(case, yaml.safe_load(PLAN)).axes[0].texts]
     assert "wall 2: 1.2 mm\nAl6061-T6\ncloud passes beside" in texts and "wall 1: 0.8 mm\nAl2024-T3" in texts and "60 mm" in texts
-    texts = [text.get_text() for text in sketch.draw(case, {**yaml.safe_load(PLAN), "wall2_radius_mm": 45}).axes[0].texts]
+    texts = [text.get_text() for text in sketch.draw(case, {**yaml.safe_load(PLAN), "wall2_radius_mm": 60}).axes[0].texts]
     assert "wall 2: 1.2 mm\nAl6061-T6" in texts
     monkeypatch.setenv("FAKE_FAIL", "plan")
     assert front("shield", "--dry-run") == 1 and "no plan: dx-0.4, dx-0.2 failed" in capsys.readouterr().err
