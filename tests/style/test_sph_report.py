@@ -114,14 +114,14 @@ SCENES = [
     ("interface auto h variable energy no", None, 160, 17, 0, 0, ["viscosity", "interface density dissipation", "variable h", "no energy equation"], "", ""),
     ("dissipation riemann", None, 160 + 96, 17, 11, 11, ["Riemann problems"], "", ""),
     ("mirror x -0.1 lo", None, 160, 17, 0, 0, ["viscosity", "mirror planes"], "", ""),
-    ("gradient law", "", 160 + 64 + 128, 17 + 32, 8, 15, ["viscosity", "stress", "corrected velocity gradient"],
+    ("gradient law", "", 160 + 64 + 128, 17 + 33, 8, 15, ["viscosity", "stress", "corrected velocity gradient"],
      ", strength johnson-cook, damage johnson-cook, spall principal", ", liquid"),
-    ("gradient plain artstress 0.3 4", "damage no spall none", 160 + 64 + 128 + 64, 17 + 32, 8, 15,
+    ("gradient plain artstress 0.3 4", "damage no spall none", 160 + 64 + 128 + 64, 17 + 33, 8, 15,
      ["viscosity", "stress", "plain velocity gradient", "artificial stress"], ", strength johnson-cook", ", liquid"),
     # traction, and with bodies or rubble contact and push; limits, traction and push forward; L, M, nu of either back
-    ("", "", 160 + 64 + 128 + 128 + 128 + 64, 17 + 32, 2 + 13 + 7, 2 * 16 + 3, ["viscosity", "stress", "corrected forces"],
+    ("", "", 160 + 64 + 128 + 128 + 128 + 64, 17 + 33, 2 + 13 + 7, 2 * 16 + 3, ["viscosity", "stress", "corrected forces"],
      ", strength johnson-cook, damage johnson-cook, spall principal", ", liquid"),
-    ("dissipation riemann gradient corrected artstress 0.3 4", "damage no spall none", 160 + 64 + 128 + 128 + 128 + 64 + 64, 17 + 32, 8 + 13 + 7 + 9, 2 * 16 + 3,
+    ("dissipation riemann gradient corrected artstress 0.3 4", "damage no spall none", 160 + 64 + 128 + 128 + 128 + 64 + 64, 17 + 33, 8 + 13 + 7 + 9, 2 * 16 + 3,
      ["Riemann problems", "stress", "corrected forces", "artificial stress"], ", strength johnson-cook", ", liquid"),
 ]
 
