@@ -50,6 +50,8 @@ EXAMPLES = {
   python3 -m hvi impacts old.dump --axis z --plane 60.8e-3 --quarter --after 0 --bins 60 --figure witness.png
   python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --after 0.8e-3 --distance 0.6e-3 --sound \\
       --density 1=2785 --density 2=2785""",
+    "material": """  python3 -m hvi material Al7075-T6.hvi --figure Al7075-T6
+  python3 -m hvi material potentials/*.hvi""",
     "compare": """  python3 -m hvi compare run1/result.yaml run2/result.yaml
   python3 -m hvi compare run1 run2 --rtol 0.05 --keys length_ratio fragmentation
   python3 -m hvi compare run1/debris.dump run2/debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 \\
@@ -286,6 +288,10 @@ def options():
     _debris(sub)
     _reading(sub)
     _output(sub, "both maps", out=False)
+
+    sub = command("material", "checks material files, says what they have, lack and assume, and for which use; of one file the curves, too")
+    sub.add_argument("files", nargs="+", metavar="FILE.hvi", help="material file, here or in LAMMPS_POTENTIALS; of several a table")
+    _output(sub, "Hugoniot, isentrope, yield stress and spall strength of one file")
 
     sub = command("compare", "two runs side by side: result.yaml (or its folder), or the same measures of two dumps")
     for name in "AB":

@@ -280,3 +280,41 @@ def _measures(args, path, which):
         summary = pieces.both(frame, **_rule(args, args.bonds and args.bonds[which]))[1]
         result.update({name: value for name, value in summary.items() if name not in ("mass", "particles")})
     return result
+
+
+def material(args):
+    from . import curves, material as materials
+
+    found = [materials.read(name) for name in args.files]
+    if len(found) > 1:
+        if args.figure:
+            raise HVIError("--figure draws one file")
+        rows = [materials.row(one) for one in found]
+        print(tables.text(("file", "eos", "strength", "damage", "spall", "assumed"),
+                          [[row["file"], row["eos"].partition(":")[0], row["strength"], row["damage"], row["spall"], sum(len(keys) for keys in one.assumed().values())]
+                           for one, row in zip(found, rows)]))
+        if args.out:
+            tables.write_csv(args.out, rows[0], [list(row.values()) for row in rows])
+        return
+    one = found[0]
+    print(f"{one.path}: {one.title}\nunits {one.units}, {'of ' + one.date if one.date else 'no date'}\n")
+    for kind in materials.WANTED:
+        why = one.lacks().get(kind)
+        print(f"  {kind:9} {', '.join(one.laws(kind)) or 'none' + (f': {why}' if why else '; the file does not say why')}")
+    for section, keys in one.assumed().items():
+        for key, note in keys.items():
+            print(f"  assumed   {' '.join(section)} {key} {one.sections[section][key]:g}: {note}")
+    print("\nfor")
+    for use, words, missing in materials.uses(one):
+        print(f"  {'no ' if missing else 'yes'} {use}" + (f" ({words})" if words else "") + (f": it has no {', no '.join(missing)}" if missing else ""))
+    if one.laws("eos")[0] in ("table", "idealgas"):
+        print(f"\nno curves of eos {one.laws('eos')[0]}")
+    else:
+        names, rows = curves.shock_table(one)
+        print("\nshocks into the reference state\n" + tables.text(names, rows))
+        if args.out:
+            tables.write_csv(args.out, names, rows)
+    if args.figure:
+        from .material_figure import draw
+
+        _save(draw(one), args.figure)

@@ -83,6 +83,10 @@ def _bar(figure, artist, text, extend="neither", **where):
     return bar
 
 
+def _legend_of_lines(ax):
+    ax.legend(fontsize=STYLE["size"] - 1, frameon=False)
+
+
 def _moment(frame):
     """'step 500' or 'time' for a title"""
     if frame.time is None:
