@@ -9,8 +9,7 @@ import sys
 import types
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-COLUMNS = {"file": 14, "eos": 17, "strength": 11, "damage": 10, "spall": 10, "lacks": 18, "assumed": 20}
-TITLES = {"lacks": "lacks: why", "assumed": "assumed", "eos": "eos, in units of the file"}
+COLUMNS = {"file": 15, "eos": 14, "strength": 12, "damage": 10, "spall": 9, "lacks; assumed": 24, "sources": 16}
 
 
 def rows(folder):
@@ -23,16 +22,19 @@ def rows(folder):
 
 def escaped(text):
     """plain text in reStructuredText"""
-    return "".join("\\" + c if c in "\\*`_|" else c for c in text)
+    return "".join("\\" + c if c in "\\*`_|-" else c for c in text)
 
 
 def lines(folder):
     """the table as reStructuredText"""
     text = [".. list-table::", "   :header-rows: 1", "   :class: materials", f"   :widths: {' '.join(map(str, COLUMNS.values()))}", ""]
-    for row in [{name: TITLES.get(name, name) for name in COLUMNS}, *rows(folder)]:
-        for k, name in enumerate(COLUMNS):
-            value = row[name] + (f". {row['what']}" if name == "file" and "what" in row else "")
-            text.append(f"   {'* -' if k == 0 else '  -'} {escaped(value)}")
+    cells = [list(COLUMNS)]
+    for row in rows(folder):
+        lacks = "" if row["lacks"] == "-" else f"lacks {row['lacks']}. "
+        assumed = "" if row["assumed"] == "-" else f"Assumed: {row['assumed']}"
+        cells.append([f"{row['file']}: {row['what']}", row["eos"], row["strength"], row["damage"], row["spall"], lacks + assumed or "-", row["sources"]])
+    for line in cells:
+        text += [f"   {'  -' if k else '* -'} {escaped(cell)}" for k, cell in enumerate(line)]
     return text
 
 
@@ -44,8 +46,7 @@ def setup(app):
     class Materials(Directive):
         def run(self):
             folder = ROOT / "potentials"
-            for path in folder.glob("*.hvi"):
-                self.state.document.settings.env.note_dependency(str(path))
+            self.state.document.settings.env.note_reread()  # files may have come or changed
             node = nodes.Element()
             self.state.nested_parse(StringList(lines(folder), source="potentials"), self.content_offset, node)
             return node.children

@@ -177,6 +177,10 @@ def test_table_of_the_documentation():
 
     rows = materials.rows(ROOT / "potentials")
     assert [row["file"] for row in rows] == [p.stem for p in FILES]
+    table = materials.lines(ROOT / "potentials")
+    cells = [line for line in table if re.match("   (\\* -|  -) ", line)]
+    assert len(cells) == (len(FILES) + 1) * len(materials.COLUMNS) and "     - \\-" in cells  # a dash is text, no list
+    assert any("lacks damage" in cell and "Assumed" in cell for cell in cells)
     assert ".. materials::" in (ROOT / "doc" / "src" / "Howto_materials.rst").read_text()
 
 
