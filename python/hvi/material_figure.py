@@ -100,7 +100,8 @@ def _yields(material, laws, axes, GPa):
         hot.plot(temperature, curves.yield_stress(law, v, EPS, RATE, temperature) / GPa, **line)
     for ax in axes:
         ax.set_ylim(0.0, 1.15 * ax.get_ylim()[1])
-    _legend_of_lines(strain)
+    strain.set_ylim(0.0, 1.3 * strain.get_ylim()[1])  # room for the legend
+    strain.legend(fontsize=STYLE["size"] - 1, frameon=False, loc="upper left")
 
 
 def _spall(material, ax, GPa):
