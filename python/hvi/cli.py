@@ -26,6 +26,9 @@ EXAMPLES = {
   python3 -m hvi limit emi.yaml --on thickness2 --from 0.5 --to 3 --step 0.1 --jobs 2 --ranks 1""",
     "sweep": """  python3 -m hvi sweep studies/parameters.yaml
   python3 -m hvi sweep studies/*.yaml --jobs 2 --ranks 1""",
+    "shots": """  python3 -m hvi shots examples/whipple-shield/shots/chosen.yaml --jobs 2 --ranks 1
+  python3 -m hvi shots mine.csv --equations
+  python3 -m hvi shots all.yaml --only 2053 P-34B --dry-run""",
     "info": "  python3 -m hvi info debris.dump",
     "cloud": """  python3 -m hvi cloud debris.dump --data debris.data --axis z --plane 4.05e-3
   python3 -m hvi cloud debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 --interval 3e-6 \\
@@ -206,6 +209,13 @@ def options():
     sub = command("sweep", "a LAMMPS input for many values of its variables, as study files say, with a table of all results")
     sub.add_argument("study", nargs="+", metavar="STUDY.yaml", help="input, variables, and the grid of what varies")
     sub.add_argument("--full", action="store_true", help="the study's full size; runs go to DIR/NAME-full")
+    _runs(sub)
+
+    sub = command("shots", "a list of shots on double walls: what was seen, what the simulation says, and what equations say")
+    sub.add_argument("study", metavar="FILE", help="study (YAML), or a list of shots (CSV) that is run as examples/whipple-shield/shots/all.yaml says")
+    sub.add_argument("--only", nargs="+", metavar="SHOT", help="only these shots of it")
+    sub.add_argument("--equations", action="store_true", help="the equations alone, nothing is run")
+    sub.add_argument("--input", metavar="FILE", help="LAMMPS input (default: examples/whipple-shield/in.whipple of the source tree)")
     _runs(sub)
 
     sub = command("info", "frames and columns of a dump")
