@@ -204,7 +204,7 @@ class Outcome:
         margins = found.get("margins") or {}
         if not margins:
             return ""
-        if found["verdict"] == "fails":
+        if found["verdict"] != "holds" and (margins["hole_mm"] > 0 or margins["apart_mass_mg"] > 0):
             return f"hole {margins['hole_mm']:.3g} mm, {margins['apart_mass_mg']:.3g} mg apart"
         return f"bulge {margins['bulge_over_thickness']:.2g} t, layer {margins['deepest_failed_layer']:g} of {margins['layers']:g} failed"
 
