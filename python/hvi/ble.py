@@ -13,12 +13,13 @@ Units as published: cm, g/cm^3, ksi, km/s, degrees from the normal.
 """
 
 import dataclasses
+import functools
 import math
 import pathlib
 import re
 import typing
 
-from . import plates, runs
+from . import plates, runs, tables
 from .errors import HVIError
 
 CAP = 65.0  # degrees: beyond, fragments of the bumper decide; d_c is that of 65 degrees [C09] (4-26)
@@ -46,11 +47,13 @@ class Shield:
         return 1 if self.bumper_thickness_cm is None else 2
 
 
-# yield strength (ksi), speed of sound (km/s), Brinell hardness: [RC09] table 1, but "p": material_data.csv of pyBLOSSUM, MPa / 6.895
-PROPERTIES = {"Al1100-O": (5, 5.05, 23), "Al1100-H14": (17, 5.05, 32), "Al2024-T3": (50, 5.11, 120), "Al2024-T4": (47, 5.11, 120), "Al2024-T351": (47, 5.11, 120),
-              "Al2219-T87": (57, 5.10, 130), "Al2219-T851": (51, 5.10, 130), "Al3003-O": (6, 5.06, 28), "Al3003-H12": (18, 5.06, 35),
-              "Al3003-H14": (21, 5.06, 40), "Al6061-O": (8, 5.05, 30), "Al6061-T6": (40, 5.05, 95), "Al7075-T6": (73, 5.04, 150), "Al7075-T73": (63, 5.04, 135),
-              "Al7178-T6": (78, 5.03, 160), "Al2017-T4": (39.9, None, 105), "Al5083-H116": (33.1, None, 85)}  # the last two: p
+# density, yield strength (ksi), speed of sound (km/s), Brinell hardness: [RC09] table 1; from the last line on material_data.csv of pyBLOSSUM, MPa / 6.895
+PROPERTIES = {
+    "Al1100-O": (2.71, 5, 5.05, 23), "Al1100-H14": (2.71, 17, 5.05, 32), "Al2024-T3": (2.77, 50, 5.11, 120), "Al2024-T4": (2.77, 47, 5.11, 120),
+    "Al2024-T351": (2.77, 47, 5.11, 120), "Al2219-T87": (2.84, 57, 5.10, 130), "Al2219-T851": (2.84, 51, 5.10, 130), "Al2219-T852": (2.84, 54, 5.10, 115),
+    "Al3003-O": (2.73, 6, 5.06, 28), "Al3003-H12": (2.73, 18, 5.06, 35), "Al3003-H14": (2.73, 21, 5.06, 40), "Al6061-O": (2.70, 8, 5.05, 30),
+    "Al6061-T6": (2.70, 40, 5.05, 95), "Al7075-T6": (2.80, 73, 5.04, 150), "Al7075-T73": (2.80, 63, 5.04, 135), "Al7178-T6": (2.83, 78, 5.03, 160),
+    "Al99.9%": (2.70, None, None, 15), "Al2017-T4": (2.80, 39.9, None, 105), "Al5083-H116": (2.66, 33.1, None, 85), "Al5456-H116": (2.66, 37.0, None, 90)}
 
 
 def _cos(angle):
@@ -228,7 +231,7 @@ class Equation:
 
 # published tests: [RC09] table 10 and its text (S/d, t_b/d: [RC11] 3.2.1), [CK01] p. 96; table 2 of [RC09] for one wall
 _SHOTS = {"velocity_km_s": (2.5, 8, "RC09"), "angle_deg": (0, 85, "RC09"), "d_cm": (0.04, 1.9, "RC09"), "S/d": (13, 96, "RC11")}
-_NNO = {**_SHOTS, "S/d": (15, 96, "RC09, RC11"), "t_b/d over what is thick enough": (1, math.inf, "C09")}
+_NNO = {**_SHOTS, "S/d": (15, 96, "RC09, RC11"), "t_b/d over that of (4-20)": (1, math.inf, "C09")}
 _CK = {"velocity_km_s": (2, 8, "CK01"), "angle_deg": (0, 75, "CK01"), "d_cm": (0.02, 1.9, "CK01"), "S/d": (3, 140, "CK01"), "t_b/d": (0.05, 1, "CK01")}
 _JSC = {**_SHOTS, "t_b/d": (0.08, 0.64, "RC11")}
 _ONE = {"velocity_km_s": (0, 8, "RC09"), "angle_deg": (0, 85, "RC09"), "d_cm": (0.05, 1.27, "RC09")}
@@ -240,23 +243,34 @@ EQUATIONS = {
     "JSC": Equation("JSC Whipple 2011", "RC11", _jsc, _JSC),
     "modJSC": Equation("JSC Whipple, modified", "RS24", _modjsc, _JSC),
     "Reimerdes": Equation("Reimerdes, no perforation", "R06", _reimerdes, {**_JSC, "angle_deg": (0, 0, "RC09")}),
-    "perforation": Equation("Cour-Palais, one wall: perforated", "C91, C09", _cour_palais(1.8), _ONE, walls=1),
-    "detached-spall": Equation("Cour-Palais, one wall: detached spall", "C91, C09", _cour_palais(2.2), _ONE, walls=1),
-    "attached-spall": Equation("Cour-Palais, one wall: attached spall", "C91, C09", _cour_palais(3.0), _ONE, walls=1)}
+    "CP-perforation": Equation("Cour-Palais, one wall: perforated", "C91, C09", _cour_palais(1.8), _ONE, walls=1),
+    "CP-detached-spall": Equation("Cour-Palais, one wall: detached spall", "C91, C09", _cour_palais(2.2), _ONE, walls=1),
+    "CP-attached-spall": Equation("Cour-Palais, one wall: attached spall", "C91, C09", _cour_palais(3.0), _ONE, walls=1)}
 
 
 def quantities(shield, d, velocity_km_s, angle_deg):
     """what ranges of validity are of"""
     found = {"velocity_km_s": velocity_km_s, "angle_deg": angle_deg, "d_cm": d}
     if shield.walls == 2:
-        found.update({"S/d": shield.standoff_cm / d, "t_b/d": shield.bumper_thickness_cm / d,
-                      "t_b/d over what is thick enough": shield.bumper_thickness_cm / d / _thick_enough(shield, d) * shield.bumper_density / shield.projectile_density})
+        found.update({"S/d": shield.standoff_cm / d, "t_b/d": shield.bumper_thickness_cm / d})
+        if velocity_km_s * _cos(angle_deg) > 3:  # where the bumper is to break it
+            found["t_b/d over that of (4-20)"] = found["t_b/d"] * shield.bumper_density / (_thick_enough(shield, d) * shield.projectile_density)
     return found
 
 
 def equations(shield):
     """names of those for a shield of so many walls"""
     return [name for name, equation in EQUATIONS.items() if equation.walls == shield.walls]
+
+
+def beyond(name, shield, d, velocity_km_s, angle_deg):
+    """[(what, its value or None, which limit it is beyond)]: which ranges of validity are left by a diameter"""
+    found = [] if shield.aluminum else [("not all of it is aluminum", None, "")]
+    here = quantities(shield, d, velocity_km_s, angle_deg)
+    for what, (least, most, source) in EQUATIONS[name].valid.items():
+        if what in here and not least * (1 - 1e-9) <= here[what] <= most * (1 + 1e-9):
+            found.append((what, here[what], f"below {least:g} [{source}]" if here[what] < least else f"above {most:g} [{source}]"))
+    return found
 
 
 def critical_diameter(name, shield, velocity_km_s, angle_deg=0.0):
@@ -268,42 +282,107 @@ def critical_diameter(name, shield, velocity_km_s, angle_deg=0.0):
         raise HVIError(f"{name} is for {equation.walls} wall{'s' * (equation.walls > 1)}, not {shield.walls}")
     if not (velocity_km_s > 0 and 0 <= angle_deg < 90):
         raise HVIError(f"{name}: speed must be above 0 and angle from 0 to below 90 degrees, not {velocity_km_s:g} km/s and {angle_deg:g}")
-    needed = ("wall_yield_ksi",) if shield.walls == 2 else ("wall_brinell", "wall_sound_km_s")
-    for key in needed:
+    for key in ("wall_yield_ksi",) if shield.walls == 2 else ("wall_brinell", "wall_sound_km_s"):
         if not getattr(shield, key):
-            raise HVIError(f"{name} needs {key} of the rear wall: the table of standard values does not have its material")
+            raise HVIError(f"{name} needs {key}, and the table of standard values does not have the material of the last wall"
+                           + ("; give it as yield_ksi of the wall" if shield.walls == 2 else ""))
     d = equation.d_c(shield, velocity_km_s, angle_deg)
-    here = quantities(shield, d, velocity_km_s, angle_deg)
-    left = [] if shield.aluminum else ["not all of it is aluminum"]
-    for what, (least, most, source) in equation.valid.items():
-        if not least * (1 - 1e-9) <= here[what] <= most * (1 + 1e-9):
-            left.append(f"{what} {here[what]:.3g} is {'below' if here[what] < least else 'above'} {least if here[what] < least else most:g} [{source}]")
-    return d, left
+    return d, [what if value is None else f"{what} {value:.3g} is {limit}" for what, value, limit in beyond(name, shield, d, velocity_km_s, angle_deg)]
 
 
 def properties(stem):
-    """(yield strength in ksi, speed of sound in km/s, Brinell hardness) of a material file's name, None where not known"""
+    """(density, yield strength in ksi, speed of sound in km/s, Brinell hardness) of a material by its name, None where not known"""
     found = [key for key in PROPERTIES if re.match(re.escape(key) + r"(?![0-9A-Za-z])", stem)]
-    return PROPERTIES[max(found, key=len)] if found else (None, None, None)
+    return PROPERTIES[max(found, key=len)] if found else (None,) * 4
+
+
+@functools.lru_cache
+def _density(name):
+    """g/cm^3 of a material file"""
+    path = next((p for p in (pathlib.Path(name), *(folder / name for folder in runs.potentials())) if p.is_file()), name)
+    value, units = plates.density_of(path)
+    if units != "si":
+        raise HVIError(f"{path}: units must be si, not {units}")
+    return 1e-3 * value
 
 
 def from_case(case):
-    """The Shield of a case of hvi shield. Densities: of the material files; strength: yield_ksi of the rear wall, or the table's"""
+    """The Shield of a case of hvi shield. Densities: of the material files; strength: yield_ksi of the last wall, or the table's"""
     if len(case.walls) > 2:
-        raise HVIError(f"ballistic-limit equations here are for one or two walls, {case.name} has {len(case.walls)}")
+        raise HVIError(f"ballistic-limit equations are for one or two walls, {case.name} has {len(case.walls)}")
     if case.not_modelled:
-        raise HVIError(f"ballistic-limit equations here do not have what {case.name} names in not_modelled: {', '.join(case.not_modelled)}")
-
-    def density(name):
-        path = next((p for p in (pathlib.Path(name), *(folder / name for folder in runs.potentials())) if p.is_file()), name)
-        value, units = plates.density_of(path)
-        if units != "si":
-            raise HVIError(f"{path}: units must be si, not {units}")
-        return 1e-3 * value
+        raise HVIError(f"the ballistic-limit equations here do not have what {case.name} names in not_modelled: {', '.join(case.not_modelled)}")
     wall, names = case.walls[-1], [pathlib.Path(name).name for name in (case.material, *(w.material for w in case.walls))]
-    strength, sound, brinell = properties(names[-1].removesuffix(".hvi"))
-    bumper = {} if len(case.walls) == 1 else {"bumper_thickness_cm": 0.1 * case.walls[0].thickness_mm, "bumper_density": density(case.walls[0].material),
+    _, strength, sound, brinell = properties(names[-1].removesuffix(".hvi"))
+    bumper = {} if len(case.walls) == 1 else {"bumper_thickness_cm": 0.1 * case.walls[0].thickness_mm, "bumper_density": _density(case.walls[0].material),
                                               "standoff_cm": 0.1 * wall.gap_mm}
-    return Shield(wall_thickness_cm=0.1 * wall.thickness_mm, wall_density=density(wall.material), projectile_density=density(case.material),
+    return Shield(wall_thickness_cm=0.1 * wall.thickness_mm, wall_density=_density(wall.material), projectile_density=_density(case.material),
                   wall_yield_ksi=wall.yield_ksi or strength, wall_brinell=brinell, wall_sound_km_s=sound,
                   aluminum=all(re.match(r"Al(?=[0-9-])", name) for name in names), **bumper)
+
+
+# ---------------------------------------------------------------------- beside a simulation
+def beside(function, *given):
+    """what function(*given) says, or why equations say nothing: for tables that have more in them"""
+    try:
+        return function(*given)
+    except HVIError as problem:
+        return f"none: {problem}"
+
+
+def predictions(case):
+    """{equation: critical diameter, that of the case over it, what it predicts, which ranges of validity are left} of a case"""
+    shield, found = from_case(case), {}
+    for name in equations(shield):
+        d, left = critical_diameter(name, shield, case.speed_km_s, case.angle_deg)
+        ratio = 0.1 * case.diameter_mm / d
+        found[name] = {"critical_diameter_mm": round(10 * d, 4), "d_over_critical": round(ratio, 4), "predicted": "fails" if ratio > 1 else "holds", "outside": left}
+    return found
+
+
+def said(found):
+    """lines for the eye of predictions(), or of the reason why there are none"""
+    if isinstance(found, str):
+        return [f"equations: {found}"]
+    rows = [(name, f"{of['critical_diameter_mm']:.2f}", f"{of['d_over_critical']:.2f}" + "*" * bool(of["outside"]), of["predicted"]) for name, of in found.items()]
+    lines = tables.text(("equation", "critical_mm", "d/critical", "predicted"), rows).split("\n")
+    return lines + [f"  * {name}: {', '.join(of['outside'])}" for name, of in found.items() if of["outside"]]
+
+
+def limits(case_at, low, high, samples=200):
+    """{equation: limits, low_side, outside}: values between low and high where the case is just held, below the first of them it holds or fails
+
+    case_at: value -> case. Over speed there may be several.
+    """
+    def excess(name, value):
+        case = case_at(value)
+        return critical_diameter(name, from_case(case), case.speed_km_s, case.angle_deg)[0] - 0.1 * case.diameter_mm
+
+    found, values = {}, [low + (high - low) * k / samples for k in range(samples + 1)]
+    for name in equations(from_case(case_at(low))):
+        holds, places = [excess(name, value) >= 0 for value in values], []
+        for k in range(samples):
+            if holds[k] != holds[k + 1]:
+                sign = -1 if holds[k] else 1
+                places.append(bisect(lambda value: sign * excess(name, value), values[k], values[k + 1]))
+        left = []
+        for value in places:
+            case = case_at(value)
+            left += critical_diameter(name, from_case(case), case.speed_km_s, case.angle_deg)[1]
+        found[name] = {"limits": [round(value, 5) for value in places], "low_side": "holds" if holds[0] else "fails", "outside": list(dict.fromkeys(left))}
+    return found
+
+
+def said_of_limits(found, unit):
+    """lines for the eye of limits(), or of the reason why there are none"""
+    if isinstance(found, str):
+        return [f"equations: {found}"]
+    lines = []
+    for name, of in found.items():
+        state, parts = of["low_side"], []
+        for value in of["limits"]:
+            parts.append(f"{state} below {value:.4g} {unit}")
+            state = "fails" if state == "holds" else "holds"
+        lines.append(f"equation {name}: " + ", ".join([*parts, f"{state} {'above' if parts else 'throughout'}"])
+                     + (f" (beyond its ranges: {', '.join(of['outside'])})" if of["outside"] else ""))
+    return lines
