@@ -11,6 +11,7 @@ import math
 import pathlib
 import re
 
+from . import ble
 from . import case as cases
 from . import runs, shield, tables
 from .errors import HVIError
@@ -149,7 +150,7 @@ class Study:
         first, last = (tuple(round(dx * factor, 4) for factor in factors) for dx in (near, far))
         projectile, bumper, wall = (self.materials[alloy] for alloy in shot.alloys())
         case = cases.Case(name=shot.folder, diameter_mm=shot.diameter_mm, material=projectile, speed_km_s=shot.speed_km_s, angle_deg=shot.angle_deg,
-                          walls=(cases.Wall(shot.bumper_mm, bumper, spacings_mm=first), cases.Wall(shot.wall_mm, wall, gap_mm=shot.gap_mm, spacings_mm=last)),
+                          walls=(cases.Wall(shot.bumper_mm, bumper, spacings_mm=first), cases.Wall(shot.wall_mm, wall, gap_mm=shot.gap_mm, spacings_mm=last, yield_ksi=shot.yield_ksi)),
                           spacings_mm=first, shifts=self.shifts, settings=self.settings)
 
         def wrong(key, text):
@@ -203,7 +204,7 @@ class Outcome:
         margins = found.get("margins") or {}
         if not margins:
             return ""
-        if found["verdict"] == "fails":
+        if found["verdict"] != "holds" and (margins["hole_mm"] > 0 or margins["apart_mass_mg"] > 0):
             return f"hole {margins['hole_mm']:.3g} mm, {margins['apart_mass_mg']:.3g} mg apart"
         return f"bulge {margins['bulge_over_thickness']:.2g} t, layer {margins['deepest_failed_layer']:g} of {margins['layers']:g} failed"
 
@@ -211,19 +212,34 @@ class Outcome:
         return sum((job.result() or {}).get("core_s", 0) for job in self.jobs.values()) / 3600
 
 
+def ratios_of(outcome):
+    """{equation: (diameter over the critical one, which ranges of validity are left)}"""
+    shot, found = outcome.shot, {}
+    of = ble.from_case(outcome.case)
+    for name in ble.equations(of):
+        d, left = ble.critical_diameter(name, of, shot.speed_km_s, shot.angle_deg)
+        found[name] = (shot.diameter_mm / (CM * d), left)
+    return found
+
+
+def shown(ratio):
+    """a cell of the table: * if that is an extrapolation"""
+    return f"{ratio[0]:.2f}{'*' if ratio[1] else ''}"
+
+
 def row(outcome, ratios):
-    """a shot in the table; ratios: {equation: diameter over the critical one, None where it says nothing}"""
+    """a shot in the table; ratios: those of ratios_of"""
     shot, (said, reasons) = outcome.shot, outcome.at(0)
     return {"shot": shot.name, "projectile": shot.projectile, "D_mm": shot.diameter_mm, "km_s": shot.speed_km_s, "deg": shot.angle_deg,
             "bumper": shot.bumper, "tb_mm": shot.bumper_mm, "gap_mm": shot.gap_mm, "wall": shot.wall, "tw_mm": shot.wall_mm,
             "dx_mm": outcome.case.spacings_mm[0], "observed": shot.observed, "predicted": said, "finer": outcome.at(1)[0], "both": outcome.both(),
-            "margin": outcome.margin(), **{name: "-" if ratio is None else round(ratio, 3) for name, ratio in ratios.items()},
+            "margin": outcome.margin(), **{name: shown(ratio) for name, ratio in ratios.items()},
             "core_h": round(outcome.core_hours(), 4), "reasons": "; ".join(reasons)}
 
 
 def by_equation(ratio):
     """what an equation says of a diameter over its critical one"""
-    return "undecided" if ratio is None else "fails" if ratio > 1 else "holds"
+    return "fails" if ratio[0] >= 1 else "holds"
 
 
 def confusion(pairs):
@@ -268,13 +284,13 @@ def save(folder, outcomes, ratios):
     """shots.csv and shots.md of what is done so far, for the eye the same"""
     table = [row(outcome, ratios[outcome.shot.name]) for outcome in outcomes]
     names = list(table[0])
-    shown = [name for name in names if name not in ("reasons", "finer", "both")] if not any(line["finer"] for line in table) else \
-        [name for name in names if name != "reasons"]
-    cells = [[line[name] for name in shown] for line in table]
+    hidden = {"reasons"} if any(line["finer"] for line in table) else {"reasons", "finer", "both"}
+    columns = [name for name in names if name not in hidden]
+    cells = [[line[name] for name in columns] for line in table]
     summary = counts_table(counts(outcomes, ratios))
     tables.write_csv(folder / "shots.csv", names, [line.values() for line in table])
-    (folder / "shots.md").write_text(f"{markdown(shown, cells)}\n\n{markdown(*summary)}\n")
-    return tables.text(shown, cells) + "\n\n" + tables.text(*summary)
+    (folder / "shots.md").write_text(f"{markdown(columns, cells)}\n\n{markdown(*summary)}\n")
+    return tables.text(columns, cells) + "\n\n" + tables.text(*summary)
 
 
 # ---------------------------------------------------------------------- the command
@@ -286,14 +302,16 @@ def plan(outcomes, source, runner, folder):
             job = runs.Job(source, f"{outcome.shot.folder}_dx-{dx:g}", {**outcome.case.variables(which, outcome.case.shifts[0]), "dry": "yes"},
                            folder / "plan" / f"{outcome.shot.folder}_dx-{dx:g}", product="plan.yaml", last="disk_MB")
             made.append((outcome, dx, job))
-    failed = runner.run([job for _, _, job in made if job.result() is None], "plans")
     keys = ("projectile_particles", "wall1_particles", "wall1_layers", "wall2_particles", "wall2_layers", "tstop_us", "steps", "memory_MB")
     names, rows = ("shot", "dx_mm", *keys, "particle_steps"), []
-    for outcome, dx, job in made:
-        if found := job.result():
-            particles = sum(found[key] for key in keys if key.endswith("particles"))
-            rows.append((outcome.shot.name, dx, *(found[key] for key in keys), particles * found["steps"]))
-    tables.write_csv(folder / "plans.csv", names, rows)
+    try:
+        failed = runner.run([job for _, _, job in made if job.result() is None], "plans")
+    finally:
+        for outcome, dx, job in made:
+            if found := job.result():
+                particles = sum(found[key] for key in keys if key.endswith("particles"))
+                rows.append((outcome.shot.name, dx, *(found[key] for key in keys), particles * found["steps"]))
+        tables.write_csv(folder / "plans.csv", names, rows)
     print(tables.text(names, rows))
     print(f"{len(rows)} of {len(made)} plans, {sum(line[-1] for line in rows) * len(outcomes[0].case.shifts):.3g} particle-steps in all: {folder / 'plans.csv'}")
     return 1 if failed else 0
@@ -311,14 +329,15 @@ def main(args):
     outcomes = [Outcome(shot, study.case(shot), source, folder) for shot in shots]
     if args.dry_run:
         return plan(outcomes, source, runs.Runner(args), folder)
-    ratios = {shot.name: by_equations(shot) for shot in shots}
+    ratios = {outcome.shot.name: ratios_of(outcome) for outcome in outcomes}
     if args.equations:
         found = [(name, confusion((shot.observed, by_equation(ratios[shot.name][name])) for shot in shots)) for name in ratios[shots[0].name]]
         names = ("shot", "observed", *ratios[shots[0].name])
-        print(tables.text(names, [(shot.name, shot.observed, *("-" if r is None else round(r, 3) for r in ratios[shot.name].values())) for shot in shots]))
+        print("diameter over the critical one; *: beyond what the equation is known to hold for")
+        print(tables.text(names, [(shot.name, shot.observed, *map(shown, ratios[shot.name].values())) for shot in shots]))
         print("\n" + tables.text(*counts_table(found)))
         return 0
-    jobs = [job for outcome in outcomes for job in outcome.jobs.values()]
+    jobs = [job for _, job in sorted(((member, job) for o in outcomes for member, job in o.jobs.items()), key=lambda pair: pair[0])]  # coarse ones first
     todo = [job for job in jobs if job.result() is None]
     print(f"{study.name}: {len(shots)} shots, {len(jobs)} runs, {len(jobs) - len(todo)} done before, {len(todo)} to run", flush=True)
     runner = runs.Runner(args)
