@@ -125,8 +125,9 @@ def main(args):
                                    "equations": equations,
                                    "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1)})
     print(f"verdict: {said}")
-    print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes), *ble.said(equations)]))
+    print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes)]))
     print(f"table: {folder / 'runs.csv'}, verdict: {folder / 'verdict.yaml'}")
+    print("\n".join(ble.said(equations)))
     return STATUS[said]
 
 
