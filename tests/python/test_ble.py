@@ -69,6 +69,15 @@ def test_modified_nno_both_ways():
     assert d_c("modNNO", varied(bumper_thickness_cm=2 * edge)) == pytest.approx(full * (7.451 * 0.252 + 0.411) / 1.35)
 
 
+def test_modified_nno_oblique():
+    """[CK01] (3) ends at 3/cos^1.5, (1) begins at 7/cos"""
+    c = math.cos(math.radians(45))
+    low = 1.9 * (0.32 + 0.37 * 0.12 * 2.713) / (c ** (11 / 6) * math.sqrt(2.8))
+    assert d_c("CK01", speed=5, angle=45) == pytest.approx(low / 5 ** (2 / 3)) and 3 / c < 5 < 3 / c**1.5
+    high = d_c("CK01", speed=7 / c, angle=45)
+    assert high == pytest.approx(d_c("CK01", speed=7)) and d_c("CK01", speed=14 / c, angle=45) == pytest.approx(high / 2 ** (2 / 3))
+
+
 @pytest.mark.parametrize("name, factor", [("CP-perforation", 1.8), ("CP-detached-spall", 2.2), ("CP-attached-spall", 3.0)])
 @pytest.mark.parametrize("rho, exponent", [(2.8, 1 / 2), (7.85, 2 / 3)])
 def test_one_wall(name, factor, rho, exponent):
@@ -119,6 +128,18 @@ def test_onset_of_fragmentation(angle):
 def test_no_bumper_is_one_wall(name, low):
     """[R06] 2.3 (3): with a bumper that vanishes d_c at 7 km/s is that of the wall alone, up to the digits of 0.16 and 0.178"""
     assert d_c(name, varied(bumper_thickness_cm=1e-9), 7.0 + 1e-9) == pytest.approx(low, rel=2e-3)
+
+
+def test_modification_of_jsc():
+    """r at the actual speed: so at any speed no bumper is one wall; thick enough goes with the ratio of densities"""
+    for v in (8, 14):
+        alone = (0.32 / (0.6 * math.sqrt(2.8) * v ** (2 / 3))) ** (18 / 19)
+        assert d_c("modJSC", varied(bumper_thickness_cm=1e-9), v) == pytest.approx(alone, rel=1e-3) != pytest.approx(d_c("JSC", varied(bumper_thickness_cm=1e-9), v), rel=0.02)
+    for rho_b in (1.4, 2.8, 5.6):
+        d = d_c("NNO", varied(bumper_density=rho_b))
+        enough = d * (0.25 - 0.05 * (10 / d - 15) / 15) * 2.8 / rho_b
+        assert 15 < 10 / d < 30 and d_c("modJSC", varied(bumper_density=rho_b, bumper_thickness_cm=1.001 * enough)) == pytest.approx(d)
+        assert d_c("modJSC", varied(bumper_density=rho_b, bumper_thickness_cm=0.9 * enough)) < d * 0.999
 
 
 def test_ranges_are_told():
