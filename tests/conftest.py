@@ -1,6 +1,7 @@
 """Fixtures for all Python tests: run LAMMPS, read its thermo output.
 
-Run by ctest (`make test`) or by hand: `pytest tests/style/test_x.py` uses build/.
+Run by ctest (`make test`) or by hand: `pytest tests/style/test_x.py` uses build/. Tests marked long run with `-m long` only, as in
+`make verify`.
 """
 
 import os
@@ -84,6 +85,16 @@ def read_thermo(log):
                     pass  # a warning between the lines
     close()
     return runs
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "long: in make verify only, that is with -m long")
+
+
+def pytest_collection_modifyitems(config, items):
+    if not config.option.markexpr:
+        config.hook.pytest_deselected(items=[i for i in items if i.get_closest_marker("long")])
+        items[:] = [i for i in items if not i.get_closest_marker("long")]
 
 
 @pytest.fixture(scope="session")

@@ -48,7 +48,7 @@ def stopped(run, state, after, **kw):
     return steps_of(state)
 
 
-@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("nranks", [pytest.param(1, marks=pytest.mark.long), 2])  # on one: test_plate_killed_while_it_writes
 def test_plate_has_the_same_bits(plate, tmp_path, nranks):
     """on the same ranks; all that is told again is where it is"""
     plate("whole", nranks=nranks, vars=PLATE)
@@ -137,7 +137,7 @@ def bytes_of(folder, pattern):
     return {f.name: f.read_bytes() for f in folder.glob(pattern)}
 
 
-@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("nranks", [pytest.param(1, marks=pytest.mark.long), 2])  # on one: test_shield_goes_on
 def test_shield_has_the_same_bits(shield, tmp_path, nranks):
     """killed behind wall 2; all that is told again is where it is"""
     shield("whole", nranks=nranks, vars=SHIELD)
@@ -171,8 +171,9 @@ def test_shield_goes_on(shield, tmp_path):
     assert abs(two["energy_ratio"] - 1) < 1e-3 and two["momentum_error"] < 1e-10 and abs(two["mass_error"]) < 1e-10
 
 
-def test_shield_of_lists_goes_on(shield, tmp_path):
-    """three walls, of which one is a data file; probes and rims: before wall 2, and before wall 3"""
+@pytest.mark.parametrize("reached", [pytest.param(1, marks=pytest.mark.long), 2])
+def test_shield_of_lists_goes_on(shield, tmp_path, reached):
+    """three walls, of which one is a data file; probes and rims: before wall 2, or before wall 3"""
     from hvi import plates
 
     plates.write(tmp_path / "turned.data", plates.make(7e-3, 1.2e-3, 0.6e-3, 4, [0, 45]), 2703.0)
@@ -183,10 +184,9 @@ def test_shield_of_lists_goes_on(shield, tmp_path):
     whole = result(tmp_path / "whole")
     tables = bytes_of(tmp_path / "whole", "probe*.dat")
     assert len(tables) == 6
-    for reached in (1, 2):
-        dump = tmp_path / f"part{reached}" / f"cloud{reached}.dump"
-        shield(dump.parent.name, vars=vars, kill=dump.exists)
-        assert f'variable reached equal "{reached}"' in (dump.parent / "shield.state").read_text()
-        shield(dump.parent.name, vars=dict(resume="yes"))
-        assert result(dump.parent) == whole
-        assert bytes_of(dump.parent, "probe*.dat") == tables and not list(dump.parent.glob("probes*"))
+    dump = tmp_path / f"part{reached}" / f"cloud{reached}.dump"
+    shield(dump.parent.name, vars=vars, kill=dump.exists)
+    assert f'variable reached equal "{reached}"' in (dump.parent / "shield.state").read_text()
+    shield(dump.parent.name, vars=dict(resume="yes"))
+    assert result(dump.parent) == whole
+    assert bytes_of(dump.parent, "probe*.dat") == tables and not list(dump.parent.glob("probes*"))
