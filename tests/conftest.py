@@ -125,6 +125,14 @@ def own_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
+def whole_log(log):
+    """text of a log and of those that the input went on with by the command log"""
+    text = log.read_text() if log.exists() else ""
+    for name in re.findall(r"^log +([^\s$]+)(?: append)?$", text, re.M):
+        text += (log.parent / name).read_text()
+    return text
+
+
 def kill_when(process, ready, timeout):
     """ends a program, and all ranks if it is mpirun, without any notice"""
     end = time.monotonic() + timeout
@@ -182,7 +190,7 @@ def lmp(tmp_path, lmp_exe):
                 os.killpg(process.pid, 9)
                 out, err = process.communicate()
             pytest.fail(f"no end after {timeout} s: {shlex.join(command)}\n{out[-3000:]}\n{err[-2000:]}", pytrace=False)
-        result = Result(command, cwd, process.returncode, out, err, log.read_text() if log.exists() else "")
+        result = Result(command, cwd, process.returncode, out, err, whole_log(log))
         if (expect_fail or kill) and result.returncode == 0:
             pytest.fail(f"should have failed: {result}", pytrace=False)
         if not (expect_fail or kill) and result.returncode != 0:

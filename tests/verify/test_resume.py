@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 import yaml
+from conftest import read_thermo
 
 PLATE = dict(quarter="yes", dx=1.25, frame=[2, 5], tstop=7)
 SHIELD = dict(quarter="yes", dx=0.8, spacing=12, tstop=7)
@@ -41,6 +42,11 @@ def steps_of(state):
     return int(found.group(1)) if found else -1
 
 
+def logged(file):
+    """steps of thermo output, those before it was stopped too"""
+    return sorted({step for run in read_thermo(file.read_text()) for step in run["Step"]})
+
+
 def stopped(run, state, after, **kw):
     """a run that is killed when its state is of a later step"""
     r = run(kill=lambda: steps_of(state) > after, **kw)
@@ -56,6 +62,8 @@ def test_plate_has_the_same_bits(plate, tmp_path, nranks):
     assert 40 < at < result(tmp_path / "whole")["steps"]
     plate("part", nranks=nranks, vars=dict(resume="yes"))
     assert result(tmp_path / "part") == result(tmp_path / "whole")
+    assert len(re.findall("^LAMMPS .*|^until us", (tmp_path / "part" / "log.plate").read_text(), re.M)) == 1  # the table of the end
+    assert logged(tmp_path / "part" / "log.plate") == logged(tmp_path / "whole" / "log.plate")
     for frame in (2, 5, 7):
         one, two = [(tmp_path / f / f"frame.{frame}.dump").read_bytes() for f in ("whole", "part")]
         assert one == two, frame
@@ -147,6 +155,7 @@ def test_shield_has_the_same_bits(shield, tmp_path, nranks):
     shield("part", nranks=nranks, vars=dict(resume="yes"))
     assert result(tmp_path / "part") == result(tmp_path / "whole")
     assert bytes_of(tmp_path / "part", "*.dump") == bytes_of(tmp_path / "whole", "*.dump")
+    assert logged(tmp_path / "part" / "log.whipple") == logged(tmp_path / "whole" / "log.whipple")
     assert not [f for f in tmp_path.glob("*/shield.*") if f.name != "shield.dump"]  # nothing is left over
 
 
