@@ -1,6 +1,8 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """python3 -m hvi shield: does the wall hold?  One case at several spacings and shifts of the lattice, one verdict."""
 
+import itertools
+import math
 import pathlib
 import re
 
@@ -39,6 +41,8 @@ def job(case, source, member, folder, name=None, remove=()):
 def verdict(job):
     """(verdict, reasons, notes) of a run that is done; notes: what is doubtful in a run that fails nevertheless"""
     result = job.result()
+    if result is None:
+        raise HVIError(f"{job.folder}: its result is gone or of another case: does another call use the same folder? Call again, or take another --runs DIR")
     said = result.get("verdict")
     if said not in STATUS:
         raise HVIError(f"{job.folder / 'result.yaml'}: no verdict, holds, fails or undecided, but {said}")
@@ -87,6 +91,31 @@ def decide(case, said):
                      f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told], notes
 
 
+def finer(case, jobs):
+    """What would say more, as keys of the case: the finest spacing and one with a layer more in the last wall, and what that costs; None if it cannot decide."""
+    if case.not_modelled:
+        return None
+    last = case.walls[-1]
+    fine = (last.spacings_mm or case.spacings_mm)[-1]
+    layers = math.ceil(last.thickness_mm / fine - 0.01)
+    ratio = next(r for n in itertools.count(layers + 1) if (r := last.thickness_mm / n / fine) * cases.RATIO <= 1)
+
+    def spacings(own):
+        return [own[-1], float(f"{own[-1] * ratio:.4g}")]
+
+    which = len(case.spacings_mm) - 1
+    spent = [job.result().get("core_s", 0) for (number, _), job in jobs.items() if number == which]
+    return {"spacings_mm": spacings(case.spacings_mm), **{f"wall {k}: spacings_mm": spacings(wall.spacings_mm) for k, wall in enumerate(case.walls, 1) if wall.spacings_mm},
+            "runs": len(spent), "core_s": float(f"{sum(spent) / ratio**4:.2g}")}
+
+
+def said_of_finer(found):
+    """a line for the eye"""
+    keys = ", ".join(f"{key}: {value}" for key, value in found.items() if key.endswith("spacings_mm"))
+    return (f"next finer: {keys}, {found['runs']} more run{'s' if found['runs'] > 1 else ''} of about {found['core_s']:g} core-seconds in all; "
+            "the finest of these are done and stay")
+
+
 def shown(case):
     """columns of the table of runs"""
     n = len(case.walls)
@@ -120,10 +149,12 @@ def main(args):
     if failed:
         raise HVIError(f"no verdict: {len(failed)} of {len(jobs)} runs failed: {', '.join(j.name for j in failed)}")
     said, reasons, notes = decide(case, {member: verdict(j) for member, j in jobs.items()})
-    save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **({"notes": notes} if notes else {}), "runs": {j.name: verdict(j)[0] for j in jobs.values()},
+    further = finer(case, jobs) if said == "undecided" else None
+    more = {name: value for name, value in (("notes", notes), ("next_finer", further)) if value}
+    save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **more, "runs": {j.name: verdict(j)[0] for j in jobs.values()},
                                    "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1)})
     print(f"verdict: {said}")
-    print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes)]))
+    print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes), *([said_of_finer(further)] if further else [])]))
     print(f"table: {folder / 'runs.csv'}, verdict: {folder / 'verdict.yaml'}")
     return STATUS[said]
 
