@@ -91,29 +91,33 @@ def decide(case, said):
                      f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told], notes
 
 
-def finer(case, jobs):
-    """What would say more, as keys of the case: the finest spacing and one with a layer more in the last wall, and what that costs; None if it cannot decide."""
+def finer(case, said, jobs):
+    """What would say more, as keys of the case: the finest spacing that can be decided and one with a layer more in the last wall, and what that costs.
+
+    said: {member: (verdict, reasons, notes)}; None if no spacing can decide
+    """
     if case.not_modelled:
         return None
-    last = case.walls[-1]
+    last, which = case.walls[-1], len(case.spacings_mm) - 1
     fine = (last.spacings_mm or case.spacings_mm)[-1]
     layers = math.ceil(last.thickness_mm / fine - 0.01)
-    ratio = next(r for n in itertools.count(layers + 1) if (r := last.thickness_mm / n / fine) * cases.RATIO <= 1)
+    first = 1.0 if layers >= cases.LAYERS else last.thickness_mm / cases.LAYERS / fine
+    second = next(r for n in itertools.count(max(layers, cases.LAYERS) + 1) if (r := last.thickness_mm / n / fine) * cases.RATIO <= first)
+    stay = first == 1.0 and all(said[which, shift][0] != "undecided" for shift in case.shifts)  # those of the finest need not be run again
 
     def spacings(own):
-        return [own[-1], float(f"{own[-1] * ratio:.4g}")]
+        return [float(f"{own[-1] * ratio:.4g}") for ratio in (first, second)]
 
-    which = len(case.spacings_mm) - 1
-    spent = [job.result().get("core_s", 0) for (number, _), job in jobs.items() if number == which]
+    spent = sum(jobs[which, shift].result().get("core_s", 0) for shift in case.shifts)
     return {"spacings_mm": spacings(case.spacings_mm), **{f"wall {k}: spacings_mm": spacings(wall.spacings_mm) for k, wall in enumerate(case.walls, 1) if wall.spacings_mm},
-            "runs": len(spent), "core_s": float(f"{sum(spent) / ratio**4:.2g}")}
+            "runs": len(case.shifts) * (1 if stay else 2), "core_s": float(f"{spent * (second**-4 + (0 if stay else first**-4)):.2g}")}
 
 
-def said_of_finer(found):
+def said_of_finer(case, found):
     """a line for the eye"""
     keys = ", ".join(f"{key}: {value}" for key, value in found.items() if key.endswith("spacings_mm"))
-    return (f"next finer: {keys}, {found['runs']} more run{'s' if found['runs'] > 1 else ''} of about {found['core_s']:g} core-seconds in all; "
-            "the finest of these are done and stay")
+    more = "more runs, those of the finest spacing stay" if found["runs"] == len(case.shifts) else "runs, with the remedies above"
+    return f"next finer: {keys}: {found['runs']} {more}; about {found['core_s']:g} core-seconds"
 
 
 def shown(case):
@@ -148,13 +152,14 @@ def main(args):
     print(runs.overview(jobs.values(), shown(case)))
     if failed:
         raise HVIError(f"no verdict: {len(failed)} of {len(jobs)} runs failed: {', '.join(j.name for j in failed)}")
-    said, reasons, notes = decide(case, {member: verdict(j) for member, j in jobs.items()})
-    further = finer(case, jobs) if said == "undecided" else None
+    each = {member: verdict(j) for member, j in jobs.items()}
+    said, reasons, notes = decide(case, each)
+    further = finer(case, each, jobs) if said == "undecided" else None
     more = {name: value for name, value in (("notes", notes), ("next_finer", further)) if value}
     save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **more, "runs": {j.name: verdict(j)[0] for j in jobs.values()},
                                    "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1)})
     print(f"verdict: {said}")
-    print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes), *([said_of_finer(further)] if further else [])]))
+    print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes), *([said_of_finer(case, further)] if further else [])]))
     print(f"table: {folder / 'runs.csv'}, verdict: {folder / 'verdict.yaml'}")
     return STATUS[said]
 

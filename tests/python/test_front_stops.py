@@ -157,7 +157,7 @@ def test_next_finer(folder, capsys):
     (folder / "emi.yaml").write_text(change("diameter_mm: 5", "diameter_mm: 4.3"))
     assert front("shield") == 4
     # 6 layers of 0.2 mm in 1.2 mm: 8 of 0.15, as 7 are no 1.2 times finer; 2 runs of 625 core-seconds become (0.2 / 0.15)^4 times as long
-    assert "\nnext finer: spacings_mm: [0.2, 0.15], 2 more runs of about 4000 core-seconds in all; the finest of these are done and stay\ntable: " in capsys.readouterr().out
+    assert "\nnext finer: spacings_mm: [0.2, 0.15]: 2 more runs, those of the finest spacing stay; about 4000 core-seconds\ntable: " in capsys.readouterr().out
     assert yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())["next_finer"] == {"spacings_mm": [0.2, 0.15], "runs": 2, "core_s": 4000.0}
     (folder / "emi.yaml").write_text(change("diameter_mm: 5", "diameter_mm: 4.3").replace("[0.2, 0.4]", "[0.2, 0.15]"))
     before = tries(folder)
@@ -165,11 +165,25 @@ def test_next_finer(folder, capsys):
     assert "4 runs, 2 done before, 2 to run" in capsys.readouterr().out and {name: tries(folder)[name] for name in before} == before
     (folder / "emi.yaml").write_text(change("diameter_mm: 5", "diameter_mm: 4.3").replace("gap_mm: 60", "gap_mm: 60\n    spacings_mm: [0.3, 0.4]"))
     assert front("shield") == 4
-    assert "next finer: spacings_mm: [0.2, 0.16], wall 2: spacings_mm: [0.3, 0.24], 2 more" in capsys.readouterr().out
+    assert "next finer: spacings_mm: [0.2, 0.16], wall 2: spacings_mm: [0.3, 0.24]: 2 more" in capsys.readouterr().out
+    (folder / "emi.yaml").write_text(change("[0.2, 0.4]", "[0.8]").replace("1.2\n", "1.5\n"))  # 2 layers are too few: 3, and 4; 2.44 core-seconds each
+    assert front("shield") == 4
+    assert "next finer: spacings_mm: [0.5, 0.375]: 4 runs, with the remedies above; about 130 core-seconds\n" in capsys.readouterr().out
+    (folder / "emi.yaml").write_text(change("[0.2, 0.4]", "[0.401]"))  # 3 layers, but for round-off
+    assert front("shield") == 4
+    assert "next finer: spacings_mm: [0.401, 0.3]: 2 more runs, those of the finest spacing stay" in capsys.readouterr().out
     (folder / "emi.yaml").write_text(CASE)
     assert front("shield") == 3 and "next finer" not in capsys.readouterr().out
     (folder / "emi.yaml").write_text(CASE + "not_modelled: [MLI]\n")
     assert front("shield") == 4 and "next finer" not in capsys.readouterr().out
+
+
+def test_next_finer_of_undecided_runs(folder, capsys, monkeypatch):
+    """their remedies come first, and they are run again"""
+    monkeypatch.setenv("FAKE_UNSURE", "9")
+    assert front("shield") == 4
+    # 1250 core-seconds of two runs, again and (0.2 / 0.15)^4 times
+    assert "next finer: spacings_mm: [0.2, 0.15]: 4 runs, with the remedies above; about 5200 core-seconds\n" in capsys.readouterr().out
 
 
 def test_one_seed(folder, capsys):
