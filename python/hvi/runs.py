@@ -382,7 +382,7 @@ def cell(value):
 
 
 def write_table(jobs, path):
-    """A CSV file: job, variables, results of all jobs that are done; returns how many are."""
+    """A CSV file: job, variables, results of all jobs that are done."""
     rows = [{"job": job.name, **result, **job.variables} for job in jobs if (result := job.result())]
     columns = list(dict.fromkeys(["job", *(n for j in jobs for n in j.variables), *(n for row in rows for n in row)]))
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -390,7 +390,24 @@ def write_table(jobs, path):
         writer = csv.DictWriter(out, columns, restval="", lineterminator="\n")
         writer.writeheader()
         writer.writerows({name: cell(value) for name, value in row.items()} for row in rows)
-    return len(rows)
+
+
+@contextlib.contextmanager
+def table_of(jobs, path):
+    """write_table() at the end, of a part of the runs, too; what stopped them is what is said, not that there is no room for the table either
+
+    jobs: function without arguments
+    """
+    try:
+        yield
+    except BaseException:
+        with contextlib.suppress(OSError):
+            write_table(jobs(), path)
+        raise
+    try:
+        write_table(jobs(), path)
+    except OSError as problem:
+        raise HVIError(f"cannot write {path}: {problem.strerror}") from None
 
 
 def overview(jobs, keys):

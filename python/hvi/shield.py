@@ -145,10 +145,8 @@ def main(args):
     (folder / "verdict.yaml").unlink(missing_ok=True)  # that of another case, or of fewer runs
     todo = [j for j in jobs.values() if j.result() is None]
     print(f"{case.name}: {len(jobs)} runs, {len(jobs) - len(todo)} done before, {len(todo)} to run", flush=True)
-    try:
+    with runs.table_of(jobs.values, folder / "runs.csv"):
         failed = runner.run(todo, case.name)
-    finally:
-        runs.write_table(jobs.values(), folder / "runs.csv")
     print(runs.overview(jobs.values(), shown(case)))
     if failed:
         raise HVIError(f"no verdict: {len(failed)} of {len(jobs)} runs failed: {', '.join(j.name for j in failed)}")

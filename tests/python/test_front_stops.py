@@ -128,8 +128,10 @@ def test_what_cannot_be(folder, capsys, monkeypatch):
     monkeypatch.setattr(runs, "FULL", float("inf"))
     assert front("shield") == 1 and "dx-0.2_shift-0.0  FAILED: exit status 1; the disk is full" in capsys.readouterr().out
 
-    def full(self, folder):
+    def full(*_):
         raise OSError(28, "No space left on device")
+    monkeypatch.setattr(runs, "write_table", full)
+    assert front("shield", "--runs", "r") == 1 and "r/emi/runs.csv: No space left on device\n" in capsys.readouterr().err
     monkeypatch.setattr(runs.Input, "copy_to", full)
     assert front("shield") == 1
     said = capsys.readouterr().err
