@@ -9,7 +9,7 @@ import re
 import yaml
 
 from . import case as cases
-from . import runs, tables
+from . import ble, runs, tables
 from .errors import HVIError
 
 INPUT = runs.ROOT / "examples" / "whipple-shield" / "in.whipple"
@@ -154,11 +154,15 @@ def main(args):
     said, reasons, notes = decide(case, each)
     further = finer(case, each, jobs) if said == "undecided" else None
     more = {name: value for name, value in (("notes", notes), ("next_finer", further)) if value}
+    equations = ble.beside(ble.predictions, case)
     save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **more, "runs": {j.name: verdict(j)[0] for j in jobs.values()},
+                                   "equations": equations,
                                    "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1)})
     print(f"verdict: {said}")
-    print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes), *([said_of_finer(case, further)] if further else [])]))
+    print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes),
+                     *([said_of_finer(case, further)] if further else [])]))
     print(f"table: {folder / 'runs.csv'}, verdict: {folder / 'verdict.yaml'}")
+    print("\n".join(ble.said(equations)))
     return STATUS[said]
 
 
