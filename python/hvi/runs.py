@@ -237,9 +237,15 @@ class Job:
             self.asked = True
 
     def kill(self):
-        """if it still runs; ranks see that their mpirun is gone"""
+        """if it still runs; with its ranks, which have groups of their own and would see only later that mpirun is gone"""
         if self.process is not None and self.process.poll() is None:
+            ranks = []
+            with contextlib.suppress(OSError):  # where there is no such file they end by themselves
+                ranks = pathlib.Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children").read_text().split()
             os.killpg(self.process.pid, signal.SIGKILL)
+            for rank in ranks:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(int(rank), signal.SIGKILL)
             self.process.wait()
         self.leave()
 
