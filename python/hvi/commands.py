@@ -10,6 +10,7 @@ from . import cloud as clouds
 from . import compare as comparison
 from . import debris as below
 from . import distribution, fragments as pieces, mirror, progress, tables
+from .data import DataFile
 from .dump import Dump
 from .errors import HVIError
 from .scan import open_binary
@@ -171,6 +172,59 @@ def _fits(args, masses, unit, images):
         fits.append(distribution.fit(masses, law, start, args.mmax, unit, images))
         start = fits[0].m_min
     return fits
+
+
+def hole(args):
+    from . import hole as holes
+
+    def look(frame):
+        return holes.measure(frame, args.axis, args.center, args.plane, thickness=args.thickness, dr=args.dr, fill=args.fill,
+                             reference=args.reference, sectors=args.sectors, types=args.type)
+
+    if _is_dump(args.files[0]):
+        frames = _open(args)
+    else:
+        frames = [_of_data(args)]
+    if args.all:
+        return _all_holes(args, frames, look)
+    frame = frames[args.frame]
+    found = look(frame)
+    print(_moment(frame))
+    print(f"hole: {holes.SAID[found.values['found']]}")
+    _print({name: value for name, value in found.values.items() if found.values["found"] >= 0 or name in ("share", "layer", "reference", "spacing", "found")})
+    if args.out:
+        tables.write_csv(args.out, list(found.values), [list(found.values.values())])
+    if args.figure:
+        from . import figures
+
+        _save(figures.hole(frame, found, args.axis), args.figure)
+    return 0 if found.values["found"] >= 0 else 1
+
+
+def _of_data(args):
+    """The Frame of a data file"""
+    if len(args.files) > 1 or args.data or args.dt or args.interval:
+        raise HVIError(f"{args.files[0]} is no dump: one data file, without --data, --dt and --interval, or dumps")
+    frame = DataFile(args.files[0]).frame(dict(args.mass or ()), args.units, mirror.of_words(args.mirror))
+    if frame.planes:
+        print(f"model: {mirror.text(frame.planes)}; what follows is of the whole")
+    return frame
+
+
+def _all_holes(args, frames, look):
+    """One row per frame: when, and all values"""
+    if args.figure:
+        raise HVIError("--all makes a table; for a figure choose one frame with --frame")
+    rows = []
+    with progress.bar(len(frames), "hole") as bar:
+        for frame in frames:
+            rows.append({"frame": frame.number, "step": frame.step, "time": _time(frame), **look(frame).values})
+            bar.update()
+    names, rows = list(rows[0]), [tuple(row.values()) for row in rows]
+    lengths = ("diameter", "smallest", "largest", "layer", "spacing", *(name for name in names if name.startswith("center")))
+    print(tables.text(names, rows, {"time": "time", **dict.fromkeys(lengths, "distance")}, frames[0].units))
+    if args.out:
+        tables.write_csv(args.out, names, rows)
 
 
 def map(args):
