@@ -3,6 +3,7 @@
 
 import pathlib
 import re
+import shlex
 
 import yaml
 
@@ -101,6 +102,12 @@ def save(path, mapping):
         raise HVIError(f"cannot write {path}: {problem.strerror}") from None
 
 
+def command(args, ranks):
+    """what was asked for, as it is typed"""
+    given = (("--input", args.input), ("--runs", args.runs), ("--jobs", args.jobs), ("--ranks", ranks), ("--lmp", args.lmp))
+    return shlex.join(["python3", "-m", "hvi", "shield", str(args.case), *(str(word) for option, value in given if value for word in (option, value))])
+
+
 def main(args):
     found = source(args)
     case = cases.read(args.case, found)
@@ -120,8 +127,9 @@ def main(args):
     if failed:
         raise HVIError(f"no verdict: {len(failed)} of {len(jobs)} runs failed: {', '.join(j.name for j in failed)}")
     said, reasons, notes = decide(case, {member: verdict(j) for member, j in jobs.items()})
+    (folder / "case.yaml").write_text(pathlib.Path(args.case).read_text())
     save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **({"notes": notes} if notes else {}), "runs": {j.name: verdict(j)[0] for j in jobs.values()},
-                                   "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1)})
+                                   "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1), "command": command(args, runner.ranks)})
     print(f"verdict: {said}")
     print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes)]))
     print(f"table: {folder / 'runs.csv'}, verdict: {folder / 'verdict.yaml'}")
