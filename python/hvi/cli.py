@@ -26,6 +26,11 @@ EXAMPLES = {
   python3 -m hvi limit emi.yaml --on thickness2 --from 0.5 --to 3 --step 0.1 --jobs 2 --ranks 1""",
     "sweep": """  python3 -m hvi sweep studies/parameters.yaml
   python3 -m hvi sweep studies/*.yaml --jobs 2 --ranks 1""",
+    "report": """  python3 -m hvi report runs/emi
+  python3 -m hvi report . --out shield.html""",
+    "movie": "  python3 -m hvi movie runs/emi --color speed",
+    "export": """  python3 -m hvi export runs/emi/dx-0.2_shift-0.0
+  python3 -m hvi export debris.dump --data debris.data --out debris""",
     "info": "  python3 -m hvi info debris.dump",
     "cloud": """  python3 -m hvi cloud debris.dump --data debris.data --axis z --plane 4.05e-3
   python3 -m hvi cloud debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 --interval 3e-6 \\
@@ -207,6 +212,22 @@ def options():
     sub.add_argument("study", nargs="+", metavar="STUDY.yaml", help="input, variables, and the grid of what varies")
     sub.add_argument("--full", action="store_true", help="the study's full size; runs go to DIR/NAME-full")
     _runs(sub)
+
+    sub = command("report", "one HTML file of a run of in.whipple, or of the folder of hvi shield: verdict, reasons, pictures, all numbers")
+    sub.add_argument("folder", metavar="DIR", help="folder with verdict.yaml (runs/CASE of hvi shield), or with result.yaml")
+    sub.add_argument("--out", metavar="FILE.html", help="default: report.html in DIR")
+
+    sub = command("movie", "an animated GIF of a run of in.whipple from the side; frames: -var film, or settings: {film: 1} of a case")
+    sub.add_argument("folder", metavar="DIR", help="as of hvi report: of several runs the finest")
+    sub.add_argument("--out", metavar="FILE.gif", help="default: movie.gif in DIR")
+    sub.add_argument("--color", choices=("body", "speed"), default="body", help="of the particles (default: body)")
+    sub.add_argument("--rate", type=positive, default=5.0, metavar="N", help="frames per second (default: 5)")
+
+    sub = command("export", "dumps for ParaView: a VTU file of each frame with units in the names, and a PVD file of all")
+    sub.add_argument("files", nargs="+", metavar="DUMP|DIR", help="dump files of one run, or a folder as of hvi report")
+    sub.add_argument("--out", metavar="NAME", help="NAME.pvd, and NAME.0000.vtu ... beside it (default: the name of the dump; in a folder: shield)")
+    sub.add_argument("--part", action="store_true", help="of a half or quarter model only the part that was computed, not the whole")
+    _reading(sub)
 
     sub = command("info", "frames and columns of a dump")
     _files(sub)
