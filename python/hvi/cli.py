@@ -24,6 +24,9 @@ EXAMPLES = {
   python3 -m hvi shield emi.yaml --jobs 2 --ranks 1""",
     "limit": """  python3 -m hvi limit emi.yaml --on D
   python3 -m hvi limit emi.yaml --on thickness2 --from 0.5 --to 3 --step 0.1 --jobs 2 --ranks 1""",
+    "ble": """  python3 -m hvi ble emi.yaml --figure limit
+  python3 -m hvi ble emi.yaml --speeds 3:9:13 --equation JSC --equation Reimerdes --out limit.csv
+  python3 -m hvi ble --shots examples/whipple-shield/shots/shots.csv""",
     "sweep": """  python3 -m hvi sweep studies/parameters.yaml
   python3 -m hvi sweep studies/*.yaml --jobs 2 --ranks 1""",
     "report": """  python3 -m hvi report runs/emi
@@ -31,6 +34,9 @@ EXAMPLES = {
     "movie": "  python3 -m hvi movie runs/emi --color speed",
     "export": """  python3 -m hvi export runs/emi/dx-0.2_shift-0.0
   python3 -m hvi export debris.dump --data debris.data --out debris""",
+    "shots": """  python3 -m hvi shots examples/whipple-shield/shots/chosen.yaml --jobs 2 --ranks 1
+  python3 -m hvi shots mine.csv --equations
+  python3 -m hvi shots all.yaml --only 2053 P-34B --dry-run""",
     "info": "  python3 -m hvi info debris.dump",
     "cloud": """  python3 -m hvi cloud debris.dump --data debris.data --axis z --plane 4.05e-3
   python3 -m hvi cloud debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 --interval 3e-6 \\
@@ -172,7 +178,23 @@ def _runs(parser):
 
 def _case(parser):
     parser.add_argument("case", metavar="CASE.yaml", help="projectile, speed, angle, walls, spacings")
+    _input(parser)
+
+
+def _input(parser):
     parser.add_argument("--input", metavar="FILE", help="LAMMPS input (default: examples/whipple-shield/in.whipple of the source tree)")
+
+
+def _speeds(text):
+    """(first, last, number) of A:B:N"""
+    try:
+        first, last, number = text.split(":")
+        first, last, number = positive(first), positive(last), _count(number)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text} is not FIRST:LAST:NUMBER, like 1:15:15") from None
+    if first >= last:
+        raise argparse.ArgumentTypeError(f"{text}: the first speed must be below the last")
+    return first, last, number
 
 
 def _main_of(name, args):
@@ -208,6 +230,15 @@ def options():
         sub.add_argument("--" + name, dest=name + "_", type=positive, metavar="X", help=f"{text}, mm or km/s (default: {default})")
     _runs(sub)
 
+    sub = command("ble", "ballistic-limit equations: critical diameter over speed for the shield of a case, or what they say of published shots")
+    sub.add_argument("case", metavar="CASE.yaml", nargs="?", help="as of hvi shield")
+    _input(sub)
+    sub.add_argument("--shots", metavar="FILE.csv", help="instead of a case: a list of double-wall shots, as of hvi shots; how often each equation is right")
+    sub.add_argument("--speeds", type=_speeds, default=(1.0, 15.0, 15), metavar="A:B:N", help="first, last, number of speeds, km/s (default: 1:15:15)")
+    sub.add_argument("--equation", action="append", metavar="NAME", help="only this equation; repeat (default: all)")
+    _output(sub, "critical diameter over speed, dashed where beyond ranges of validity, and the case")
+    sub.set_defaults(run=functools.partial(_main_of, "ble_command"))
+
     sub = command("sweep", "a LAMMPS input for many values of its variables, as study files say, with a table of all results")
     sub.add_argument("study", nargs="+", metavar="STUDY.yaml", help="input, variables, and the grid of what varies")
     sub.add_argument("--full", action="store_true", help="the study's full size; runs go to DIR/NAME-full")
@@ -228,6 +259,12 @@ def options():
     sub.add_argument("--out", metavar="NAME", help="NAME.pvd, and NAME.0000.vtu ... beside it (default: the name of the dump; in a folder: shield)")
     sub.add_argument("--part", action="store_true", help="of a half or quarter model only the part that was computed, not the whole")
     _reading(sub)
+    sub = command("shots", "a list of shots on double walls: what was seen, what the simulation says, and what equations say")
+    sub.add_argument("study", metavar="FILE", help="study (YAML), or a list of shots (CSV) that is run as examples/whipple-shield/shots/all.yaml says")
+    sub.add_argument("--only", nargs="+", metavar="SHOT", help="only these shots of it")
+    sub.add_argument("--equations", action="store_true", help="the equations alone, nothing is run")
+    sub.add_argument("--input", metavar="FILE", help="LAMMPS input (default: examples/whipple-shield/in.whipple of the source tree)")
+    _runs(sub)
 
     sub = command("info", "frames and columns of a dump")
     _files(sub)

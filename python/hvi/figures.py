@@ -327,3 +327,25 @@ def cloud(table, units="si"):
     for ax in axes[1]:
         _label(ax, x=unit_systems.label("time", ut) if timed else "step")
     return figure
+
+
+# ---------------------------------------------------------------------- ballistic-limit equations
+def ballistic_limit(speeds, curves, title, point=None):
+    """Critical diameter over speed; curves: {name: [(diameter in mm, is it within the ranges of validity)]}; point: (speed, diameter) of a case"""
+    figure, ((ax,),) = _figure(4.4)
+    speeds, highest = np.asarray(speeds), 0.0
+    for k, (name, points) in enumerate(curves.items()):
+        d, valid = np.array([d for d, _ in points]), np.array([valid for _, valid in points])
+        color, line = BODIES[k % len(BODIES)], STYLE["line"] * (1 + 0.22 * (len(curves) - 1 - k))  # those below show beside those above
+        ax.plot(speeds, d, "--", color=color, lw=0.5 * line, alpha=0.8)
+        ax.plot(speeds, np.where(valid, d, np.nan), color=color, lw=line, label=name, solid_capstyle="butt")
+        highest = max(highest, d[speeds >= min(3.0, speeds[-1])].max())
+    ax.plot([], [], "--", color="0.4", lw=0.7 * STYLE["line"], label="beyond a range of validity")
+    if point is not None:
+        ax.plot(*point, "o", color="black", ms=5, clip_on=False, label=f"the case, {point[1]:g} mm")
+        highest = max(highest, point[1])
+    ax.set(xlim=(speeds[0], speeds[-1]), ylim=(0, 1.25 * highest))
+    ax.set_title(title, fontsize=STYLE["size"])
+    _label(ax, "speed (km/s)", "critical diameter (mm): fails above")
+    ax.legend(fontsize=STYLE["size"] - 1, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=4, columnspacing=1.2)
+    return figure

@@ -49,10 +49,11 @@ footer { color: var(--soft); font-size: .85rem; margin-top: 22px; }
 @media (max-width: 760px) { main { padding: 0 12px 30px; } section { padding: 16px 14px 18px; } .two { grid-template-columns: minmax(0, 1fr); } .said { font-size: 1.5rem; } header.top h1 { font-size: 1.35rem; } }
 @media print {
   @page { size: A4; margin: 14mm; }
-  body { background: #fff; font-size: 10.5pt; } main { padding: 0; max-width: none; } nav { display: none; }
-  section { border: 0; border-top: 1px solid #999; border-radius: 0; padding: 10px 0; } h2, h3 { break-after: avoid; } tr, .tile { break-inside: avoid; }
+  body { background: #fff; font-size: 9.5pt; } main { padding: 0; max-width: none; } nav { display: none; }
+  section { border: 0; border-top: 1px solid #999; border-radius: 0; padding: 10px 0; } h2, h3, .key { break-after: avoid; } tr, .tile { break-inside: avoid; }
   header.top, .said, .word, .key i { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
-  .scroll, pre { overflow: visible; } pre { white-space: pre-wrap; overflow-wrap: anywhere; } table { font-size: 8pt; } th, td { padding-right: 6px; } thead th { white-space: normal; }
+  .tiles { grid-template-columns: repeat(6, 1fr); gap: 6px; } .tile { padding: 6px 8px; } .tile b { font-size: 1.1rem; }
+  .scroll, pre { overflow: visible; } pre { font-size: 7.5pt; white-space: pre-wrap; overflow-wrap: anywhere; } table { font-size: 8pt; } th, td { padding-right: 6px; } thead th { white-space: normal; }
   .row { grid-template-columns: repeat(3, minmax(0, 1fr)); } .pair { grid-template-columns: 1fr 1fr; } .two { grid-template-columns: 1fr 1fr; } figure.tall img { max-height: 105mm; }
 }
 """

@@ -96,6 +96,7 @@ def picture(x, radius, rgb, view, window, width):
     ny = np.clip((rows - pixels[..., 1]) / pixels[..., 2], -1, 1)
     nz = np.sqrt(np.maximum(1.0 - nx**2 - ny**2, 0.04))
     gy, gx = np.gradient(_smooth(height_map, covered, max(ball, 1.5)))
+    gx, gy = np.clip(gx, -1.2, 1.2), np.clip(gy, -1.2, 1.2)  # at edges they are steps
     flat = np.stack([-gx, -gy, np.ones_like(gx)])
     flat /= np.sqrt((flat**2).sum(axis=0))
     normal = np.float32(0.45) * np.stack([nx, ny, nz]) + np.float32(0.55) * flat

@@ -3,7 +3,6 @@
 
 import datetime
 import hashlib
-import importlib.util
 import pathlib
 import platform
 import re
@@ -12,7 +11,7 @@ import shlex
 import matplotlib
 import numpy as np
 
-from . import progress, report_pictures as pictures, runs, shield, tables
+from . import ble, progress, report_pictures as pictures, runs, tables
 from . import page as pages
 from .errors import HVIError
 from .page import Html, items, join, section, table, tag
@@ -133,22 +132,15 @@ class Report:
         return rows
 
     def equations(self):
-        """of verdict.yaml, or of the module, where there is one"""
-        found = (self.said or {}).get("equations")
-        titles = {}
-        if importlib.util.find_spec("hvi.ble"):
-            from . import ble
-
-            titles = {name: f"{equation.title} [{equation.source}]" for name, equation in ble.EQUATIONS.items()}
-            found = found or ble.beside(ble.predictions, self.case)
-        if not found:
-            return []
+        """of verdict.yaml, or of the case as the plan has it"""
+        found = (self.said or {}).get("equations") or ble.beside(ble.predictions, self.case)
+        titles = {name: f"{equation.title} [{equation.source}]" for name, equation in ble.EQUATIONS.items()}
         if isinstance(found, str):
-            return [section("Ballistic-limit equations", tag("p", found))]
+            return section("Ballistic-limit equations", tag("p", found))
         rows = [(f"{name}: {titles[name]}" if name in titles else name, of["critical_diameter_mm"], of["d_over_critical"], word(of["predicted"]), "; ".join(of["outside"]) or "-")
                 for name, of in found.items()]
-        return [section("Ballistic-limit equations", tag("p", f"What the equations of engineers say of a projectile of {self.case.diameter_mm:g} mm, beside the simulation: ", word(self.verdict)),
-                        table(("equation", "critical diameter, mm", "projectile over it", "says", "outside of its range of validity"), rows))]
+        return section("Ballistic-limit equations", tag("p", f"What the equations of engineers say of a projectile of {self.case.diameter_mm:g} mm, beside the simulation: ", word(self.verdict)),
+                        table(("equation", "critical diameter, mm", "projectile over it", "says", "outside of its range of validity"), rows), tag("p", "Sources in brackets: Howto_ble.", class_="note"))
 
     def all_runs(self):
         keys = ["verdict", *(f"hole{k}_diameter_mm" for k in range(1, self.run.walls + 1)), f"wall{self.run.walls}_spall_mass_mg", f"wall{self.run.walls}_apart_mass_mg", "particles", "steps",
@@ -261,7 +253,7 @@ class Report:
 
     def html(self, bar):
         hero, drawn = self.images(bar)
-        sections = [self.summary(hero), *drawn, self.margins(), *self.equations(), self.numerics(), self.materials(), self.settings(), self.repeat(),
+        sections = [self.summary(hero), *drawn, self.margins(), self.equations(), self.numerics(), self.materials(), self.settings(), self.repeat(),
                     tag("footer", f"Made {datetime.date.today().isoformat()} by python3 -m hvi report, lammps-hvi {version()}. No part of this page is loaded from elsewhere.")]
         return pages.page(f"{self.name}: {self.verdict}", self.verdict, self.head(), sections)
 

@@ -8,7 +8,7 @@ import shlex
 import yaml
 
 from . import case as cases
-from . import runs, tables
+from . import ble, runs, tables
 from .errors import HVIError
 
 INPUT = runs.ROOT / "examples" / "whipple-shield" / "in.whipple"
@@ -127,12 +127,14 @@ def main(args):
     if failed:
         raise HVIError(f"no verdict: {len(failed)} of {len(jobs)} runs failed: {', '.join(j.name for j in failed)}")
     said, reasons, notes = decide(case, {member: verdict(j) for member, j in jobs.items()})
+    equations = ble.beside(ble.predictions, case)
     (folder / "case.yaml").write_text(pathlib.Path(args.case).read_text())
-    save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **({"notes": notes} if notes else {}), "runs": {j.name: verdict(j)[0] for j in jobs.values()},
+    save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **({"notes": notes} if notes else {}), "runs": {j.name: verdict(j)[0] for j in jobs.values()}, "equations": equations,
                                    "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1), "command": command(args, runner.ranks)})
     print(f"verdict: {said}")
     print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes)]))
     print(f"table: {folder / 'runs.csv'}, verdict: {folder / 'verdict.yaml'}")
+    print("\n".join(ble.said(equations)))
     return STATUS[said]
 
 

@@ -119,7 +119,7 @@ def test_report(several, capsys):
     assert words.count(EVIL) >= 3 and NAME in words  # reasons, case, source
     order = re.findall(r"<h[123]>([^<]*)", text)
     wanted = ["Verdict", "Reasons", "Notes", "What the verdict cannot know", "What was run", "Side view in time", "Speeds", "Walls", "Bulge of wall 2", "Where the cloud strikes", "How near it was",
-              "Resolution and ledger", "All runs", "Materials and their sources", "Settings", "Repeat it", "Versions"]
+              "Ballistic-limit equations", "Resolution and ledger", "All runs", "Materials and their sources", "Settings", "Repeat it", "Versions"]
     assert order[0].startswith("Does the shield hold?") and [title for title in order if title in wanted and title != "Walls"] == [title for title in wanted if title != "Walls"]
     assert "finest run, dx-0.5 (spacing 0.5 mm)" in words and "dx-1" in words and f"python3 -m hvi shield '{NAME}.yaml'" in words
     assert "mpirun -np 1 lmp -in in.whipple -var dx 0.5 -var shift 0.0 -var thickness 1 1" in words
@@ -134,6 +134,7 @@ def test_report_of_one_run(tmp_path, capsys):
     assert cli.main(["report", str(tmp_path / "one"), "--out", "a.html"]) == 0
     seen = Seen((tmp_path / "a.html").read_text())
     words = "".join(seen.text)
+    assert "JSC: JSC Whipple 2011 [RC11]" in words  # of walls and projectile of the plan
     assert "One run: nothing says how far" in words and seen.all("body")[0]["class"] == "holds"
     assert "-var thickness 1 1 -var spacings 1 1 -var layers 1 1 -var radius 8 8 -var gap 0 6" in words
 
