@@ -125,7 +125,7 @@ class Report:
             for k in range(1, self.run.walls + 1):
                 if key == "hole_mm":
                     of = [result.get(f"hole{k}_{what}") for what in ("diameter_mm", "min_mm", "max_mm")]
-                    row.append("not reached" if k > self.run.reached else f"{of[0]:.4g} ({of[1]:.4g} to {of[2]:.4g})" if of[0] else "none")
+                    row.append("not reached" if k > self.run.reached else "none" if not of[0] else "unknown" if not np.isfinite(of[0]) else f"{of[0]:.4g} ({of[1]:.4g} to {of[2]:.4g})")
                 else:
                     row.append(tables.number(result.get(f"wall{k}_{key}", "-")))
             rows.append(row)
