@@ -221,7 +221,8 @@ class Report:
         hero = picture(pictures.oblique(run, end), f"The shield at {end.time:.1f} microseconds, cut open by a quarter", join([tag("b", f"{end.time:.1f} us."), " A quarter is cut out; the shot "
                        "came from the left."]), class_="tall")
         sketch = picture(pictures.sketch(run, self.case), "Sketch to scale: path of the projectile, walls, gaps, and what is struck", "What was run, to scale.", class_="tall")
-        note = f"All at one scale and in one frame; the half in front of the plane y = 0 is cut away, what is behind it is {window[3]:.0f} mm deep. What has flown out of the frame is not shown."
+        deep = max(float(run.of_wall(k, "radius_mm")) for k in range(1, run.walls + 1))
+        note = f"All at one scale and in one frame; the half in front of the plane y = 0 is cut away, what is behind it is up to {deep:.0f} mm deep. What has flown out of the frame is not shown."
         side = [picture(pictures.side(run, scene, window), f"Side view at {scene.time:.1f} microseconds", join([tag("b", f"{scene.time:.1f} us")])) for scene in film]
         cloud = run.scene(f"cloud{run.reached - 1}.dump") if run.reached > 1 else None
         moments = [scene for scene in (cloud, end) if scene is not None]

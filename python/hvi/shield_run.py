@@ -111,7 +111,7 @@ class Run:
         begin = ends[-2] if len(ends) > 1 else 0.0
         targets = [0.0, 0.5 * ends[0], *ends[:-1], *(begin + part * (ends[-1] - begin) for part in (0.2, 0.5, 1.0))]
         if len(targets) > most:  # many walls
-            targets = [0.0, *ends[-(most - 1):]]
+            targets = [0.0, *targets[2:][1 - most:]]
         return [Scene(dump[int(k)], self) for k in dict.fromkeys(int(np.argmin(np.abs(times - t))) for t in targets)]
 
 
