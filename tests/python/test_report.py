@@ -158,7 +158,7 @@ def test_wrong_folders(tmp_path, capsys):
 # ---------------------------------------------------------------------- pictures
 def test_nearest_sphere_is_seen():
     """depth of the middle of a sphere is its top; the nearer one hides the other, whatever comes first"""
-    x = np.array([[0.0, 0.0, 2.0], [0.1, 0.0, 0.0], [3.0, 0.0, 0.0]])
+    x = np.array([[0.0, 0.0, 2.0], [-0.1, 0.0, 0.0], [3.0, 0.0, 0.0]])
     for order in ([0, 1, 2], [2, 1, 0]):
         depth, who = render.splat(x[order], np.ones(3), (-2.0, 5.0, -2.0, 2.0), (80, 140))
         assert order[who[40, 40]] == 0 and depth[40, 40] == pytest.approx(3.0, abs=0.01)
