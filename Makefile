@@ -4,7 +4,7 @@
 #   make demo-dem                  likewise, a debris cloud of discrete elements
 #   make test    the same; then all tests
 #   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so
-#   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures) and of solids
+#   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures) and of solids; long tests
 #   make doc | bench | bench-full | sanitize | clean
 #
 # LAMMPS_VERSION=20250204|20260704   which pinned LAMMPS          LAMMPS_SOURCE_DIR=DIR   your own LAMMPS source tree
@@ -76,7 +76,8 @@ verify:
 	  cmake/env.sh $$python tests/shocks.py --lmp $(OUT)/lmp --out $(OUT)/verify --ranks $(RANKS) $(VERIFY_ARGS) && \
 	  cmake/env.sh $$python tests/solids.py --lmp $(OUT)/lmp --out $(OUT)/verify $(SOLIDS_ARGS) && \
 	  cmake/env.sh $$python tests/states.py --lmp $(OUT)/lmp --out $(OUT)/verify $(STATES_ARGS) && \
-	  cmake/env.sh $$python tests/expansion.py --lmp $(OUT)/lmp --out $(OUT)/verify && export PYTHONPATH=$(TOP)/python && \
+	  cmake/env.sh $$python tests/expansion.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
+	  ctest --test-dir $(BUILD) --output-on-failure -C long -L long -j $(JOBS) && export PYTHONPATH=$(TOP)/python && \
 	  { cmake/env.sh $$python -m hvi shield $(DEMO)/cases/quick.yaml --lmp $(OUT)/lmp --runs $(OUT)/verify --jobs $(RANKS) --ranks 1; code=$$?; \
 	    [ $$code = 0 ] || [ $$code = 3 ] || [ $$code = 4 ] || exit $$code; } && \
 	  $$python -m hvi report $(OUT)/verify/quick && $$python tests/browser.py $(OUT)/verify/quick/report.html $(OUT)/verify/browser

@@ -297,6 +297,10 @@ def read(path, source):
         reader.setting(name, source, len(case.walls))
     case.check(reader.wrong)
     source.check(own, reader.path)
+    if "weibull" in str(case.settings.get("solid")).split():
+        node = reader.at["settings: solid"]
+        warnings.warn(f"{path}, line {node.start_mark.line + 1}: all runs have the same seed of weibull: what another would change is in no verdict", HVIWarning,
+                      stacklevel=2)
     last, coarse = case.walls[-1], (case.walls[-1].spacings_mm or case.spacings_mm)[0]
     if math.ceil(last.thickness_mm / coarse - 0.01) < LAYERS and "layers" not in case.settings:
         node = reader.at.get(f"wall {len(case.walls)}: spacings_mm") or reader.at["spacings_mm"]

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import ListedColormap, LogNorm
 from matplotlib.figure import Figure
+from scipy import ndimage
 
 from . import units as unit_systems
 from .errors import HVIError
@@ -81,6 +82,10 @@ def _bar(figure, artist, text, extend="neither", **where):
     bar.ax.tick_params(labelsize=STYLE["size"])
     bar.outline.set_visible(False)
     return bar
+
+
+def _legend_of_lines(ax):
+    ax.legend(fontsize=STYLE["size"] - 1, frameon=False)
 
 
 def _moment(frame):
@@ -256,6 +261,31 @@ def impacts(source, found, axis="z"):
         ax.set_aspect("equal")
         _label(ax, unit_systems.label(names[0], unit), unit_systems.label(names[1], unit))
     left.set_title(_moment(frame), fontsize=STYLE["size"], loc="left")
+    return figure
+
+
+def hole(frame, found, axis="z"):
+    """Map of a plate's mass per area in shares of the intact one, the edge of the hole, and the circle with its area. found: a hole.Hole"""
+    if found.areal is None:
+        raise HVIError(f"{frame.where}: nothing in the layer, there is no map")
+    names = [name for name in "xyz" if name != axis]
+    factor, unit = unit_systems.scale("distance", np.concatenate([found.x, found.y]), frame.units)
+    x, y, values = found.x / factor, found.y / factor, found.values
+    figure, ((ax,),) = _figure(4.8)
+    mesh = ax.pcolormesh(x, y, found.areal.T / values["reference"], cmap="Greys", vmin=0.0, vmax=1.5, shading="nearest", rasterized=True)
+    if found.inside is not None:
+        # what is plate, and what is an opening elsewhere, has no edge here
+        near = ndimage.binary_dilation(found.inside, np.ones((3, 3)))
+        ax.contour(x, y, np.where(near, found.areal, np.nan).T, [found.edge], colors=[BODIES[0]], linewidths=STYLE["line"] + 0.4)
+        angle = np.linspace(0.0, 2.0 * np.pi, 361)
+        at = [values[f"center_{name}"] / factor for name in names]
+        r = 0.5 * values["diameter"] / factor
+        ax.plot(at[0] + r * np.cos(angle), at[1] + r * np.sin(angle), "--", color=BODIES[1], lw=STYLE["line"],
+                label=f"equal area, {2.0 * r:.4g} {unit}; {values['smallest'] / factor:.4g} to {values['largest'] / factor:.4g} {unit}")
+        ax.legend(fontsize=STYLE["size"], frameon=False, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    _bar(figure, mesh, "mass per area / intact", "max", ax=ax)
+    ax.set_aspect("equal")
+    _label(ax, unit_systems.label(names[0], unit), unit_systems.label(names[1], unit))
     return figure
 
 

@@ -200,10 +200,8 @@ def main(args):
             print(" ".join(runner.command(job)))
         return 0
     (limit.folder / "limit.yaml").unlink(missing_ok=True)
-    try:
+    with runs.table_of(lambda: [job for _, _, job in limit.jobs.values()], limit.folder / "runs.csv"):
         failed = runner.run(first, f"{case.name} limit", limit.more)
-    finally:
-        runs.write_table([job for _, _, job in limit.jobs.values()], limit.folder / "runs.csv")
     print(runs.overview([job for _, _, job in limit.jobs.values()], shield.shown(case)))
     if failed:
         raise HVIError(f"no limit: {len(failed)} runs failed: {', '.join(job.name for job in failed)}")

@@ -1,6 +1,7 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """python3 -m hvi report: one HTML file, with all pictures in it, of what a shield did, why, and how far that is known."""
 
+import dataclasses
 import datetime
 import hashlib
 import pathlib
@@ -11,7 +12,7 @@ import shlex
 import matplotlib
 import numpy as np
 
-from . import ble, progress, report_pictures as pictures, runs, tables
+from . import ble, progress, report_pictures as pictures, runs, shield, tables
 from . import page as pages
 from .errors import HVIError
 from .page import Html, items, join, section, table, tag
@@ -105,6 +106,10 @@ class Report:
                  if len(self.runs) > 1 else "One run: nothing says how far the answer hangs on the spacing and the shift of the lattice. python3 -m hvi shield runs several.")
         left = [tag("p", word(self.verdict), " ", MEANS[self.verdict]), tag("h3", "Reasons"), items(self.reasons)]
         left += [tag("h3", "Notes"), items(self.notes)] if self.notes else []
+        further = (self.said or {}).get("next_finer")
+        if further:
+            case = dataclasses.replace(self.case, shifts=tuple({float(run.settings["shift"]) for run in self.runs}))
+            left.append(tag("p", shield.said_of_finer(case, further)))
         outside = [f"this shield has {', '.join(self.case.not_modelled)}, which is not modelled"] if self.case.not_modelled else []
         left += [tag("h3", "What the verdict cannot know"), items([*outside, *UNKNOWN]), tag("p", which, class_="note")]
         return section("Verdict", tag("div", tag("div", *left), hero, class_="two"), self.tiles())

@@ -74,7 +74,7 @@ def folder_of_several(tmp_path):
         make_run(folder / f"dx-{dx:g}", dx, material=str(tmp_path / material), film=dx == 0.5, reason=EVIL)
     (folder / "case.yaml").write_text(f"# {EVIL}\nspeed_km_s: 6\n")
     (folder / "verdict.yaml").write_text(yaml.safe_dump({"verdict": "fails", "reasons": [EVIL, "all 2 runs say so"], "notes": ["a note"], "runs": {"dx-1": "fails", "dx-0.5": "fails"},
-                                                         "core_s": 8.0, "command": f"python3 -m hvi shield '{NAME}.yaml'"}))
+                                                         "core_s": 8.0, "next_finer": {"spacings_mm": [0.5, 0.4], "runs": 1, "core_s": 20.0}, "command": f"python3 -m hvi shield '{NAME}.yaml'"}))
     return folder
 
 
@@ -123,6 +123,7 @@ def test_report(several, capsys):
     assert order[0].startswith("Does the shield hold?") and [title for title in order if title in wanted and title != "Walls"] == [title for title in wanted if title != "Walls"]
     assert "finest run, dx-0.5 (spacing 0.5 mm)" in words and "dx-1" in words and f"python3 -m hvi shield '{NAME}.yaml'" in words
     assert "mpirun -np 1 lmp -in in.whipple -var dx 0.5 -var shift 0.0 -var thickness 1 1" in words
+    assert "next finer: spacings_mm: [0.5, 0.4]: 1 more runs" in words
     assert "HAS CHANGED since the run" in words and "damage no spall voids" in words
     assert [d for d in seen.all("div") if d.get("class") == "said"] and "\u2715 fails" in words and seen.all("body")[0]["class"] == "fails"
 
