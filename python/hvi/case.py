@@ -20,7 +20,7 @@ RATIO = 1.2  # of spacings that may be said to differ
 LAYERS = 3  # that in.whipple needs in the wall that decides
 
 # settings of in.whipple: what their values must be, beside numbers where its own are numbers
-ABOVE_0, FROM_0, WHOLE = {"eta", "C", "skin", "rim", "probe_size"}, {"tstop", "back", "behind", "probe_at"}, {"zones", "layers"}
+ABOVE_0, FROM_0, WHOLE = {"eta", "C", "skin", "rim", "probe_size"}, {"tstop", "back", "behind", "probe_at", "film"}, {"zones", "layers"}
 CHOICES = {"quarter": ("auto", "yes", "no"), "edge": ("free", "clamp", "absorb"), "probes": ("yes", "no")}
 SET_BY_CASE = {"t1", "t2", "spacing", "material_t", "radius1", "radius2", "radius", "spacings", "outside", "dry", "resume", "out"}
 

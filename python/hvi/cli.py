@@ -29,6 +29,11 @@ EXAMPLES = {
   python3 -m hvi ble --shots examples/whipple-shield/shots/shots.csv""",
     "sweep": """  python3 -m hvi sweep studies/parameters.yaml
   python3 -m hvi sweep studies/*.yaml --jobs 2 --ranks 1""",
+    "report": """  python3 -m hvi report runs/emi
+  python3 -m hvi report . --out shield.html""",
+    "movie": "  python3 -m hvi movie runs/emi --color speed",
+    "export": """  python3 -m hvi export runs/emi/dx-0.2_shift-0.0
+  python3 -m hvi export debris.dump --data debris.data --out debris""",
     "shots": """  python3 -m hvi shots examples/whipple-shield/shots/chosen.yaml --jobs 2 --ranks 1
   python3 -m hvi shots mine.csv --equations
   python3 -m hvi shots all.yaml --only 2053 P-34B --dry-run""",
@@ -245,6 +250,21 @@ def options():
     sub.add_argument("--full", action="store_true", help="the study's full size; runs go to DIR/NAME-full")
     _runs(sub)
 
+    sub = command("report", "one HTML file of a run of in.whipple, or of the folder of hvi shield: verdict, reasons, pictures, all numbers")
+    sub.add_argument("folder", metavar="DIR", help="folder with verdict.yaml (runs/CASE of hvi shield), or with result.yaml")
+    sub.add_argument("--out", metavar="FILE.html", help="default: report.html in DIR")
+
+    sub = command("movie", "an animated GIF of a run of in.whipple from the side; frames: -var film, or settings: {film: 1} of a case")
+    sub.add_argument("folder", metavar="DIR", help="as of hvi report: of several runs the finest")
+    sub.add_argument("--out", metavar="FILE.gif", help="default: movie.gif in DIR")
+    sub.add_argument("--color", choices=("body", "speed"), default="body", help="of the particles (default: body)")
+    sub.add_argument("--rate", type=positive, default=5.0, metavar="N", help="frames per second (default: 5)")
+
+    sub = command("export", "dumps for ParaView: a VTU file of each frame with units in the names, and a PVD file of all")
+    sub.add_argument("files", nargs="+", metavar="DUMP|DIR", help="dump files of one run, or a folder as of hvi report")
+    sub.add_argument("--out", metavar="NAME", help="NAME.pvd, and NAME.0000.vtu ... beside it (default: the name of the dump; in a folder: shield)")
+    sub.add_argument("--part", action="store_true", help="of a half or quarter model only the part that was computed, not the whole")
+    _reading(sub)
     sub = command("shots", "a list of shots on double walls: what was seen, what the simulation says, and what equations say")
     sub.add_argument("study", metavar="FILE", help="study (YAML), or a list of shots (CSV) that is run as examples/whipple-shield/shots/all.yaml says")
     sub.add_argument("--only", nargs="+", metavar="SHOT", help="only these shots of it")

@@ -120,7 +120,7 @@ class Limit:
         for place in self.searches[member].next():
             value = self.values[place]
             name = f"{shield.member_name(self.case, member)}_{self.on}-{value:g}"
-            job = shield.job(with_value(self.case, self.key, self.wall, value), self.source, member, self.folder / name, name, remove=["cloud*.dump"])
+            job = shield.job(with_value(self.case, self.key, self.wall, value), self.source, member, self.folder / name, name, remove=["cloud*.dump", "film.*.dump"])
             self.jobs[job.name] = member, place, job
             found.append(job)
         search, (which, shift) = self.searches[member], member

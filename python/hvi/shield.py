@@ -5,6 +5,7 @@ import itertools
 import math
 import pathlib
 import re
+import shlex
 
 import yaml
 
@@ -134,6 +135,12 @@ def save(path, mapping):
         raise HVIError(f"cannot write {path}: {problem.strerror}") from None
 
 
+def command(args, ranks):
+    """what was asked for, as it is typed"""
+    given = (("--input", args.input), ("--runs", args.runs), ("--jobs", args.jobs), ("--ranks", ranks), ("--lmp", args.lmp))
+    return shlex.join(["python3", "-m", "hvi", "shield", str(args.case), *(str(word) for option, value in given if value for word in (option, value))])
+
+
 def main(args):
     found = source(args)
     case = cases.read(args.case, found)
@@ -155,9 +162,10 @@ def main(args):
     further = finer(case, each, jobs) if said == "undecided" else None
     more = {name: value for name, value in (("notes", notes), ("next_finer", further)) if value}
     equations = ble.beside(ble.predictions, case)
+    (folder / "case.yaml").write_text(pathlib.Path(args.case).read_text())
     save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **more, "runs": {j.name: verdict(j)[0] for j in jobs.values()},
-                                   "equations": equations,
-                                   "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1)})
+                                   "equations": equations, "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1),
+                                   "command": command(args, runner.ranks)})
     print(f"verdict: {said}")
     print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes),
                      *([said_of_finer(case, further)] if further else [])]))

@@ -129,6 +129,8 @@ def test_verdict_of_all_runs(folder, capsys, D, verdict, status):
         assert "so near the limit finer spacings_mm may decide" in saved["reasons"][2]
     assert list(saved)[:2] == ["verdict", "reasons"] and saved["verdict"] == verdict and f"\nverdict: {verdict}\n  - {saved['reasons'][0]}\n" in out
     assert tries(folder) == {name: 1 for name in saved["runs"]} and len(saved["runs"]) == 4
+    assert saved["command"] == "python3 -m hvi shield emi.yaml --runs runs --jobs 2 --ranks 2"
+    assert (folder / "runs/emi/case.yaml").read_text() == (folder / "emi.yaml").read_text()
     assert saved["core_s"] == pytest.approx(2 * (0.2**-4 + 39.1), abs=0.1)
     for name, said in saved["runs"].items():
         assert re.search(rf"^ *{name} +done +{said} ", out, re.M)

@@ -284,7 +284,13 @@ def test_plan(shield, lmp, root, tmp_path):
     r = lmp(root / "examples" / "whipple-shield" / "in.whipple", vars=dict(case, dry="yes", out=tmp_path), env={"LAMMPS_POTENTIALS": str(root / "potentials")})
     plan = yaml.safe_load((tmp_path / "plan.yaml").read_text())
     assert not (tmp_path / "result.yaml").exists() and "This was the plan" in r.log
-    result = shield(**case)
+    assert plan["materials"].split("; ") == 3 * ["Al2024-T3.hvi"] and plan["settings"]["quarter"] == "yes" and plan["settings"]["pair"] == "dissipation riemann"
+    assert (plan["wall2_front_mm"], plan["wall2_thickness_mm"], plan["wall2_spacing_mm"]) == (pytest.approx(plan["wall1_thickness_mm"] + 10), 1.6, plan["settings"]["dx"])
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run/film.000000001.dump").write_text("of another run")
+    result = shield(**case, film=0.25 * plan["tstop_us"])
+    film = hvi.Dump(sorted(map(str, (tmp_path / "run").glob("film.*.dump"))))  # one frame at the begin, and after each quarter of the time
+    assert [1e6 * film.time(k) for k in range(len(film))] == pytest.approx([0.25 * k * plan["tstop_us"] for k in range(4)], abs=0.05 * plan["tstop_us"])
     assert yaml.safe_load((tmp_path / "run" / "plan.yaml").read_text())["tstop_us"] == plan["tstop_us"]
     total = plan["projectile_particles"] + plan["wall1_particles"] + plan["wall2_particles"]
     assert result["particles"] == pytest.approx(total, rel=0.03)
