@@ -147,7 +147,7 @@ def parameters(rows, out, runs):
     for lattice, part in found:
         kappa, eps, _ = grid(part, "kappa", "eps", F)
         cells = {(len(eps) - 1 - list(eps).index(row["eps"]), list(kappa).index(row["kappa"])): row for row in part}
-        montage(cells, runs, out, f"parameters-{lattice}", lambda row: f"eps {row['eps']:g}, kappa {row['kappa'] / 1e6:g}e6")
+        montage(cells, runs, out, f"parameters-{lattice}", lambda row: f"eps {row['eps']:g} J, kappa {row['kappa'] / 1e6:g}e6 J/m$^2$")
 
 
 def thickness(rows, out, runs):
