@@ -57,7 +57,7 @@ def main(files):
         for angle in (0, 45, 90):
             r, s = profile(x, vm, angle)
             ends.append(front(r, s))
-            curve.plot(r, s, label=f"{angle} degrees")
+            curve.plot(r, s, "--" if angle == 90 else "-", label=f"{angle} degrees")
         for angle in (0, 45, 90):
             stress.append(np.interp(np.mean(ends) - 5, *profile(x, vm, angle)))
         print(name, *("%.1f" % e for e in ends), "%.3f" % (2 * ends[1] / (ends[0] + ends[2])), *("%.0f" % e for e in stress),
