@@ -4,7 +4,7 @@
 #   make demo-dem                  likewise, a debris cloud of discrete elements
 #   make test    the same; then all tests
 #   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so
-#   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures) and of solids
+#   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures) and of solids; long tests
 #   make doc | bench | bench-full | sanitize | clean
 #
 # LAMMPS_VERSION=20250204|20260704   which pinned LAMMPS          LAMMPS_SOURCE_DIR=DIR   your own LAMMPS source tree
@@ -77,7 +77,8 @@ verify:
 	  cmake/env.sh $$python tests/shocks.py --lmp $(OUT)/lmp --out $(OUT)/verify --ranks $(RANKS) $(VERIFY_ARGS) && \
 	  cmake/env.sh $$python tests/solids.py --lmp $(OUT)/lmp --out $(OUT)/verify $(SOLIDS_ARGS) && \
 	  cmake/env.sh $$python tests/states.py --lmp $(OUT)/lmp --out $(OUT)/verify $(STATES_ARGS) && \
-	  cmake/env.sh $$python tests/expansion.py --lmp $(OUT)/lmp --out $(OUT)/verify
+	  cmake/env.sh $$python tests/expansion.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
+	  ctest --test-dir $(BUILD) --output-on-failure -C long -L long -j $(JOBS)
 
 sanitize:
 	@$(MAKE) test BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON

@@ -33,6 +33,7 @@ class Wall:
     spacings_mm: tuple = None  # of its own, as many as the case has
     radius_mm: float = None
     method: str = "sph"
+    yield_ksi: float = None  # for ballistic-limit equations only
 
 
 @dataclasses.dataclass(frozen=True)
@@ -164,7 +165,7 @@ class Reader:
                 value = float(node.value)
             except (TypeError, ValueError):
                 value = math.nan
-            unit = next((word for end, word in (("_mm", " mm"), ("_km_s", " km/s"), ("_deg", " degrees")) if key.endswith(end)), "")
+            unit = next((word for end, word in (("_mm", " mm"), ("_km_s", " km/s"), ("_deg", " degrees"), ("_ksi", " ksi")) if key.endswith(end)), "")
             if not math.isfinite(value):
                 said = f", not {node.value!r}" if isinstance(node, yaml.ScalarNode) else ""
                 self.wrong(key, f"must be a number of{unit}, without the unit{said}" if unit else f"must be a number{said}", node)
@@ -219,7 +220,7 @@ class Reader:
                 "thickness_mm": (self.number(above=0), REQUIRED), "material": (self.material, REQUIRED),
                 "gap_mm": (self.number(above=0), REQUIRED if k > 1 else None),
                 "spacings_mm": (self.several(self.number(above=0)), None),
-                "radius_mm": (self.number(above=0), None), "method": (self.method, "sph")}))
+                "radius_mm": (self.number(above=0), None), "method": (self.method, "sph"), "yield_ksi": (self.number(above=0), None)}))
             if k == 1 and wall.gap_mm:
                 self.wrong("wall 1: gap_mm", "is the gap in front of a wall; there is nothing in front of wall 1")
             found.append(wall)
@@ -296,6 +297,10 @@ def read(path, source):
         reader.setting(name, source, len(case.walls))
     case.check(reader.wrong)
     source.check(own, reader.path)
+    if "weibull" in str(case.settings.get("solid")).split():
+        node = reader.at["settings: solid"]
+        warnings.warn(f"{path}, line {node.start_mark.line + 1}: all runs have the same seed of weibull: what another would change is in no verdict", HVIWarning,
+                      stacklevel=2)
     last, coarse = case.walls[-1], (case.walls[-1].spacings_mm or case.spacings_mm)[0]
     if math.ceil(last.thickness_mm / coarse - 0.01) < LAYERS and "layers" not in case.settings:
         node = reader.at.get(f"wall {len(case.walls)}: spacings_mm") or reader.at["spacings_mm"]

@@ -8,7 +8,7 @@ import pytest
 
 @pytest.fixture(scope="module")
 def markdown(root):
-    return [p for p in sorted(root.glob("*.md")) + sorted(root.glob("examples/*/README.md"))]
+    return [p for p in sorted(root.glob("*.md")) + sorted(root.glob("examples/**/README.md"))]
 
 
 def test_every_style_has_its_page(root):

@@ -294,7 +294,7 @@ TEST(Potentials, AreRightAndCited)
       from = to + 1;
     }
   }
-  EXPECT_EQ(n, 22);
+  EXPECT_EQ(n, 26);
 }
 
 struct Handbook {

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from conftest import ROOT
 
-FILES = """Al-Tillotson Al-Zisis2013 Al1100-O Al2017-T4 Al2024-T3 Al2024-T3-Esposito2024 Al5083-H116 Al6061-T6 Al6061-T6-Esposito2024
-Al7075-T6 Cu-OFHC Cu-Tillotson Fe-Armco Fe-Tillotson Pb Ta carbon-epoxy-Zisis2013 glass-epoxy-Zisis2013 steel-1020 steel-304 steel-4340
-steel-Zisis2013""".split()
+FILES = """Al-Tillotson Al-Zisis2013 Al1100-O Al2017-T4 Al2024-T3 Al2024-T3-Esposito2024 Al2219-T87 Al5083-H116 Al5456-H116 Al6061-T6
+Al6061-T6-Esposito2024 Al7075-T6 Cu-OFHC Cu-Tillotson Fe-Armco Fe-Tillotson PMMA Pb Ta Ti-6Al-4V carbon-epoxy-Zisis2013
+glass-epoxy-Zisis2013 steel-1020 steel-304 steel-4340 steel-Zisis2013""".split()
 
 
 def parse(path):
@@ -206,6 +206,8 @@ def yield_stress(law, s, v, g):
         cold = np.clip((g["T"] - s["Tref"]) / (s["Tm"] - s["Tref"]), 0, 1)
         rate = 1 + s["C"] * np.log(np.maximum(g["rate"] / s["epsdot0"], 1))
         return (s["A"] + s["B"] * g["eps"] ** s["n"]) * rate * (1 - cold ** s["m"]), cold
+    if law == "perfect":
+        return s["Y"] + 0 * g["eps"], None
     eta = g["rho"] / v["rho0"]
     stiff = 1 + s["A"] * g["p"] / eta ** (1 / 3) - s["B"] * (g["T"] - 300)
     return np.minimum(s["Y0"] * (1 + s["beta"] * g["eps"]) ** s["n"], s["Ymax"]) * stiff, None
@@ -272,10 +274,13 @@ def test_tension(lmp, file):
 
 @pytest.mark.parametrize("file", having("spall", "voids"), indirect=True)
 def test_voids(file):
-    """phi_c is 2 Y eps_c/sigma with Grady's eps_c 0.15 and a yield stress of the file, to two digits"""
+    """phi_c is 2 Y eps_c/sigma with Grady's eps_c 0.15 and a yield stress of the file, without plastic strain or at 0.2 %, to two digits"""
     sections = parse(file)[3]
     v = {k: x[0] for k, x in sections["spall", "voids"].items()}
     yields = [x["Y0"][0] if "Y0" in x else x["A"][0] for k, x in sections.items() if k[0] == "strength"]
+    if file.stem in ("Al2219-T87", "Al5456-H116"):  # whose A is made for a yield stress at that strain
+        s = {k: x[0] for k, x in sections["strength", "johnson-cook"].items()}
+        yields = [s["A"] + s["B"] * 0.002 ** s["n"]]
     phi_c = [2 * Y * 0.15 / v["sigma"] for Y in yields]
     assert 0.99 * min(phi_c) <= v["phi_c"] <= 1.01 * max(phi_c)
     if ("spall", "grady") in sections:  # aluminum only
@@ -285,7 +290,8 @@ def test_voids(file):
 
 def test_voids_of_cited_metals():
     """which files have the section"""
-    assert having("spall", "voids") == "Al1100-O Al2017-T4 Al2024-T3 Al5083-H116 Al6061-T6 Cu-OFHC Fe-Armco Ta steel-1020 steel-304".split()
+    assert having("spall", "voids") == """Al1100-O Al2017-T4 Al2024-T3 Al2219-T87 Al5083-H116 Al5456-H116 Al6061-T6 Al7075-T6
+    Cu-OFHC Fe-Armco Ta steel-1020 steel-304""".split()
 
 
 def test_metals_of_the_spall_example():

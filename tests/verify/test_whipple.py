@@ -235,9 +235,30 @@ def test_still_pushed(shield):
     assert r["margins"]["push_percent_per_us"] > 1 and not r["perforated"]
 
 
-def test_outside_the_model(shield):
-    r = shield(**COARSE, walls=1, v0=1500, t1=8, radius1=8, tstop=10, outside="MLI")
-    undecided(r, "the shield has MLI, which is not modelled")
+@pytest.mark.parametrize("text", ["MLI", "a 'blanket': 20 layers # of \"MLI\", - {1}: [2"])
+def test_outside_the_model(shield, text):
+    """any text is one in YAML, too"""
+    r = shield(**COARSE, walls=1, v0=1500, t1=8, radius1=8, tstop=7, outside=text)
+    undecided(r, f"the shield has {text}, which is not modelled")
+
+
+@pytest.mark.parametrize("tstop, least, most", [(9, 0.03, 0.05), (11, 0.01, 0.03)])
+def test_three_percent_may_be_on_their_way(shield, tstop, least, most):
+    """of what the wall has been given, not of the shot"""
+    r = shield(**COARSE, v0=4000, spacing=12, t2=2.4, radius2=12, tstop=tstop, keep=-1)
+    coming = r["wall2_still_to_come"]
+    assert least < coming / r["wall2_energy_ratio"] < most and 1e-4 < coming < 0.03
+    said = [text for text in r["reasons"] + r.get("notes", []) if "still on their way to wall 2" in text]
+    assert len(said) == (coming > 0.03 * r["wall2_energy_ratio"])
+
+
+@pytest.mark.parametrize("t2, verdict", [(4.8, "holds"), (1.6, "undecided")])
+def test_layers_of_the_wall_that_decides(shield, t2, verdict):
+    """that of another is no more than a note"""
+    r = shield(**COARSE, D=2.4, v0=4000, spacing=6, t2=t2, radius2=10, tstop=11, keep=-1)
+    assert r["verdict"] == verdict and r["decided_by"] == "wall2" and (r["wall1_layers"], r["wall2_layers"]) == (1, round(t2 / 0.8))
+    assert [text[:6] for text in r["notes"]] == ["wall 1"] and "does not decide, has 1 layer(s) of particles" in r["notes"][0]
+    assert [text[:6] for text in r["reasons"] if "layer" in text] == ["wall 2"] * (verdict == "undecided")
 
 
 def test_log(lmp, root, tmp_path):
@@ -250,6 +271,7 @@ def test_log(lmp, root, tmp_path):
     assert head in end and end.index("  all ") < end.index(head)
     assert len(set(r.warnings)) == len(r.warnings)
     assert "stage 1: " in r.log and "stage 2: " in r.log
+    assert (tmp_path / "log.whipple").read_text().endswith(r.log[-1000:]) and r.log.count("material: laws") == 2  # one per wall that is made
     us = np.unique(np.concatenate([run["v_us"] for run in r.runs]))  # about a line for each 2 % of the time
     assert 40 < len(us) < 65 and np.diff(us).max() < 0.2
     stages = np.concatenate([run["v_stage"] for run in r.runs])
