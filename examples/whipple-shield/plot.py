@@ -55,7 +55,7 @@ x_range = min(center) - radius, max(center) + radius
 z_range = middle[0] - 0.5 * radius, middle[-1] + radius
 
 # a row of side views with one frame, a row of walls with one frame; heights in inches
-columns, wide, gap, left, right, below, head, bar = max(walls, 2), 5.4, 0.7, 0.7, 0.9, 0.75, 0.75, 0.15
+columns, wide, gap, left, right, below, head, bar = walls, 5.4, 0.7, 0.7, 0.9, 0.75, 0.75, 0.15
 high = [wide * np.ptp(x_range) / np.ptp(z_range), wide * 2 * radius / np.ptp(x_range)]
 total = left + columns * wide + (columns - 1) * gap + right, below + sum(high) + 1.0 + head
 fig = plt.figure(figsize=total)
@@ -82,14 +82,15 @@ for w in reached:
     ax.set(xlim=x_range, ylim=(-radius, radius), xlabel="x (mm)", ylabel="y (mm)")
     mine = final[(final[:, 0] == w) & (np.abs(final[:, 3] - middle[w - 1]) <= NEAR)]
     shown = dots(ax, mine[:, 1], mine[:, 2], np.argsort(-mine[:, 3]), c=mine[:, 3] - middle[w - 1], cmap="coolwarm", vmin=-NEAR, vmax=NEAR)
-    ax.set_title("wall %d from the front, %.1f us: hole %.1f mm" % (w, result["time_us"], result["hole%d_diameter_mm" % w]), fontsize=11)
+    hole = result["hole%d_diameter_mm" % w]
+    ax.set_title("wall %d from the front, %.1f us: hole %s" % (w, result["time_us"], "unknown" if np.isnan(hole) else "%.1f mm" % hole), fontsize=11)
 where = (left + walls * wide + (walls - 1) * gap + 0.15) / total[0], below / total[1], bar / total[0], high[1] / total[1]
 fig.colorbar(shown, cax=fig.add_axes(where), label="z from the wall's median (mm)")
 marks = [Line2D([], [], marker="o", ls="", color=BODIES[w % len(BODIES)], label="wall %d" % w if w else "projectile") for w in range(walls + 1)]
 fig.legend(handles=marks, loc="upper center", ncol=walls + 1, frameon=False, bbox_to_anchor=(0.5, 1.0))
 above = "all particles, at their distance from the axis" if result["quarter"] else "a slice of %g mm through the axis" % (2 * SLAB)
 fig.text(0.5, 0.12 / total[1], "spacing %.3g mm; above: %s; below: what is within %g mm of the wall" % (result["dx_mm"], above, NEAR),
-         ha="center", fontsize=10)
+         ha="center", fontsize=10 if walls > 1 else 7)
 fig.savefig(os.path.join(folder, "shield.png"), dpi=80)
 
 files = sorted(glob.glob(os.path.join(folder, "probe*_*.dat")), key=lambda path: [int(n) for n in re.findall(r"\d+", os.path.basename(path))])
