@@ -161,7 +161,8 @@ def side(source, axis="z", up=None, color="type", thickness=None, fragments=None
             bar.set_ticks(ticks, labels=[f"{t:.0f}" for t in ticks], minor=False)
             bar.minorticks_off()
     _label(ax, unit_systems.label(axis, unit), unit_systems.label(up, unit))
-    ax.set_title(_moment(frame), fontsize=STYLE["size"], loc="left")
+    cut = "" if thickness is None else f", slice of {thickness / factor:.3g} {unit}"
+    ax.set_title(_moment(frame) + cut, fontsize=STYLE["size"], loc="left")
     return figure
 
 
@@ -260,7 +261,7 @@ def impacts(source, found, axis="z"):
         _bar(figure, mesh, f"{quantity} per area ({text})", "min", ax=ax, orientation="horizontal", pad=0.02, fraction=0.05)
         ax.set_aspect("equal")
         _label(ax, unit_systems.label(names[0], unit), unit_systems.label(names[1], unit))
-    left.set_title(_moment(frame), fontsize=STYLE["size"], loc="left")
+    left.set_title(f"{_moment(frame)}, bins of {(found.x[1] - found.x[0]) / factor:.3g} {unit}", fontsize=STYLE["size"], loc="left")
     return figure
 
 
