@@ -110,6 +110,18 @@ def has_strength(path):
         raise HVIError(f"cannot read {path}: {problem}") from None
 
 
+def tears(name, solid):
+    """True if there is something in a material file that lets it fail under tension, with these words of fix hvi/johnson-cook"""
+    path = next((p for p in (pathlib.Path(name), *(folder / name for folder in runs.potentials())) if p.is_file()), None)
+    if path is None:
+        return True  # LAMMPS says so
+    words, text = solid.split(), path.read_text(errors="replace")
+    law, damage = (next((new for old, new in zip(words, words[1:]) if old == key), preset) for key, preset in (("spall", "principal"), ("damage", "yes")))
+    section = law if law in ("voids", "tuler-butcher", "grady") else "limit"
+    return (law != "none" and re.search(rf"^[ \t]*spall[ \t]+{section}\b", text, re.M) is not None
+            or damage != "no" and re.search(r"^[ \t]*damage[ \t]", text, re.M) is not None)
+
+
 def is_number(word):
     try:
         return math.isfinite(float(word))

@@ -65,7 +65,9 @@ class Report:
         found = self.said or self.run.result
         if found.get("verdict") not in MARKS:
             raise HVIError(f"{self.name}: the verdict must be {', '.join(MARKS)}, not {found.get('verdict')}")
-        return found["verdict"], *(texts(found, key) for key in ("reasons", "notes"))
+        said = found["verdict"], *(texts(found, key) for key in ("reasons", "notes"))
+        run = self.run
+        return said if self.said else shield.judged(*said, *shield.lacking(str(run.settings["solid"]), run.materials[0], run.materials[1:]))
 
     # ------------------------------------------------------------------ words and numbers
     def shot(self):

@@ -48,7 +48,29 @@ def verdict(job):
     if said not in STATUS:
         raise HVIError(f"{job.folder / 'result.yaml'}: no verdict, holds, fails or undecided, but {said}")
     lists = [result.get(key) or [] for key in ("reasons", "notes")]
-    return said, *([as_key(str(text)) for text in (found if isinstance(found, list) else [found])] for found in lists)
+    reasons, notes = ([as_key(str(text)) for text in (found if isinstance(found, list) else [found])] for found in lists)
+    return judged(said, reasons, notes, *whole_in_tension(job))
+
+
+def judged(said, reasons, notes, walls, ball):
+    """(verdict, reasons, notes) with what whole_in_tension() says, of which in.whipple does not know"""
+    if said == "fails":
+        return said, reasons, notes + walls + ball
+    return "undecided" if walls else said, walls + reasons, notes + ball
+
+
+def whole_in_tension(job):
+    """(texts on walls, on the projectile) whose material file has nothing that lets them fail under tension"""
+    given = re.search(r'^\s*variable\s+solid\s+index\s+"([^"\n]*)"', job.input.texts[job.input.name], re.M)
+    solid = job.variables.get("solid") or (given[1] if given else None)
+    return lacking(solid, job.variables["material_p"], job.variables["material"]) if solid else ([], [])
+
+
+def lacking(solid, ball, walls):
+    """the same of words of fix hvi/johnson-cook and of material files"""
+    text = "{} is of {}, whose file has no law of spall for '{}': in tension it does not fail"
+    return ([text.format(f"wall {k}", name, solid) for k, name in enumerate(walls, 1) if not cases.tears(name, solid)],
+            [] if cases.tears(ball, solid) else [text.format("the projectile", ball, solid)])
 
 
 def as_key(text):
@@ -97,7 +119,7 @@ def finer(case, said, jobs):
 
     said: {member: (verdict, reasons, notes)}; None if no spacing can decide
     """
-    if case.not_modelled:
+    if case.not_modelled or whole_in_tension(jobs[0, case.shifts[0]])[0]:
         return None
     last, which = case.walls[-1], len(case.spacings_mm) - 1
     fine = (last.spacings_mm or case.spacings_mm)[-1]

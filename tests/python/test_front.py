@@ -139,6 +139,25 @@ def test_verdict_of_all_runs(folder, capsys, D, verdict, status):
                                                                     if D == 4.43 else "differs over the shift" not in reasons)
 
 
+@pytest.mark.parametrize("D, wall, ball, verdict", [(4, "Ti-6Al-4V", "Al2024-T3", "undecided"), (6, "Ti-6Al-4V", "Al2024-T3", "fails"), (4, "Al6061-T6", "PMMA", "holds")])
+def test_what_cannot_tear_in_tension(folder, capsys, D, wall, ball, verdict):
+    """a wall without a law of spall is none that holds: a file of it has nothing that lets it fail"""
+    text = CASE.replace("diameter_mm: 5", f"diameter_mm: {D}").replace("material: Al6061-T6", f"material: {wall}").replace("  material: Al2024-T3", f"  material: {ball}")
+    (folder / "emi.yaml").write_text(text)
+    assert front("shield", "--jobs", "3") == shield.STATUS[verdict]
+    said = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())
+    place = "reasons" if verdict == "undecided" else "notes"
+    what = f"wall 2 is of {wall}.hvi" if wall[0] == "T" else f"the projectile is of {ball}.hvi"
+    assert said["verdict"] == verdict and "next_finer" not in said
+    assert [text for text in said[place] if text.startswith(f"{what}, whose file has no law of spall for 'damage no spall voids'")]
+
+
+def test_laws_that_let_a_material_tear():
+    for name, solid, tears in (("Al6061-T6.hvi", "damage no spall voids", True), ("Ti-6Al-4V.hvi", "damage no spall voids", False), ("Ti-6Al-4V.hvi", "", True),
+                               ("Ti-6Al-4V.hvi", "spall none", True), ("PMMA.hvi", "", False), ("Al6061-T6.hvi", "damage no spall none", False)):
+        assert cases.tears(name, solid) is tears, (name, solid)
+
+
 def test_settings_that_are_right(folder):
     (folder / "p.data").write_text("")
     (folder / "emi.yaml").write_text(CASE + "settings: {tstop: 0, keep: -1, C: 0.5, pair: riemann, solid: no damage, edge: clamp, quarter: no, probe_at: [0, 5], "

@@ -150,6 +150,14 @@ def test_report_of_a_run_by_hand(tmp_path, capsys):
     assert "do not have what one names in not_modelled: MLI, of 20 layers" in words and "JSC Whipple 2011" not in words
 
 
+def test_report_of_a_wall_that_cannot_tear(tmp_path, capsys):
+    """of one run as of several"""
+    make_run(tmp_path / "one", 1.0, verdict="holds", material="Ti-6Al-4V.hvi")
+    assert cli.main(["report", str(tmp_path / "one"), "--out", "a.html"]) == 0
+    seen = Seen((tmp_path / "a.html").read_text())
+    assert seen.all("body")[0]["class"] == "undecided" and "wall 1 is of Ti-6Al-4V.hvi, whose file has no law of spall" in "".join(seen.text)
+
+
 def test_report_of_what_is_not_known(several, capsys):
     """a hole that nobody knows, reasons that are one text"""
     result = several / "dx-1/result.yaml"
