@@ -83,7 +83,8 @@ def title(case, shield):
 
     walls = ", ".join((f"gap {wall.gap_mm:g} mm, " if wall.gap_mm else "") + f"{wall.thickness_mm:g} mm {named(wall.material)}" for wall in case.walls)
     strength = f" ({shield.wall_yield_ksi:g} ksi)" if shield.walls == 2 else ""
-    return f"{case.name}: {named(case.material)} on {walls}{strength}, {case.angle_deg:g} degrees"
+    capped = f" (beyond {ble.CAP:g}: critical diameters are those of {ble.CAP:g})" if shield.walls == 2 and case.angle_deg > ble.CAP else ""
+    return f"{case.name}: {named(case.material)} on {walls}{strength}, {case.angle_deg:g} degrees{capped}"
 
 
 # ---------------------------------------------------------------------- published shots

@@ -81,7 +81,7 @@ class Eos:
         return Us, self.rho0 * Us * up, self.rho0 / (1.0 - up / Us), 0.5 * up * up + 0.0 * Us
 
     def isentrope(self, eta):
-        """(p, e, T) on the isentrope through the reference state at compressions eta >= 0, which increase; T is NaN without cp"""
+        """(p, e, T) on the isentrope through the reference state at compressions eta >= 0, which increase; T is NaN without cp, all are where eta is"""
         def slope(x, e, T):
             rho = self.rho0 / (1.0 - x)
             de = 1e-6 * self.c0**2
@@ -90,6 +90,9 @@ class Eos:
 
         found, x, e, T = [], 0.0, 0.0, self.T0
         for end in np.atleast_1d(np.asarray(eta, float)):
+            if np.isnan(end):
+                found.append((np.nan,) * 3)
+                continue
             n = max(int(np.ceil((end - x) * STEPS)), 1)
             d = (end - x) / n
             for _ in range(n):

@@ -65,6 +65,8 @@ def main(args):
     dump, name = sources(args)
     out = pathlib.Path(args.out or name)
     out = out.with_suffix("") if out.suffix == ".pvd" else out
+    if out.name in ("", ".."):
+        raise HVIError(f"--out {args.out} is a folder: it must be a name, as {pathlib.Path(args.out, 'shield')}")
     rows = []
     try:
         with progress.bar(len(dump), "frames") as bar:

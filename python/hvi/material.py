@@ -128,6 +128,11 @@ def find(name):
     raise HVIError(f"cannot find material file {name}, neither here nor in LAMMPS_POTENTIALS")
 
 
+def _words(text):
+    """as split() of hvi_text.h: other blanks, like those of web pages, belong to words"""
+    return re.findall(r"[^ \t\r\f\v]+", text)
+
+
 def _number(word):
     """as C's strtod on decimal digits: no inf, nan or hexadecimal numbers; None: it is none"""
     try:
@@ -146,7 +151,7 @@ class _Reader:
 
     def head(self, comment):
         """a comment before the first section"""
-        material, words = self.material, comment.split()
+        material, words = self.material, _words(comment)
         for word, value in zip(words, words[1:]):
             if word == "DATE:":
                 material.date = value
@@ -228,6 +233,11 @@ class _Reader:
                 values.setdefault(key, preset)
             if self.now == ("eos", "table") and not material.table:
                 self.wrong("missing key file")
+            if material.table:
+                try:
+                    find(material.table)
+                except HVIError:
+                    self.wrong(f"cannot find table file {material.table}, neither here nor in LAMMPS_POTENTIALS", self.given[self.now]["file"])
             law = self.now[1]
             if law == "tillotson" and not values["Ecv"] > values["Eiv"]:
                 self.wrong(f"Ecv = {values['Ecv']:g} must be > Eiv = {values['Eiv']:g}")
@@ -251,13 +261,13 @@ def read(name):
     """The Material of a file, or an HVIError that names file and line."""
     path = find(name)
     try:
-        text = path.read_text(encoding="utf-8", errors="replace")
+        text = path.read_bytes().decode("utf-8", errors="replace")
     except OSError as error:
         raise HVIError(f"cannot read {path}: {error.strerror or error}") from None
     reader = _Reader(path)
-    for reader.line, line in enumerate(text.splitlines(), 1):
+    for reader.line, line in enumerate(text.split("\n"), 1):
         body, _, comment = line.partition("#")
-        words = body.split()
+        words = _words(body)
         if reader.now is None and not words:
             reader.head(comment)
         elif words and words[0] in KINDS:

@@ -16,7 +16,7 @@ from . import ble, progress, report_pictures as pictures, runs, shield, tables
 from . import page as pages
 from .errors import HVIError
 from .page import Html, items, join, section, table, tag
-from .shield_run import runs_of
+from .shield_run import runs_of, texts
 from .version import version
 
 MARKS = {"holds": "\u2713", "fails": "\u2715", "undecided": "?"}
@@ -65,7 +65,7 @@ class Report:
         found = self.said or self.run.result
         if found.get("verdict") not in MARKS:
             raise HVIError(f"{self.name}: the verdict must be {', '.join(MARKS)}, not {found.get('verdict')}")
-        return found["verdict"], *([str(text) for text in found.get(key) or []] for key in ("reasons", "notes"))
+        return found["verdict"], *(texts(found, key) for key in ("reasons", "notes"))
 
     # ------------------------------------------------------------------ words and numbers
     def shot(self):
@@ -92,13 +92,13 @@ class Report:
     def tiles(self):
         result, last = self.run.result, self.run.reached
         hole = result.get(f"hole{last}_diameter_mm")
-        cost = self.said.get("core_s") if self.said else result.get("core_s")
+        cost = sum(float(run.result["core_s"]) for run in self.runs)
         found = [("unknown" if hole is None or not np.isfinite(hole) else f"{hole:.1f} mm" if hole else "none", f"hole in wall {last}"),
                  (f"{result.get(f'wall{last}_apart_mass_mg', 0):.4g} mg", f"apart behind wall {last}"),
                  (f"{result.get(f'wall{last}_bulge_over_thickness', 0):.2f}", f"bulge over thickness of wall {last}"),
                  (f"{result.get(f'wall{last}_layers', 0):g}", f"layers of particles in wall {last}"),
                  (f"{abs(float(result['energy_ratio']) - 1.0):.0e}", "energy missing in the ledger"),
-                 (runs.duration(float(cost)), f"core time of {len(self.runs)} run{'s' * (len(self.runs) > 1)}")]
+                 (runs.duration(cost), f"core time of {len(self.runs)} run{'s' * (len(self.runs) > 1)}")]
         return tag("div", *(tag("div", tag("b", value), tag("span", text), class_="tile") for value, text in found), class_="tiles")
 
     def summary(self, hero):
@@ -142,15 +142,16 @@ class Report:
         titles = {name: f"{equation.title} [{equation.source}]" for name, equation in ble.EQUATIONS.items()}
         if isinstance(found, str):
             return section("Ballistic-limit equations", tag("p", found))
+        strength = "" if self.said else " Of the strength of the last wall a run knows nothing: it is that of the table for this material, whatever yield_ksi says in a case."
         rows = [(f"{name}: {titles[name]}" if name in titles else name, of["critical_diameter_mm"], of["d_over_critical"], word(of["predicted"]), "; ".join(of["outside"]) or "-")
                 for name, of in found.items()]
         return section("Ballistic-limit equations", tag("p", f"What the equations of engineers say of a projectile of {self.case.diameter_mm:g} mm, beside the simulation: ", word(self.verdict)),
-                        table(("equation", "critical diameter, mm", "projectile over it", "says", "outside of its range of validity"), rows), tag("p", "Sources in brackets: Howto_ble.", class_="note"))
+                        table(("equation", "critical diameter, mm", "projectile over it", "says", "outside of its range of validity"), rows), tag("p", f"Sources in brackets: Howto_ble.{strength}", class_="note"))
 
     def all_runs(self):
         keys = ["verdict", *(f"hole{k}_diameter_mm" for k in range(1, self.run.walls + 1)), f"wall{self.run.walls}_spall_mass_mg", f"wall{self.run.walls}_apart_mass_mg", "particles", "steps",
                 "time_us", "core_s"]
-        rows = [(run.name, run.settings["dx"], run.settings["shift"], word(run.result["verdict"]), *(run.result.get(key, "-") for key in keys[1:])) for run in self.runs]
+        rows = [(run.name, run.settings["dx"], run.settings["shift"], word(run.result["verdict"]), *("unknown" if (value := run.result.get(key, "-")) != value else value for key in keys[1:])) for run in self.runs]
         return table(("run", "spacing mm", "shift", "verdict", *(key.replace("_diameter_mm", " mm").replace("_mass_mg", " mg").replace("_", " ") for key in keys[1:])), rows, class_="short")
 
     def numerics(self):
@@ -199,6 +200,8 @@ class Report:
         if self.said and case.is_file():
             parts += [tag("p", "The case:"), tag("pre", case.read_text(errors="replace"), class_="wrap")]
         parts += [tag("p", f"The run {self.run.name} alone, from examples/whipple-shield with LAMMPS_POTENTIALS set to the folder potentials:"), tag("pre", single, class_="wrap")]
+        if not self.run.job.get("variables"):
+            parts.append(tag("p", "It was run by hand: this is what plan.yaml says, which does not have data files of walls (variable plate) and places of probes.", class_="note"))
         rows = [("LAMMPS", result["lammps_version"]), ("USER-HVI that ran", result["package_version"]), ("lammps-hvi that made this report", version()),
                 ("Python, NumPy, matplotlib", f"{platform.python_version()}, {np.__version__}, {matplotlib.__version__}")]
         rows = [(name, str(value)) for name, value in rows]

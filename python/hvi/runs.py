@@ -299,8 +299,10 @@ class Runner:
         self.jobs, self.ranks = args.jobs, args.ranks or ranks or 2
         self.timeout, self.mpirun = args.timeout or timeout, args.mpirun
         self.lmp = pathlib.Path(args.lmp or os.environ.get("HVI_LMP") or ROOT / "build" / "lmp")
-        if not self.lmp.is_file() or not os.access(self.lmp, os.X_OK):
-            raise HVIError(f"{self.lmp} {'cannot be executed' if self.lmp.is_file() else 'does not exist'}: run make first, or give --lmp FILE")
+        if not self.lmp.is_file():
+            raise HVIError(f"{self.lmp} does not exist: run make first, or give --lmp FILE")
+        if not os.access(self.lmp, os.X_OK):
+            raise HVIError(f"{self.lmp} cannot be executed: run make first, or give --lmp FILE")
         self.lmp = self.lmp.resolve()
         if not shutil.which(self.mpirun):
             raise HVIError(f"{self.mpirun} is not there: install MPI, or give --mpirun FILE")

@@ -12,6 +12,17 @@ from .dump import Dump
 from .errors import HVIError
 
 
+class Said(dict):
+    """A mapping of a file: what it lacks is an error that names file and key"""
+
+    def __init__(self, path, mapping):
+        super().__init__(mapping)
+        self.path = path
+
+    def __missing__(self, key):
+        raise HVIError(f"{self.path} has no {key}: it is of another input or of another version of in.whipple; run it again")
+
+
 class Scene:
     """A frame of a run, whole, in mm, us and km/s: x, v (n, 3), body (n,): 0 the projectile, k wall k; radius (n,): of spheres of the particles' volume"""
 
@@ -38,7 +49,8 @@ class Run:
             raise HVIError(f"{self.folder}: no complete result.yaml: is the run over?")
         if not self.plan or not isinstance(self.plan.get("settings"), dict) or "materials" not in self.plan:
             raise HVIError(f"{self.folder / 'plan.yaml'} does not say what was run (materials, settings): it is of another version of in.whipple; run it again")
-        self.settings = self.plan["settings"]
+        self.result = Said(self.folder / "result.yaml", self.result)
+        self.plan, self.settings = (Said(self.folder / "plan.yaml", mapping) for mapping in (self.plan, self.plan["settings"]))
         self.walls, self.zones, self.reached = (int(n) for n in (self.result["walls"], self.result["zones"], self.result["walls_reached"]))
         self.materials = str(self.plan["materials"]).split("; ")
 
@@ -64,10 +76,16 @@ class Run:
         for k in range(1, self.walls + 1):
             gap = self.faces(k)[0] - self.faces(k - 1)[1] if k > 1 else None
             walls.append(cases.Wall(float(self.of_wall(k, "thickness_mm")), self.materials[k], gap))
-        outside = self.job.get("variables", {}).get("outside")
-        s = self.settings
+        outside, s = self.outside(), self.settings
         return cases.Case(name=self.name, diameter_mm=float(s["D"]), material=self.materials[0], speed_km_s=1e-3 * float(s["v0"]), angle_deg=float(s["angle"]),
                           walls=tuple(walls), spacings_mm=(float(s["dx"]),), shifts=(float(s["shift"]),), not_modelled=(outside,) if outside else ())
+
+    def outside(self):
+        """what the shield has and the model has not, None: nothing; a run by hand says it in its reasons only"""
+        if self.job.get("variables"):
+            return self.job["variables"].get("outside")
+        found = (re.match(r"the shield has (.*), which is not modelled ", text, re.S) for text in texts(self.result, "reasons"))
+        return next((one[1] for one in found if one), None)
 
     def words(self):
         """variables as they are typed after lmp -in in.whipple, by name: those that the run was given, or all that the plan knows"""
@@ -81,7 +99,8 @@ class Run:
         for name, what in (("thickness", "thickness_mm"), ("spacings", "spacing_mm"), ("layers", "layers"), ("radius", "radius_mm")):
             found[name] = [f"{self.of_wall(k, what):g}" for k in number]
         found["gap"] = ["0"] + [f"{self.faces(k)[0] - self.faces(k - 1)[1]:g}" for k in number if k > 1]
-        return {**found, **{name: [str(self.settings[name])] for name in ("quarter", "probes")}}
+        found.update({name: [str(self.settings[name])] for name in ("quarter", "probes")})
+        return {**found, "outside": [self.outside()]} if self.outside() else found
 
     def dumps(self):
         """paths of all frames, in order of time"""
@@ -115,13 +134,21 @@ class Run:
         return [Scene(dump[int(k)], self) for k in dict.fromkeys(int(np.argmin(np.abs(times - t))) for t in targets)]
 
 
+def texts(mapping, key):
+    """a list of texts, where a file has a list, one text or none"""
+    found = mapping.get(key) or []
+    return [str(text) for text in (found if isinstance(found, list) else [found])]
+
+
 def runs_of(folder):
     """(verdict.yaml or None, [Run, ...] with the finest first) of a folder of hvi shield, or of a single run"""
     folder = pathlib.Path(folder)
     if not folder.is_dir():
         raise HVIError(f"{folder} is not a folder")
     said = runs.read_yaml(folder / "verdict.yaml")
-    if said and isinstance(said.get("runs"), dict):
+    if said and not (isinstance(said.get("runs"), dict) and said["runs"]):
+        raise HVIError(f"{folder / 'verdict.yaml'} names no runs: call python3 -m hvi shield again")
+    if said:
         return said, sorted((Run(folder / str(name)) for name in said["runs"]), key=lambda run: (float(run.settings["dx"]), -float(run.settings["shift"])))
     if (folder / "result.yaml").is_file():
         return None, [Run(folder)]

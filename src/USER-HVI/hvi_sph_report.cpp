@@ -175,13 +175,16 @@ struct HVISphReport::Told {
 bool HVISphReport::is_told(const std::string &settings)
 {
   static constexpr double SAME = 1.0e-6;    // of mean masses, which are sums in any order
+  static constexpr double NEAR = 0.1;       // of those of fewer particles
   static Told told;
-  bool same = told.clock == lmp->initclock && told.settings == settings;
+  bool same =
+      told.clock == lmp->initclock && told.settings == settings && told.rows.size() == rows.size();
   for (int i = 1; same && i <= atom->ntypes; i++) {
     const Row &row = rows[i], &last = told.rows[i];
-    const bool heavier = std::fabs(row.mass - last.mass) > SAME * last.mass;
+    const double most = row.number == last.number ? SAME : NEAR;
+    const bool heavier = row.number > 0.0 && std::fabs(row.mass - last.mass) > most * last.mass;
     same = (store->is_reported || row.fresh == 0.0) && row.number <= last.number &&
-        row.fresh <= last.fresh && !(row.number == last.number && heavier);
+        row.fresh <= last.fresh && !heavier;
   }
   told = {lmp->initclock, settings, rows};
   store->is_reported = true;

@@ -205,6 +205,15 @@ def test_command(folder, capsys):
     assert head == "speed_km_s,NNO_mm,NNO_beyond,JSC_mm,JSC_beyond" and float(first.split(",")[1]) == pytest.approx(10 * d_c("NNO", of, 3))
 
 
+@pytest.mark.parametrize("angle, told", [(65, False), (75, True)])
+def test_the_cap_of_angles_is_said(folder, capsys, angle, told):
+    """within the range of tests, yet no longer that of this angle"""
+    (folder / "emi.yaml").write_text(CASE + f"angle_deg: {angle}\n")
+    assert cli.main(["ble", "emi.yaml", "--equation", "NNO"]) == 0
+    out = capsys.readouterr().out
+    assert f"{angle} degrees" in out and ("(beyond 65: critical diameters are those of 65)" in out) == told
+
+
 @pytest.mark.parametrize("words, message", [((), "give a case, or --shots FILE"), (("emi.yaml", "--shots", "s.csv"), "give a case, or --shots FILE"),
                                             (("--shots", "s.csv", "--figure", "f"), "--figure is of a case"), (("emi.yaml", "--equation", "CP-perforation"), "no equation CP-perforation for this")])
 def test_wrong_options(folder, capsys, words, message):

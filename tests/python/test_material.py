@@ -81,6 +81,9 @@ def test_keys_are_those_of_the_headers():
     (HEAD + EOS + "spall voids\n  sigma 1e9\n  rate 1e5\n  m 1.5\n", "x.hvi:13: spall voids: m = 1.5 must be in (0, 1]"),
     (HEAD + "# No spall: lazy\n" + EOS + "spall limit\n  sigma_p 1e9\n", "x.hvi: its head says 'No spall', but it has a section spall"),
     (HEAD + "eos table\n", "x.hvi:4: eos table: missing key file"),
+    (HEAD + "eos table\n\nfile no.table\n", "x.hvi:6: eos table: cannot find table file no.table, neither here nor in LAMMPS_POTENTIALS"),
+    (HEAD + "eos linear\nrho0\u00a03\n", "x.hvi:5: eos linear: unknown key rho0\u00a03; known are rho0 K"),
+    ((HEAD + EOS).replace("\n", "\r"), "x.hvi: no section eos"),
 ])
 def test_wrong_files(lmp, written, capsys, text, message):
     """one line that names file and line; LAMMPS refuses the file at the same line"""
@@ -93,6 +96,14 @@ def test_wrong_files(lmp, written, capsys, text, message):
     result = lmp("units si\natom_style sph\nregion b block 0 1 0 1 0 1\ncreate_box 1 b\npair_style hvi/sph cubic\n"
                  f"pair_coeff 1 1 file {name} h 0.1\n", expect_fail=True)
     assert result.returncode != 0 and re.search(rf"Material file {re.escape(message.split(': ')[0])}\b", result.error), str(result)
+
+
+def test_lines_and_blanks(lmp, written):
+    """as LAMMPS has them: all that ends a line elsewhere is text or a blank"""
+    name = written((HEAD + "# one\u2028line\x85 with\fall\v of it\n" + EOS.replace("rho0 2700", "rho0\f2700\v")).replace("\n", "\r\n"))
+    assert material.read(name).sections["eos", "gruneisen"]["rho0"] == 2700
+    lmp("units si\natom_style sph\nregion b block 0 1 0 1 0 1\ncreate_box 1 b\npair_style hvi/sph cubic dissipation riemann\n"
+        f"pair_coeff 1 1 file {name} h 0.1\n")
 
 
 def test_what_a_file_says(written, capsys):
@@ -290,6 +301,17 @@ def test_hugoniots_end():
     assert Us[:3] == pytest.approx(2006 / (1 - 1.429 * eta - 0.8506 * eta**2 + 1.64 * eta**3)) and np.all(np.diff(Us[:3]) > 0) and np.isnan(Us[3])
 
 
+@pytest.mark.parametrize("eos", ["eos gruneisen\nrho0 2700\nC 5200\nS1 0\ng0 2\ncp 900\n", "eos gruneisen\nrho0 8930\nC 3940\nS1 1.0\ng0 2\ncp 385\nS2 -1.1\n"])
+def test_curves_end_where_the_hugoniot_does(written, capsys, eos):
+    """beyond there is nan, of the temperature too"""
+    name = written("# UNITS: si\n" + eos)
+    assert cli.main(["material", name, "--out", "h.csv", "--figure", "h.png"]) == 0
+    with open("h.csv") as stream:
+        rows = [[float(row[key]) for key in ("p_GPa", "T_K")] for row in csv.DictReader(stream)]
+    known = np.isfinite(rows)
+    assert np.all(known[:3]) and not np.any(known[-1]) and np.all(known[:, 0] == known[:, 1]) and rows[2][1] > rows[0][1] > 300
+
+
 def test_nothing_bears_shear_above_melting():
     one = material.read(ROOT / "potentials" / "Al6061-T6.hvi")
     for law, melt in (("johnson-cook", 775), ("steinberg-guinan", 1220)):
@@ -316,8 +338,9 @@ def test_spall_strength(written):
         curves.spall_strength(no_strength, "grady", rate)
 
 
-def test_laws_without_curves(written, capsys):
+def test_laws_without_curves(written, tmp_path, capsys):
     """a gas and a table are read; what cannot be drawn is said"""
+    (tmp_path / "none.table").write_text("nothing\n")
     for text, law in (("eos idealgas\ngamma 1.4\n", "idealgas"), ("eos table\nfile none.table\n", "table")):
         name = written("# UNITS: si\n# A thing\n" + text)
         assert cli.main(["material", name, "--figure", "t.png"]) == 0

@@ -140,6 +140,27 @@ def test_report_of_one_run(tmp_path, capsys):
     assert "-var thickness 1 1 -var spacings 1 1 -var layers 1 1 -var radius 8 8 -var gap 0 6" in words
 
 
+def test_report_of_a_run_by_hand(tmp_path, capsys):
+    """what is not modelled is in its reasons only, and in the command to repeat it; equations say nothing of it"""
+    make_run(tmp_path / "one", 1.0, verdict="undecided", reason="the shield has MLI, of 20 layers, which is not modelled (as stuffing, MLI and honeycomb are not) -- test it")
+    (tmp_path / "one/job.yaml").unlink()
+    assert cli.main(["report", str(tmp_path / "one"), "--out", "a.html"]) == 0
+    words = "".join(Seen((tmp_path / "a.html").read_text()).text)
+    assert "-var outside 'MLI, of 20 layers'" in words and "It was run by hand" in words
+    assert "do not have what one names in not_modelled: MLI, of 20 layers" in words and "JSC Whipple 2011" not in words
+
+
+def test_report_of_what_is_not_known(several, capsys):
+    """a hole that nobody knows, reasons that are one text"""
+    result = several / "dx-1/result.yaml"
+    result.write_text(result.read_text().replace("hole1_diameter_mm: 3.0", "hole1_diameter_mm: .nan"))
+    verdict = yaml.safe_load((several / "verdict.yaml").read_text())
+    (several / "verdict.yaml").write_text(yaml.safe_dump({**verdict, "reasons": "one text", "core_s": None}))
+    assert cli.main(["report", str(several)]) == 0
+    text = (several / "report.html").read_text()
+    assert "<td>unknown</td>" in text and "<td>nan</td>" not in text and "<li>one text</li>" in text
+
+
 def test_wrong_folders(tmp_path, capsys):
     make_run(tmp_path / "run", 1.0)
     (tmp_path / "empty").mkdir()
@@ -152,6 +173,15 @@ def test_wrong_folders(tmp_path, capsys):
     result.write_text(whole.replace("verdict: fails", "verdict: perhaps"))
     assert cli.main(["report", str(tmp_path / "run")]) == 1 and "must be holds, fails, undecided, not perhaps" in capsys.readouterr().err
     result.write_text(whole)
+    plan = (tmp_path / "run/plan.yaml").read_text()
+    (tmp_path / "run/plan.yaml").write_text(plan.replace("wall2_radius_mm", "wall2_r"))
+    assert cli.main(["report", str(tmp_path / "run")]) == 1 and "run/plan.yaml has no wall2_radius_mm: it is of another input" in capsys.readouterr().err
+    (tmp_path / "run/plan.yaml").write_text(plan)
+    result.write_text(whole.replace("ranks:", "rank:"))
+    assert cli.main(["report", str(tmp_path / "run")]) == 1 and "run/result.yaml has no ranks: it is of another input" in capsys.readouterr().err
+    result.write_text(whole)
+    (tmp_path / "empty/verdict.yaml").write_text("verdict: holds\nruns: {}\n")
+    assert cli.main(["report", str(tmp_path / "empty")]) == 1 and "verdict.yaml names no runs" in capsys.readouterr().err
     (tmp_path / "run/plan.yaml").write_text("steps: 3\n")
     assert cli.main(["report", str(tmp_path / "run")]) == 1 and "does not say what was run" in capsys.readouterr().err
 
@@ -214,6 +244,8 @@ def test_export_read_back(several, tmp_path, capsys):
     """positions, velocities and columns with units as in the dump, of the whole; times in the PVD"""
     meshio = pytest.importorskip("meshio", reason="meshio is not there (Debian: python3-meshio)")
     assert cli.main(["export", str(several), "--out", "a/shield.pvd"]) == 1 and "cannot write" in capsys.readouterr().err
+    for folder in (".", ".."):
+        assert cli.main(["export", str(several), "--out", folder]) == 1 and f"--out {folder} is a folder: it must be a name" in capsys.readouterr().err
     assert cli.main(["export", str(several)]) == 0
     assert "5 frames, lengths in m, times in s" in capsys.readouterr().out
     import xml.etree.ElementTree as tree

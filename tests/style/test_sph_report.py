@@ -179,7 +179,7 @@ def test_once_per_scene(lmp, tmp_path):
 
 @pytest.mark.parametrize("nranks", [1, 2])
 def test_again_when_the_scene_changes(lmp, tmp_path, nranks):
-    """other words, smoothing lengths, masses, more particles: not fewer, nor those that clear and a restart file bring back"""
+    """other words, smoothing lengths, masses, of fewer particles too, more particles: not fewer, nor those that clear and a restart file bring back"""
     s = block((6, 6, 6))
     s.write(tmp_path / "again.data")
     fixes = "neighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\nfix sph all hvi/sph\ntimestep 0.001\n"
@@ -187,6 +187,7 @@ def test_again_when_the_scene_changes(lmp, tmp_path, nranks):
     parts = [("run 1\nrun 1\n", 1), ("pair_coeff 1 1 eos tait 1.0 4.0 7 h 1.25\nrun 1\n", 1), ("mass 1 1.01\nrun 1\n", 1), ("run 0\n", 0),
              ("group few id 1\ndelete_atoms group few compress no\nrun 1\n", 0), ("create_atoms 1 single 3.0 3.0 3.0\nset type 1 sph/rho 1.0\nrun 1\n", 1),
              (last, 0), (last, 0), ("clear\nread_restart r\nmass 1 1.02\n" + fixes + "run 1\n", 1),
+             ("clear\nread_restart r\ngroup some id 2:9\ndelete_atoms group some compress no\nmass 1 1.3\n" + fixes + "run 1\n", 1),
              ("clear\n" + plain(s, tmp_path, more="timestep 0.001\n") + "run 1\n", 1), ("clear\n" + plain(s, tmp_path) + "run 0\n", 1)]
     text = plain(s, tmp_path, more="timestep 0.001\n") + "".join(part + "print 'next part'\n" for part, _ in parts)
     logs = lmp(text, nranks=nranks).log.split("\nnext part")[:-1]

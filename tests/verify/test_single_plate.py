@@ -56,7 +56,8 @@ def test_variants(lmp, root, tmp_path, variables):
     (dict(material_p="Unobtainium.hvi"), "Unobtainium.hvi"), (dict(damage="maybe"), "maybe"), (dict(spall="often"), "often"),
     (dict(dx=0), "dx must be above 0"), (dict(v0=0), "v0 must be above 0"), (dict(D=-1), "D must be above 0"), (dict(dx=6), "two particles across"),
     (dict(angle=90), "angle must be from 0 to less than 90"), (dict(Rplate=4), "the plate must be wider than the projectile"),
-    (dict(dry="maybe"), "dry must be yes or no"), (dict(D=1e5, Rplate=1e5), "more than LAMMPS can number"), (dict(tstopp=3), "did you mean tstop?")], ids=str)
+    (dict(dry="maybe"), "dry must be yes or no"), (dict(D=1e5, Rplate=1e5), "more than LAMMPS can number"), (dict(tstopp=3), "did you mean tstop?"),
+    (dict(v0=5.9), "is below 100 m/s, which this model is not for: is it in km/s?"), (dict(dx=2, frame=[4, 1]), "each after the one before: 1 is not")], ids=str)
 def test_wrong_input(lmp, root, tmp_path, variables, message):
     r = plate(lmp, root, tmp_path, fails=True, **variables)
     assert message in r.log + r.stdout
@@ -68,6 +69,13 @@ def test_memory_of_the_plan(lmp, root, tmp_path, case, used):
     """MB at most in the whole run on one rank, by /usr/bin/time -v; the last was not looked at for the formula"""
     lmp(root / "examples" / "single-plate" / "in.plate", vars=dict(case, dry="yes", out=tmp_path), env={"LAMMPS_POTENTIALS": str(root / "potentials")})
     assert yaml.safe_load((tmp_path / "plan.yaml").read_text())["memory_MB"] == pytest.approx(used, rel=0.2)
+
+
+def test_out_is_one_word(lmp, root, tmp_path):
+    """LAMMPS would take a path with a blank for two, and remove a file that is no business of its"""
+    (tmp_path / "some").touch()
+    r = lmp(root / "examples" / "single-plate" / "in.plate", cwd=tmp_path, expect_fail=True, env={"LAMMPS_POTENTIALS": str(root / "potentials")}, vars={"out": "some folder"})
+    assert "out must be one word: a path without blanks" in r.log + r.stdout and (tmp_path / "some").exists()
 
 
 def test_plan_and_log(lmp, root, tmp_path):
