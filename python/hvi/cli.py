@@ -51,7 +51,7 @@ EXAMPLES = {
     "map": """  python3 -m hvi map debris.dump --data debris.data --axis z --figure phase
   python3 -m hvi map debris.dump --data debris.data --axis z --kind field --figure field.png""",
     "hole": """  python3 -m hvi hole frame.10.dump --plane 0.5e-3 --type 2 --figure hole
-  python3 -m hvi hole shield.dump --center 2.5e-3 0 --plane 31.4e-3 --type 3 --thickness 4e-3
+  python3 -m hvi hole shield.dump --center 2.5e-3 0 --plane 31.4e-3 --type 3 --distance 0.4e-3 --thickness 1
   python3 -m hvi hole frame.*.dump --plane 0.5e-3 --type 2 --all --out holes.csv
   python3 -m hvi hole wall.data --quarter --plane 0.5e-3""",
     "view": """  python3 -m hvi view debris.dump --data debris.data --axis z --thickness 8e-3 --figure side
@@ -307,6 +307,8 @@ def options():
                      help="a point in the plate across the axis, at best in the middle of the hole (default: 0 0)")
     sub.add_argument("--plane", type=float, required=True, metavar="Z", help="coordinate of the plate's middle plane along the axis")
     sub.add_argument("--type", type=int, nargs="+", metavar="TYPE", help="only particles of these types: the plate (default: all)")
+    sub.add_argument("--distance", type=positive, metavar="R", help="only the largest piece of these, of particles closer than R: what drifts in the hole is "
+                     "no plate (default: all)")
     sub.add_argument("--thickness", type=positive, metavar="H", help="of the layer around the plane that is looked at (default: it is measured)")
     sub.add_argument("--dr", type=positive, metavar="D", help="spacing of the map (default: it is measured)")
     sub.add_argument("--fill", type=float, default=0.5, metavar="F", help="share of the intact plate's mass per area that makes plate (default: 0.5)")

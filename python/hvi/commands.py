@@ -179,7 +179,7 @@ def hole(args):
 
     def look(frame):
         return holes.measure(frame, args.axis, args.center, args.plane, thickness=args.thickness, dr=args.dr, fill=args.fill,
-                             reference=args.reference, sectors=args.sectors, types=args.type)
+                             reference=args.reference, sectors=args.sectors, types=args.type, distance=args.distance)
 
     if _is_dump(args.files[0]):
         frames = _open(args)

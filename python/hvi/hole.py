@@ -11,6 +11,7 @@ import warnings
 import numpy as np
 from scipy import ndimage
 
+from . import fragments
 from .errors import HVIError, HVIWarning
 from .frame import as_frame, axis_number
 
@@ -216,11 +217,12 @@ class Plate:
         return diameter, across.min(), across.max(), center, corrected
 
 
-def measure(source, axis, center, plane, *, thickness=None, dr=None, fill=0.5, reference=None, sectors=36, types=None):
-    """The Hole in the plate of the particles of some types, or of all, as it is seen along the axis.
+def measure(source, axis, center, plane, *, thickness=None, dr=None, fill=0.5, reference=None, sectors=36, types=None, distance=None):
+    """The Hole in the plate of the particles of some types, or of all, as it is seen along the axis; with a distance, of the largest piece of these.
 
     center: (2,) coordinates across the axis in alphabetical order, at best in the middle of the hole
     plane: coordinate of the plate's middle plane along the axis
+    distance: particles closer than this hang together, see fragments.largest()
     other keywords: those of the compute
     """
     frame, along = as_frame(source), axis_number(axis)
@@ -232,6 +234,8 @@ def measure(source, axis, center, plane, *, thickness=None, dr=None, fill=0.5, r
     share = 0.5 ** len(cut)
     if types is not None:
         frame = frame.select(np.isin(frame["type"], types))
+    if distance is not None:
+        frame = fragments.largest(frame, distance)
     size = np.abs(frame.x).max(initial=0.0)
     mirrored = [k in cut and abs(cut[k] - c) <= 1e-9 * size for k, c in zip(across, center)]
     there = [k for k, folded in zip(across, mirrored) if folded]

@@ -102,6 +102,43 @@ def test_other_axes_types_and_planes(lmp, tmp_path, capsys):
     assert off["share"] == 0.25 and off["diameter"] == pytest.approx(values["quarter"]["diameter"], rel=2e-3) and off["center_x"] == pytest.approx(3.0, abs=0.05)  # of a spacing of 1
 
 
+PIECE = """
+group plate type 2
+compute piece plate hvi/fragment/atom distance 1.5
+compute pieces plate hvi/fragment distance 1.5
+compute most plate reduce max c_pieces[3] c_pieces[1] replace 2 1 inputs local
+variable lowest equal c_most[2]
+variable largest atom "c_piece == v_lowest"
+run 0
+group largest variable largest
+compute h largest hvi/hole axis z centre 0 0 plane 0 {}
+"""
+
+
+@pytest.mark.parametrize("name", ["whole", "quarter"])
+@pytest.mark.parametrize("thickness", [None, 30.0])
+def test_largest_piece(lmp, tmp_path, capsys, name, thickness):
+    """rubble in the hole, 1.6 spacings from its edge and from plane to plane, is no plate; as by the lines in compute_hvi_hole.rst"""
+    x = plate("sc", 3, 22, np.random.default_rng(9), shift=False)
+    out = np.abs(x[:, :2]).max(axis=1)
+    x = np.where((out < 8)[:, None], x * [1 - 0.6 / 7.5, 1 - 0.6 / 7.5, 1], x)[out > 5]
+    x = x[(x[:, 0] > 0) & (x[:, 1] > 0)] if name == "quarter" else x
+    shot = np.random.default_rng(2).uniform(0.5, 3, (50, 3))
+    write_data(tmp_path / "d", np.concatenate([x, shot]), types=np.repeat([2, 1], [len(x), len(shot)]), masses=(3.0, 1.0))
+    word = f"thickness {thickness}" if thickness else ""
+    r = lmp(head("d", cut=3.0) + PIECE.format(word) + THERMO.format("c_h[*]") + PLAIN.format("p.dump"))
+    planes = ["x=0", "y=0"] if name == "quarter" else ["none"]
+    frame = hvi.Dump(tmp_path / "p.dump", units="lj", mirror=planes)[0]
+    found = hole.measure(frame, "z", (0, 0), 0.0, types=[2], distance=1.5, thickness=thickness)
+    same(found, [r.runs[-1][f"c_h[{k}]"][-1] for k in range(1, 12)])
+    assert found.values["diameter"] == pytest.approx(32 / np.sqrt(np.pi), abs=0.2)
+    assert hole.measure(frame, "z", (0, 0), 0.0, types=[2], thickness=thickness).values["diameter"] < 12  # all that is there
+    words = ["hole", str(tmp_path / "p.dump"), "--units", "lj", "--plane", "0", "--type", "2", "--distance", "1.5", *(w for p in planes for w in ("--mirror", p))]
+    assert cli.main([*words, *(["--thickness", str(thickness)] if thickness else [])]) == 0
+    assert f"diameter: {found.values['diameter']:.6g}" in capsys.readouterr().out
+    assert cli.main([*words, "--type", "3"]) == 1 and "hole: unknown" in capsys.readouterr().out  # no particles
+
+
 def test_a_record_is_needed(tmp_path, capsys):
     """a data file that looks like a quarter and says nothing is refused; with no plate around the center there is no diameter, and exit status 1"""
     x = plate("sc", 3, 20, np.random.default_rng(3), shift=False)

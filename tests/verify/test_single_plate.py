@@ -63,6 +63,14 @@ def test_wrong_input(lmp, root, tmp_path, variables, message):
     assert message in r.log + r.stdout
 
 
+@pytest.mark.parametrize("case, used", [(dict(dx=1), 67), (dict(dx=0.5, quarter="yes"), 165), (dict(dx=0.4, quarter="yes"), 288),
+                                        (dict(dx=0.6, quarter="yes", v0=4000, D=8, t=3), 98)], ids=str)
+def test_memory_of_the_plan(lmp, root, tmp_path, case, used):
+    """MB at most in the whole run on one rank, by /usr/bin/time -v; the last was not looked at for the formula"""
+    lmp(root / "examples" / "single-plate" / "in.plate", vars=dict(case, dry="yes", out=tmp_path), env={"LAMMPS_POTENTIALS": str(root / "potentials")})
+    assert yaml.safe_load((tmp_path / "plan.yaml").read_text())["memory_MB"] == pytest.approx(used, rel=0.2)
+
+
 def test_out_is_one_word(lmp, root, tmp_path):
     """LAMMPS would take a path with a blank for two, and remove a file that is no business of its"""
     (tmp_path / "some").touch()
