@@ -53,10 +53,12 @@ def verdict(job):
 
 
 def judged(said, reasons, notes, walls, ball):
-    """(verdict, reasons, notes) with what whole_in_tension() says, of which in.whipple does not know"""
+    """(verdict, reasons, notes) with what whole_in_tension() says, which in.whipple says by itself where LAMMPS has read the files"""
+    known = {*reasons, *notes}
+    more, doubt = ([text for text in texts if text not in known] for texts in (walls, ball))
     if said == "fails":
-        return said, reasons, notes + walls + ball
-    return "undecided" if walls else said, walls + reasons, notes + ball
+        return said, reasons, notes + more + doubt
+    return "undecided" if walls else said, more + reasons, notes + doubt
 
 
 def whole_in_tension(job):
@@ -68,7 +70,7 @@ def whole_in_tension(job):
 
 def lacking(solid, ball, walls):
     """the same of words of fix hvi/johnson-cook and of material files"""
-    text = "{} is of {}, whose file has no law of spall for '{}': in tension it does not fail"
+    text = "{} is of {}, whose file has no law of spall ({}), so it does not fail in tension"
     return ([text.format(f"wall {k}", name, solid) for k, name in enumerate(walls, 1) if not cases.tears(name, solid)],
             [] if cases.tears(ball, solid) else [text.format("the projectile", ball, solid)])
 

@@ -95,6 +95,10 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
   read_options(narg, arg);
   begin();
+  vector_flag = 1;
+  size_vector = atom->ntypes;
+  global_freq = 1;
+  extvector = 0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -259,6 +263,13 @@ std::string FixHVIJohnsonCook::laws_of(int itype) const
   if (options.spall != HVI::Spall::NONE && model->spall_limited())
     words += std::string(", spall ") + HVI::spall_model(options.spall).name;
   return words;
+}
+
+double FixHVIJohnsonCook::compute_vector(int i)
+{
+  const HVI::SolidModel *const model = models.empty() ? nullptr : models[i + 1].get();
+  if (!model) return 0.0;
+  return (options.spall != HVI::Spall::NONE && model->spall_limited()) || model->damage() ? 1.0 : 0.0;
 }
 
 double FixHVIJohnsonCook::mass(int i) const
