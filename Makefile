@@ -1,10 +1,10 @@
 # The front door; the work is done by CMake (cmake/CMakeLists.txt).
 #
-#   make demo    dependencies, LAMMPS, the package; then the verdict on a shield with its picture
+#   make demo    dependencies, LAMMPS, the package; then the verdict on a shield with its report
 #   make demo-dem                  likewise, a debris cloud of discrete elements
 #   make test    the same; then all tests
 #   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so
-#   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures) and of solids
+#   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures) and of solids; long tests
 #   make doc | bench | bench-full | sanitize | clean
 #
 # LAMMPS_VERSION=20250204|20260704   which pinned LAMMPS          LAMMPS_SOURCE_DIR=DIR   your own LAMMPS source tree
@@ -45,7 +45,7 @@ build:
 	    echo "lammps-hvi: cmake failed: see $(BUILD)/configure.log; after a change of compiler remove $(BUILD)"; }; exit 1; } >&2
 	@cmake --build $(BUILD) --parallel $(JOBS)
 
-# a shield, its verdict and a picture; 3 and 4 are verdicts: it fails, it cannot be told
+# a shield, its verdict and a report; 3 and 4 are verdicts: it fails, it cannot be told
 DEMO = examples/whipple-shield
 demo:
 	@cmake/deps.sh build demo
@@ -53,8 +53,7 @@ demo:
 	@python=$$(cmake/find-python.sh numpy scipy matplotlib yaml tqdm) && export PYTHONPATH=$(TOP)/python && \
 	  { cmake/env.sh $$python -m hvi shield $(DEMO)/cases/quick.yaml --lmp $(OUT)/lmp --runs $(OUT)/demo --jobs $(RANKS) --ranks 1; code=$$?; \
 	    [ $$code = 0 ] || [ $$code = 3 ] || [ $$code = 4 ] || exit $$code; } && \
-	  $$python $(DEMO)/plot.py $(OUT)/demo/quick/dx-0.5_shift-0.0 && \
-	  echo "picture: $(OUT)/demo/quick/dx-0.5_shift-0.0/shield.png"
+	  $$python -m hvi report $(OUT)/demo/quick
 
 # a debris cloud of discrete elements
 demo-dem:
@@ -71,13 +70,17 @@ test:
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
 
 verify:
-	@cmake/deps.sh build test
+	@cmake/deps.sh build test browser
 	@$(MAKE) build
 	@python=$$(cmake/find-python.sh numpy scipy matplotlib pytest) && \
 	  cmake/env.sh $$python tests/shocks.py --lmp $(OUT)/lmp --out $(OUT)/verify --ranks $(RANKS) $(VERIFY_ARGS) && \
 	  cmake/env.sh $$python tests/solids.py --lmp $(OUT)/lmp --out $(OUT)/verify $(SOLIDS_ARGS) && \
 	  cmake/env.sh $$python tests/states.py --lmp $(OUT)/lmp --out $(OUT)/verify $(STATES_ARGS) && \
-	  cmake/env.sh $$python tests/expansion.py --lmp $(OUT)/lmp --out $(OUT)/verify
+	  cmake/env.sh $$python tests/expansion.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
+	  ctest --test-dir $(BUILD) --output-on-failure -C long -L long -j $(JOBS) && export PYTHONPATH=$(TOP)/python && \
+	  { cmake/env.sh $$python -m hvi shield $(DEMO)/cases/quick.yaml --lmp $(OUT)/lmp --runs $(OUT)/verify --jobs $(RANKS) --ranks 1; code=$$?; \
+	    [ $$code = 0 ] || [ $$code = 3 ] || [ $$code = 4 ] || exit $$code; } && \
+	  $$python -m hvi report $(OUT)/verify/quick && $$python tests/browser.py $(OUT)/verify/quick/report.html $(OUT)/verify/browser
 
 sanitize:
 	@$(MAKE) test BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON

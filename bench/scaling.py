@@ -142,7 +142,7 @@ def scene(name, variables):
             text, mark, rest = f.read().partition("# runs to the times of the frames")
         if not mark:
             sys.exit("%s has no line '# runs to the times of the frames'" % PLATE)
-        return text + "thermo 1000000\nthermo_style custom step cpu nbuild f_move time f_balance\nthermo_modify lost ignore\n"
+        return text + "label fly\nthermo 1000000\nthermo_style custom step cpu nbuild f_move time f_balance\nthermo_modify lost ignore\n"
     with open(SOLID) as f:
         text, mark, rest = f.read().partition("run          ${stir}")
     if not mark:
@@ -213,7 +213,7 @@ def exchanges_of(found, lists):
 
 
 def plate_variables(dx):
-    return {"dx": dx, "quarter": "yes"}
+    return {"dx": dx, "quarter": "yes", "keep": 0}
 
 
 UNTIL = "variable ahead equal 16e-6-time\nfix stop all halt 1 v_ahead < 0.0 error continue message no\nrun 1000000\n"

@@ -1,6 +1,7 @@
 """Fixtures for all Python tests: run LAMMPS, read its thermo output.
 
-Run by ctest (`make test`) or by hand: `pytest tests/style/test_x.py` uses build/.
+Run by ctest (`make test`) or by hand: `pytest tests/style/test_x.py` uses build/. Tests marked long run with `-m long` only, as in
+`make verify`.
 """
 
 import os
@@ -86,6 +87,16 @@ def read_thermo(log):
     return runs
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "long: in make verify only, that is with -m long")
+
+
+def pytest_collection_modifyitems(config, items):
+    if not config.option.markexpr:
+        config.hook.pytest_deselected(items=[i for i in items if i.get_closest_marker("long")])
+        items[:] = [i for i in items if not i.get_closest_marker("long")]
+
+
 @pytest.fixture(scope="session")
 def root():
     return ROOT
@@ -112,6 +123,14 @@ def plugin():
 def own_folder(tmp_path, monkeypatch):
     """every test runs in its own folder"""
     monkeypatch.chdir(tmp_path)
+
+
+def whole_log(log):
+    """text of a log and of those that the input went on with by the command log"""
+    text = log.read_text() if log.exists() else ""
+    for name in re.findall(r"^log +([^\s$]+)(?: append)?$", text, re.M):
+        text += (log.parent / name).read_text()
+    return text
 
 
 def kill_when(process, ready, timeout):
@@ -171,7 +190,7 @@ def lmp(tmp_path, lmp_exe):
                 os.killpg(process.pid, 9)
                 out, err = process.communicate()
             pytest.fail(f"no end after {timeout} s: {shlex.join(command)}\n{out[-3000:]}\n{err[-2000:]}", pytrace=False)
-        result = Result(command, cwd, process.returncode, out, err, log.read_text() if log.exists() else "")
+        result = Result(command, cwd, process.returncode, out, err, whole_log(log))
         if (expect_fail or kill) and result.returncode == 0:
             pytest.fail(f"should have failed: {result}", pytrace=False)
         if not (expect_fail or kill) and result.returncode != 0:

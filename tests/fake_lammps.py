@@ -2,7 +2,7 @@
 
 The shield holds up to a diameter of FAKE_LIMIT + dx + shift / 10, then is undecided, and fails from FAKE_UNSURE more on; a
 thickness of wall 2 adds to the limit what it has more than 1.2 mm. FAKE_SLEEP: seconds that it takes; FAKE_FAIL: fails in
-folders whose name has this in it; FAKE_PLAN: what plan.yaml says; FAKE_NOTE: the list notes of a verdict fails, "|" between.
+folders whose name has this in it, FAKE_SAVE: leaves restart files there; FAKE_PLAN: what plan.yaml says; FAKE_NOTE: the list notes of a verdict fails, "|" between.
 """
 
 import os
@@ -22,6 +22,11 @@ for word in sys.argv[sys.argv.index("-in") + 4:]:
 
 with open("tries", "a") as tries:
     tries.write(f"{variables.get('resume', ['no'])[0]}\n")
+if variables.get("dry") != ["yes"] and pathlib.Path("shield.state").exists():
+    pathlib.Path("shield.state").write_text("")  # as in.whipple, which saves its variables when it goes on
+if os.environ.get("FAKE_SAVE", "nothing") in os.getcwd():
+    for name in ("shield.restart.a", "shield.state"):
+        pathlib.Path(name).write_text("")
 if os.environ.get("FAKE_FAIL", "nothing") in os.getcwd():
     print("ERROR: Lost atoms (as told to)")
     sys.exit(1)

@@ -13,8 +13,8 @@ copyright = "2026, the lammps-hvi developers"
 author = "the lammps-hvi developers"
 release = version = re.search(r'HVI_VERSION\[\] = "([^"]+)"', (PACKAGE / "hvi_version.h").read_text()).group(1)
 
-# mathml: formulas without scripts or remote hosts; stylepages: every style has its page, in LAMMPS's order
-extensions = ["sphinx.ext.extlinks", "lammpslexer", "mathml", "stylepages"]
+# mathml: formulas without scripts or remote hosts; stylepages: every style has its page, in LAMMPS's order; materials: the table of all files
+extensions = ["sphinx.ext.extlinks", "lammpslexer", "materials", "mathml", "stylepages"]
 stylepages_headers = str(PACKAGE)
 extlinks = {"lammps": ("https://docs.lammps.org/%s.html", "%s")}  # :lammps:`pair_coeff`
 extlinks_detect_hardcoded_links = False

@@ -104,7 +104,7 @@ def convergence(rows, out, runs):
             ax.plot(VOLUME / paper["spacing_mm"] ** 3, paper[key], "D", color=COLOR["sc"], mfc="w", label="sc, 32 us")
         ax.axvline(2.5e5, color="gray", lw=0.8, ls=":")
         ax.set_title(title, fontsize=10)
-        ax.set_ylim(bottom=0)
+        ax.set_ylim(0, 1.08 * ax.dataLim.ymax)
         ax.grid(alpha=0.3)
     axes[0, 0].legend()
     figure.supxlabel("particles of sphere and a plate of 20 mm radius at this spacing; dotted: 250,000")
@@ -147,7 +147,7 @@ def parameters(rows, out, runs):
     for lattice, part in found:
         kappa, eps, _ = grid(part, "kappa", "eps", F)
         cells = {(len(eps) - 1 - list(eps).index(row["eps"]), list(kappa).index(row["kappa"])): row for row in part}
-        montage(cells, runs, out, f"parameters-{lattice}", lambda row: f"eps {row['eps']:g}, kappa {row['kappa'] / 1e6:g}e6")
+        montage(cells, runs, out, f"parameters-{lattice}", lambda row: f"eps {row['eps']:g} J, kappa {row['kappa'] / 1e6:g}e6 J/m$^2$")
 
 
 def thickness(rows, out, runs):
@@ -181,7 +181,7 @@ def fragmentation(rows, out, runs):
             tD, v0, values = grid(part, "tD", "v0", key)
             filled = ax.contourf(tD, v0 / 1e3, values, levels=np.linspace(0, 1, 21), cmap="viridis")
             if np.nanmin(values) < levels[0] < np.nanmax(values):
-                ax.clabel(ax.contour(tD, v0 / 1e3, values, levels=levels, colors="w", linewidths=2), fmt="%.1f")
+                ax.contour(tD, v0 / 1e3, values, levels=levels, colors="w", linewidths=2, linestyles=["-", "--"][:len(levels)])
             for (i, j), value in np.ndenumerate(values):
                 ax.text(tD[j], v0[i] / 1e3, f"{value:.2f}", ha="center", va="center", fontsize=7,
                         color="k" if value > 0.6 else "w")
@@ -191,7 +191,9 @@ def fragmentation(rows, out, runs):
             ax.set(xlim=(tD[0] - 0.03, tD[-1] + 0.03), ylim=(v0[0] / 1e3 - 0.3, v0[-1] / 1e3 + 0.3), facecolor="#808080")
         figure.colorbar(filled, ax=line[-1])
         line[0].set_ylabel("$v_0$ (km/s)")
-    figure.supxlabel("t/D      white: F = 0.3; half and 90 % of the sphere in one piece.   red: measured onset of fragmentation of the sphere")
+    for ax in axes[-1]:
+        ax.set_xlabel("t/D")
+    figure.supxlabel("white: F = 0.3; half (dashed: 90 %) of the sphere in one piece.   red: measured onset of fragmentation of the sphere", fontsize=11)
     save(figure, out, "fragmentation")
     for lattice, part in found:
         pivot(f"{lattice}: F of the cloud / largest fragment of the sphere", part, "tD", "v0", (F, BIG_BALL))
@@ -219,11 +221,11 @@ def sensitivity(rows, out, runs):
             ax.plot(column(part, key), range(len(part)), "o", color=COLOR[lattice], label=lattice)
             ax.axvline(part[0][key], color=COLOR[lattice], lw=0.8)
         ax.set_title(title, fontsize=10)
-        ax.set_xlim(left=0)
+        ax.set_xlim(-0.03 * ax.dataLim.xmax, 1.08 * ax.dataLim.xmax)
         ax.grid(alpha=0.3)
     axes[0].set_yticks(range(len(found[0][1])), [what[row["job"]] for row in found[0][1]])
     axes[0].invert_yaxis()
-    axes[2].legend(loc="center right")
+    axes[2].legend(loc="lower right")
     save(figure, out, "sensitivity")
     markdown("sensitivity", rows, {"lattice": "lattice", "changed": lambda row: what[row["job"]], "F": F, "F, sphere": F_BALL,
                                    "largest fragment of the sphere": BIG_BALL, "L_a/L_r": R, "L_a/(2 L_r)": "length_to_diameter",
@@ -238,6 +240,8 @@ def plate_size(rows, out, runs):
 
 
 # --- pictures of clouds ---
+
+WINDOW = "each window: z from -25 to 95 mm (the shot flies to the right), x from -45 to 45 mm"
 
 def picture(ax, folder, spacing):
     """the cloud from the side: sphere red, plate blue; strong colors for fragments of ten particles and more"""
@@ -262,6 +266,7 @@ def montage(cells, runs, out, name, title, width=2.2):
         axes[place].axis("on")
         axes[place].set_title(title(row), fontsize=8)
         picture(axes[place], runs / row["job"], row["spacing_mm"])
+    figure.supxlabel(WINDOW, fontsize=8)
     save(figure, out, name)
 
 

@@ -147,9 +147,9 @@ def gauges(columns, name):
                         label=GAUGES[k] + ", " + run.name())
         ax.set_title("%s, gap %g" % (runs[0].title(), runs[0].result["gap"]))
         ax.set_xlabel("t")
-        ax.legend(fontsize=7)
     axes[0, 0].set_ylabel("velocity")
-    fig.tight_layout()
+    fig.tight_layout(rect=(0, 0, 1, 0.86))
+    fig.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper center", ncol=5 if len(columns) > 1 else 2, fontsize=8, frameon=False)
     fig.savefig(name, dpi=100)
     plt.close(fig)
 

@@ -47,7 +47,7 @@ def front(r, s):
 
 
 def main(files):
-    fig, axes = plt.subplots(2, len(files), figsize=(6.5 * len(files), 10), squeeze=False)
+    fig, axes = plt.subplots(2, len(files), figsize=(6.5 * len(files), 10), squeeze=False, layout="constrained", sharey="row")
     print("frame, front at 0, 45, 90 degrees in mm, 45 over the mean of 0 and 90; stress 5 mm behind it in MPa, likewise")
     for name, (above, curve) in zip(files, axes.T):
         kind, x, vm = read(name)
@@ -57,18 +57,16 @@ def main(files):
         for angle in (0, 45, 90):
             r, s = profile(x, vm, angle)
             ends.append(front(r, s))
-            curve.plot(r, s, label=f"{angle} degrees")
+            curve.plot(r, s, "--" if angle == 90 else "-", label=f"{angle} degrees")
         for angle in (0, 45, 90):
             stress.append(np.interp(np.mean(ends) - 5, *profile(x, vm, angle)))
         print(name, *("%.1f" % e for e in ends), "%.3f" % (2 * ends[1] / (ends[0] + ends[2])), *("%.0f" % e for e in stress),
               "%.2f" % (2 * stress[1] / (stress[0] + stress[2])))
-        above.scatter(x[:, 0], x[:, 1], c=vm, s=3, lw=0, cmap="viridis", vmax=np.quantile(vm, 0.98))
-        above.set_aspect("equal")
-        above.set_title(os.path.basename(name))
-        curve.set_xlabel("distance from the axis, mm")
-        curve.set_ylabel("von Mises stress, MPa")
-        curve.legend()
-    fig.tight_layout()
+        dots = above.scatter(x[:, 0], x[:, 1], c=vm, s=3, lw=0, cmap="viridis", vmin=0, vmax=400)
+        above.set(aspect="equal", xlabel="x (mm)", ylabel="y (mm)", title=os.path.basename(name)[6:-5] + " us")
+        curve.set(xlabel="distance from the axis (mm)", ylabel="von Mises stress (MPa)")
+        curve.legend(title="mean about, from the x axis")
+    fig.colorbar(dots, ax=axes[0], label="von Mises stress (MPa)")
     fig.savefig(os.path.join(os.path.dirname(files[0]) or ".", "front.png"), dpi=70)
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Pictures of a run of in.plate, from its frames and result.yaml: python3 plot.py [FOLDER] -> plate.png
 
-A row per frame: a slice of 4 mm with plate and projectile, axial velocity, von Mises stress; the plate from the front.
-Quarter models are mirrored.
+A row per frame: plate and projectile, axial velocity, von Mises stress from the side, the plate from the front. From the side
+particles of quarter models are at their distance from the axis; of others a slice of 4 mm is shown.
 """
 import glob
 import os
@@ -31,36 +31,40 @@ def main(folder):
     with open(os.path.join(folder, "result.yaml")) as f:
         result = yaml.safe_load(f)
     files = glob.glob(os.path.join(folder, "frame.*.dump"))
-    frames = sorted((float(os.path.basename(f)[6:-5]), f) for f in files if float(os.path.basename(f)[6:-5]) <= result["time_us"] + 0.01)
-    if not frames:
+    names = sorted((float(os.path.basename(f)[6:-5]), f) for f in files if float(os.path.basename(f)[6:-5]) <= result["time_us"] + 0.01)
+    if not names:
         sys.exit(f"no frame.*.dump in {folder}: run in.plate there first")
-    fig, axes = plt.subplots(len(frames), 4, figsize=(19, 4.4 * len(frames)), squeeze=False)
-    for row, (time, name) in zip(axes, frames):
-        d = read(name, result["model_share"] < 1)
-        slab, size = np.abs(d["y"]) < 2, 5 * result["dx_mm"]
-        side, speed, stress, above = row
+    quarter = result["model_share"] < 1
+    frames = [(time, read(name, quarter)) for time, name in names]
+    for _, d in frames:  # what is shown from the side: of a quarter model all of it
+        d["shown"] = d["y"] > 0 if quarter else np.abs(d["y"]) < 2
+        d["r"] = np.sign(d["x"]) * np.hypot(d["x"], d["y"]) if quarter else d["x"]
+        d["plate"] = (d["type"] == 2) & (np.abs(d["z"]) < 6)
+    last = frames[-1][1]
+    edge = 1.05 * np.abs(last["x"][last["plate"]]).max()
+    z_range, r_range = (-25, max(30, last["z"][last["shown"]].max() + 2)), (-edge, edge)
+    fig, axes = plt.subplots(len(frames), 4, figsize=(19, 1.2 + 3.6 * len(frames)), squeeze=False, sharex="col", layout="constrained",
+                             gridspec_kw={"width_ratios": (1.2, 1.2, 0.7, 1)})
+    for (time, d), (side, speed, stress, above) in zip(frames, axes):
+        size, shown, near = 5 * result["dx_mm"], d["shown"], d["shown"] & d["plate"]
         for k, color, what in ((2, "tab:blue", "plate"), (1, "tab:red", "projectile")):
-            m = slab & (d["type"] == k)
-            side.scatter(d["z"][m], d["x"][m], s=size, c=color, lw=0, label=what)
-        side.legend(loc="upper left")
-        side.set_title(f"{time:g} us")
-        dots = speed.scatter(d["z"][slab], d["x"][slab], s=size, c=d["vz"][slab], cmap="inferno", vmin=0, lw=0)
-        fig.colorbar(dots, ax=speed)
-        speed.set_title("axial velocity, m/s")
-        m = d["type"] == 2
-        near = m & (np.abs(d["z"]) < 6)
-        dots = stress.scatter(d["z"][slab & near], d["x"][slab & near], s=2 * size, c=1e-6 * d["vm"][slab & near], cmap="viridis", vmin=0, vmax=400, lw=0)
-        fig.colorbar(dots, ax=stress)
-        stress.set_title("plate: von Mises stress, MPa")
-        top = near & (d["z"] < 6)
-        dots = above.scatter(d["x"][top], d["y"][top], s=size, c=1e-6 * d["vm"][top], cmap="viridis", vmin=0, vmax=400, lw=0)
-        fig.colorbar(dots, ax=above)
-        above.set_title("from the front, von Mises stress, MPa" + (f"; hole {result['hole_diameter_mm']:.1f} mm" if name == frames[-1][1] else ""))
-        for ax in row:
-            ax.set_aspect("auto" if ax is stress else "equal")
-            ax.set_xlabel("x, mm" if ax is above else "z, mm")
-            ax.set_ylabel("y, mm" if ax is above else "x, mm")
-    fig.tight_layout()
+            m = shown & (d["type"] == k)
+            side.scatter(d["z"][m], d["r"][m], s=size, c=color, lw=0, label=what)
+        fast = speed.scatter(d["z"][shown], d["r"][shown], s=size, c=1e-3 * d["vz"][shown], cmap="inferno_r", vmin=-1, vmax=6, lw=0)
+        for ax, x, y, m in ((stress, "z", "r", near), (above, "x", "y", d["plate"])):
+            loaded = ax.scatter(d[x][m], d[y][m], s=size, c=1e-6 * d["vm"][m], cmap="viridis", vmin=0, vmax=400, lw=0)
+        side.set_title(f"{time:g} us", loc="left")
+        side.set_ylabel("distance from the axis (mm)" if quarter else "x (mm)")
+        above.set_ylabel("y (mm)")
+        for ax, x, y in ((side, z_range, r_range), (speed, z_range, r_range), (stress, (-6, 6), r_range), (above, r_range, r_range)):
+            ax.set(xlim=x, ylim=y, aspect="auto" if ax is stress else "equal")
+    for ax, label in zip(axes[-1], ("z (mm)", "z (mm)", "z (mm), stretched", "x (mm)")):
+        ax.set_xlabel(label)
+    fig.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper left", ncol=2, markerscale=3)
+    fig.colorbar(fast, ax=axes[:, 1], location="top", label="axial velocity (km/s)", shrink=0.8, aspect=40, pad=0.01)
+    fig.colorbar(loaded, ax=axes[:, 2:], location="top", label="plate: von Mises stress (MPa); right: from the front", shrink=0.8, aspect=60, pad=0.01)
+    what = "all particles, at their distance from the axis" if quarter else "slices of 4 mm through the axis"
+    fig.supxlabel(f"spacing {result['dx_mm']:.3g} mm; from the side: {what}; hole at {result['time_us']:.3g} us: {result['hole_diameter_mm']:.1f} mm")
     fig.savefig(os.path.join(folder, "plate.png"), dpi=70)
 
 

@@ -90,21 +90,29 @@ def record(folder):
     fig.savefig(os.path.join(folder, "record.png"), dpi=110)
 
 
+def plain(axis, ticks):
+    """a logarithmic axis with these numbers, not powers of ten"""
+    axis.set_major_locator(matplotlib.ticker.FixedLocator(ticks))
+    axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda y, _: f"{y:g}"))
+    axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+
+
 def convergence():
     got = {s: [read(f"n{n}-{s}") for n in NS] for s in ("voids", "principal")}
     fig, ax = plt.subplots(1, 3, figsize=(13, 3.8), layout="constrained")
     for n, (_, (t, u, *_)) in zip(NS, got["voids"]):
         if n > 8:
             ax[0].plot(t, u, lw=1, label=f"{n} per flyer")
-    ax[0].set(xlim=(0.55, 2.1), ylim=(280, 510), xlabel="t (us)", ylabel="free surface (m/s)", title="spall voids")
-    ax[0].legend()
+    ax[0].set(xlim=(0.55, 2.1), ylim=(200, 510), xlabel="t (us)", ylabel="free surface (m/s)", title="spall voids")
+    ax[0].legend(loc="lower right", ncol=2)
     for s, runs in got.items():
         ax[1].semilogx(NS, [r["spall_strength_GPa"] for r, _ in runs], "o-", color=COLOR[s], label=s)
     ax[1].set(xlabel="particles through the flyer", title="sigma* (GPa)", ylim=(0, 1.3))
     ax[1].axvspan(8, 32, color="0.93")
-    ax[1].legend()
+    ax[1].legend(loc="lower right")
     ax[2].loglog(NS, [1e-3 * r["void_work_J_m2"] for r, _ in got["voids"]], "o-")
     ax[2].set(xlabel="particles through the flyer", title="work of opening voids (kJ/m$^2$)")
+    plain(ax[2].yaxis, (30, 40, 50, 60, 80))
     fig.savefig("convergence.png", dpi=110)
     rows = [["particles through the flyer", "spacing um", "pull-back m/s", "change", "sigma* GPa", "rate /s", "largest -p GPa",
              "first failure, mm below the surface", "particles failed", "void work kJ/m2", "principal: pull-back m/s", "sigma* GPa", "first failure"]]
@@ -135,6 +143,7 @@ def rates(shots):
         a.loglog([float(s["rate"]) for s in own], [float(s["sigma"]) for s in own], mark, color="C2", mfc="none", label=f"measured, 6061 of {name}")
     a.set(xlabel="strain rate (1/s)", ylabel="spall strength (GPa)", title="500 m/s, flyers of 20 to 0.063 mm, targets twice as thick")
     a.grid(alpha=0.3, which="both")
+    plain(a.yaxis, (0.6, 0.8, 1, 1.5, 2))
     a.legend(fontsize=7)
     fig.savefig("rates.png", dpi=110)
     for h in THICK:
@@ -205,9 +214,7 @@ def measured(shots):
         a.grid(alpha=0.3, which="both")
         a.legend(fontsize=7)
         for axis in (a.xaxis, a.yaxis) if a is ax[0] else (a.yaxis,):
-            axis.set_major_locator(matplotlib.ticker.FixedLocator([0.4, 0.6, 0.8, 1, 1.5, 2, 3, 4]))
-            axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda y, _: f"{y:g}"))
-            axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+            plain(axis, (0.4, 0.6, 0.8, 1, 1.5, 2, 3, 4))
     fig.savefig("shots.png", dpi=110)
     table(rows)
     summary = [["metal", "shots", "with a pull-back", "parted", "of the measured: mean", "least", "most", "scatter about the mean", "measured: most of the least", "phi_c"]]

@@ -128,6 +128,8 @@ def gases(runs):
     for line, several, title in zip(axes, rows, ("Sod", "blast")):
         draw(line, several)
         line[0].set_ylabel(title)
+        for ax in line:
+            ax.set_xlabel("x")
     save(figure, "sod.png")
 
 

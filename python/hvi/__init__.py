@@ -23,10 +23,10 @@ from .frame import Frame
 from .version import version
 
 __version__ = version()
-__all__ = ["Dump", "Frame", "HVIError", "HVIWarning", "beyond", "cumulative", "debris", "figures", "find", "fit", "maps", "measure",
+__all__ = ["Dump", "Frame", "HVIError", "HVIWarning", "beyond", "cumulative", "debris", "figures", "find", "fit", "hole", "maps", "measure",
            "open", "series", "universe"]
 
-_LATER = ("figures", "maps", "universe")  # the first and last load matplotlib and MDAnalysis
+_LATER = ("figures", "hole", "maps", "universe")  # matplotlib, scipy.ndimage, MDAnalysis
 
 
 def __getattr__(name):

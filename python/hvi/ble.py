@@ -4,6 +4,7 @@
 Units as published: cm, g/cm^3, ksi, km/s, degrees from the normal.
 
 [C91]   Christiansen, Shield Sizing and Response Equations, NASA JSC SN3-91-42 (1991)
+[C93]   Christiansen, Int. J. Impact Engng. 14, 145 (1993)
 [CK01]  Christiansen & Kerr, Int. J. Impact Engng. 26, 93 (2001)
 [R06]   Reimerdes, Noelke & Schaefer, Int. J. Impact Engng. 33, 645 (2006)
 [C09]   Christiansen et al., Handbook for Designing MMOD Protection, NASA/TM-2009-214785 (2009)
@@ -227,19 +228,20 @@ class Equation:
     d_c: typing.Callable  # of shield, speed, angle
     valid: dict  # {what: (least, most, source)} of quantities(); beyond them it is an extrapolation
     walls: int = 2
+    note: str = ""
 
 
-# published tests: [RC09] table 10 and its text (S/d, t_b/d: [RC11] 3.2.1), [CK01] p. 96; table 2 of [RC09] for one wall
+# published tests: [RC09] table 10 and its text (S/d, t_b/d: [RC11] 3.2.1), [C93] p. 149, [CK01] p. 96; table 2 of [RC09] for one wall
 _SHOTS = {"velocity_km_s": (2.5, 8, "RC09"), "angle_deg": (0, 85, "RC09"), "d_cm": (0.04, 1.9, "RC09"), "S/d": (13, 96, "RC11")}
-_NNO = {**_SHOTS, "S/d": (15, 96, "RC09, RC11"), "t_b/d over that of (4-20)": (1, math.inf, "C09")}
+_NNO = {**_SHOTS, "S/d": (15, 96, "C93, RC11"), "t_b rho_b/(d rho_p)": (0.18, math.inf, "C93")}
 _CK = {"velocity_km_s": (2, 8, "CK01"), "angle_deg": (0, 75, "CK01"), "d_cm": (0.02, 1.9, "CK01"), "S/d": (3, 140, "CK01"), "t_b/d": (0.05, 1, "CK01")}
 _JSC = {**_SHOTS, "t_b/d": (0.08, 0.64, "RC11")}
 _ONE = {"velocity_km_s": (0, 8, "RC09"), "angle_deg": (0, 85, "RC09"), "d_cm": (0.05, 1.27, "RC09")}
 
 EQUATIONS = {
-    "NNO": Equation("Christiansen, new non-optimum", "C91, C09", _nno, _NNO),
+    "NNO": Equation("Christiansen, new non-optimum", "C93, C09", _nno, _NNO),
     "CK01": Equation("modified NNO, as printed", "CK01", _ck01, _CK),
-    "modNNO": Equation("modified NNO, as coded in pyBLOSSUM", "CK01, RS24", _modnno, _CK),
+    "modNNO": Equation("modified NNO, as coded in pyBLOSSUM", "CK01, RS24", _modnno, _CK, note="k_h rises with thick bumpers, [CK01] has it fall with thin ones"),
     "JSC": Equation("JSC Whipple 2011", "RC11", _jsc, _JSC),
     "modJSC": Equation("JSC Whipple, modified", "RS24", _modjsc, _JSC),
     "Reimerdes": Equation("Reimerdes, no perforation", "R06", _reimerdes, {**_JSC, "angle_deg": (0, 0, "RC09")}),
@@ -254,7 +256,7 @@ def quantities(shield, d, velocity_km_s, angle_deg):
     if shield.walls == 2:
         found.update({"S/d": shield.standoff_cm / d, "t_b/d": shield.bumper_thickness_cm / d})
         if velocity_km_s * _cos(angle_deg) > 3:  # where the bumper is to break it
-            found["t_b/d over that of (4-20)"] = found["t_b/d"] * shield.bumper_density / (_thick_enough(shield, d) * shield.projectile_density)
+            found["t_b rho_b/(d rho_p)"] = found["t_b/d"] * shield.bumper_density / shield.projectile_density
     return found
 
 
@@ -346,7 +348,8 @@ def said(found):
         return [f"equations: {found}"]
     rows = [(name, f"{of['critical_diameter_mm']:.2f}", f"{of['d_over_critical']:.2f}" + "*" * bool(of["outside"]), of["predicted"]) for name, of in found.items()]
     lines = tables.text(("equation", "critical_mm", "d/critical", "predicted"), rows).split("\n")
-    return lines + [f"  * {name}: {', '.join(of['outside'])}" for name, of in found.items() if of["outside"]]
+    lines += [f"  * {name}: {', '.join(of['outside'])}" for name, of in found.items() if of["outside"]]
+    return lines + [f"  {name}: {EQUATIONS[name].note}" for name in found if EQUATIONS[name].note]
 
 
 def limits(case_at, low, high, samples=200):

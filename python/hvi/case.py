@@ -20,7 +20,7 @@ RATIO = 1.2  # of spacings that may be said to differ
 LAYERS = 3  # that in.whipple needs in the wall that decides
 
 # settings of in.whipple: what their values must be, beside numbers where its own are numbers
-ABOVE_0, FROM_0, WHOLE = {"eta", "C", "skin", "rim", "probe_size"}, {"tstop", "back", "behind", "probe_at"}, {"zones", "layers"}
+ABOVE_0, FROM_0, WHOLE = {"eta", "C", "skin", "rim", "probe_size"}, {"tstop", "back", "behind", "probe_at", "film"}, {"zones", "layers"}
 CHOICES = {"quarter": ("auto", "yes", "no"), "edge": ("free", "clamp", "absorb"), "probes": ("yes", "no")}
 SET_BY_CASE = {"t1", "t2", "spacing", "material_t", "radius1", "radius2", "radius", "spacings", "outside", "dry", "resume", "out"}
 
@@ -108,6 +108,18 @@ def has_strength(path):
         return re.search(r"^[ \t]*strength\s", path.read_text(), re.M) is not None
     except (OSError, UnicodeDecodeError) as problem:
         raise HVIError(f"cannot read {path}: {problem}") from None
+
+
+def tears(name, solid):
+    """True if there is something in a material file that lets it fail under tension, with these words of fix hvi/johnson-cook"""
+    path = next((p for p in (pathlib.Path(name), *(folder / name for folder in runs.potentials())) if p.is_file()), None)
+    if path is None:
+        return True  # LAMMPS says so
+    words, text = solid.split(), path.read_text(errors="replace")
+    law, damage = (next((new for old, new in zip(words, words[1:]) if old == key), preset) for key, preset in (("spall", "principal"), ("damage", "yes")))
+    section = law if law in ("voids", "tuler-butcher", "grady") else "limit"
+    return (law != "none" and re.search(rf"^[ \t]*spall[ \t]+{section}\b", text, re.M) is not None
+            or damage != "no" and re.search(r"^[ \t]*damage[ \t]", text, re.M) is not None)
 
 
 def is_number(word):
@@ -297,6 +309,10 @@ def read(path, source):
         reader.setting(name, source, len(case.walls))
     case.check(reader.wrong)
     source.check(own, reader.path)
+    if "weibull" in str(case.settings.get("solid")).split():
+        node = reader.at["settings: solid"]
+        warnings.warn(f"{path}, line {node.start_mark.line + 1}: all runs have the same seed of weibull: what another would change is in no verdict", HVIWarning,
+                      stacklevel=2)
     last, coarse = case.walls[-1], (case.walls[-1].spacings_mm or case.spacings_mm)[0]
     if math.ceil(last.thickness_mm / coarse - 0.01) < LAYERS and "layers" not in case.settings:
         node = reader.at.get(f"wall {len(case.walls)}: spacings_mm") or reader.at["spacings_mm"]

@@ -24,8 +24,16 @@ EXAMPLES = {
   python3 -m hvi shield emi.yaml --jobs 2 --ranks 1""",
     "limit": """  python3 -m hvi limit emi.yaml --on D
   python3 -m hvi limit emi.yaml --on thickness2 --from 0.5 --to 3 --step 0.1 --jobs 2 --ranks 1""",
+    "ble": """  python3 -m hvi ble emi.yaml --figure limit
+  python3 -m hvi ble emi.yaml --speeds 3:9:13 --equation JSC --equation Reimerdes --out limit.csv
+  python3 -m hvi ble --shots examples/whipple-shield/shots/shots.csv""",
     "sweep": """  python3 -m hvi sweep studies/parameters.yaml
   python3 -m hvi sweep studies/*.yaml --jobs 2 --ranks 1""",
+    "report": """  python3 -m hvi report runs/emi
+  python3 -m hvi report . --out shield.html""",
+    "movie": "  python3 -m hvi movie runs/emi --color speed",
+    "export": """  python3 -m hvi export runs/emi/dx-0.2_shift-0.0
+  python3 -m hvi export debris.dump --data debris.data --out debris""",
     "shots": """  python3 -m hvi shots examples/whipple-shield/shots/chosen.yaml --jobs 2 --ranks 1
   python3 -m hvi shots mine.csv --equations
   python3 -m hvi shots all.yaml --only 2053 P-34B --dry-run""",
@@ -42,6 +50,10 @@ EXAMPLES = {
   python3 -m hvi fragments frame.40.dump --distance 7.15e-4 --sound --density 1=2790 --density 2=2703 --plane 0.953e-3""",
     "map": """  python3 -m hvi map debris.dump --data debris.data --axis z --figure phase
   python3 -m hvi map debris.dump --data debris.data --axis z --kind field --figure field.png""",
+    "hole": """  python3 -m hvi hole frame.10.dump --plane 0.5e-3 --type 2 --figure hole
+  python3 -m hvi hole shield.dump --center 2.5e-3 0 --plane 31.4e-3 --type 3 --distance 0.4e-3 --thickness 1
+  python3 -m hvi hole frame.*.dump --plane 0.5e-3 --type 2 --all --out holes.csv
+  python3 -m hvi hole wall.data --quarter --plane 0.5e-3""",
     "view": """  python3 -m hvi view debris.dump --data debris.data --axis z --thickness 8e-3 --figure side
   python3 -m hvi view debris.dump --data debris.data --axis z --plane 4.05e-3 \\
       --color fragment --bonds bonds.dump --figure pieces""",
@@ -53,6 +65,8 @@ EXAMPLES = {
   python3 -m hvi impacts old.dump --axis z --plane 60.8e-3 --quarter --after 0 --bins 60 --figure witness.png
   python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --after 0.8e-3 --distance 0.6e-3 --sound \\
       --density 1=2785 --density 2=2785""",
+    "material": """  python3 -m hvi material Al7075-T6.hvi --figure Al7075-T6
+  python3 -m hvi material potentials/*.hvi""",
     "compare": """  python3 -m hvi compare run1/result.yaml run2/result.yaml
   python3 -m hvi compare run1 run2 --rtol 0.05 --keys length_ratio fragmentation
   python3 -m hvi compare run1/debris.dump run2/debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 \\
@@ -170,7 +184,23 @@ def _runs(parser):
 
 def _case(parser):
     parser.add_argument("case", metavar="CASE.yaml", help="projectile, speed, angle, walls, spacings")
+    _input(parser)
+
+
+def _input(parser):
     parser.add_argument("--input", metavar="FILE", help="LAMMPS input (default: examples/whipple-shield/in.whipple of the source tree)")
+
+
+def _speeds(text):
+    """(first, last, number) of A:B:N"""
+    try:
+        first, last, number = text.split(":")
+        first, last, number = positive(first), positive(last), _count(number)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text} is not FIRST:LAST:NUMBER, like 1:15:15") from None
+    if first >= last:
+        raise argparse.ArgumentTypeError(f"{text}: the first speed must be below the last")
+    return first, last, number
 
 
 def _main_of(name, args):
@@ -206,11 +236,35 @@ def options():
         sub.add_argument("--" + name, dest=name + "_", type=positive, metavar="X", help=f"{text}, mm or km/s (default: {default})")
     _runs(sub)
 
+    sub = command("ble", "ballistic-limit equations: critical diameter over speed for the shield of a case, or what they say of published shots")
+    sub.add_argument("case", metavar="CASE.yaml", nargs="?", help="as of hvi shield")
+    _input(sub)
+    sub.add_argument("--shots", metavar="FILE.csv", help="instead of a case: a list of double-wall shots, as of hvi shots; how often each equation is right")
+    sub.add_argument("--speeds", type=_speeds, default=(1.0, 15.0, 15), metavar="A:B:N", help="first, last, number of speeds, km/s (default: 1:15:15)")
+    sub.add_argument("--equation", action="append", metavar="NAME", help="only this equation; repeat (default: all)")
+    _output(sub, "critical diameter over speed, dashed where beyond ranges of validity, and the case")
+    sub.set_defaults(run=functools.partial(_main_of, "ble_command"))
+
     sub = command("sweep", "a LAMMPS input for many values of its variables, as study files say, with a table of all results")
     sub.add_argument("study", nargs="+", metavar="STUDY.yaml", help="input, variables, and the grid of what varies")
     sub.add_argument("--full", action="store_true", help="the study's full size; runs go to DIR/NAME-full")
     _runs(sub)
 
+    sub = command("report", "one HTML file of a run of in.whipple, or of the folder of hvi shield: verdict, reasons, pictures, all numbers")
+    sub.add_argument("folder", metavar="DIR", help="folder with verdict.yaml (runs/CASE of hvi shield), or with result.yaml")
+    sub.add_argument("--out", metavar="FILE.html", help="default: report.html in DIR")
+
+    sub = command("movie", "an animated GIF of a run of in.whipple from the side; frames: -var film, or settings: {film: 1} of a case")
+    sub.add_argument("folder", metavar="DIR", help="as of hvi report: of several runs the finest")
+    sub.add_argument("--out", metavar="FILE.gif", help="default: movie.gif in DIR")
+    sub.add_argument("--color", choices=("body", "speed"), default="body", help="of the particles (default: body)")
+    sub.add_argument("--rate", type=positive, default=5.0, metavar="N", help="frames per second (default: 5)")
+
+    sub = command("export", "dumps for ParaView: a VTU file of each frame with units in the names, and a PVD file of all")
+    sub.add_argument("files", nargs="+", metavar="DUMP|DIR", help="dump files of one run, or a folder as of hvi report")
+    sub.add_argument("--out", metavar="NAME", help="NAME.pvd, and NAME.0000.vtu ... beside it (default: the name of the dump; in a folder: shield)")
+    sub.add_argument("--part", action="store_true", help="of a half or quarter model only the part that was computed, not the whole")
+    _reading(sub)
     sub = command("shots", "a list of shots on double walls: what was seen, what the simulation says, and what equations say")
     sub.add_argument("study", metavar="FILE", help="study (YAML), or a list of shots (CSV) that is run as examples/whipple-shield/shots/all.yaml says")
     sub.add_argument("--only", nargs="+", metavar="SHOT", help="only these shots of it")
@@ -245,6 +299,25 @@ def options():
     sub.add_argument("--mmax", type=positive, default=float("inf"), metavar="M", help="and up to this one")
     _reading(sub)
     _output(sub, "N(>m)")
+
+    sub = command("hole", "the hole in a plate, as compute hvi/hole measures it: diameters, center, area")
+    sub.add_argument("files", nargs="+", metavar="FILE", help="dump file, or several of one run (plain or .gz); or one data file (write_data)")
+    sub.add_argument("--axis", choices="xyz", default="z", help="direction in which the plate is looked at (default: z)")
+    sub.add_argument("--center", type=float, nargs=2, default=(0.0, 0.0), metavar=("X", "Y"),
+                     help="a point in the plate across the axis, at best in the middle of the hole (default: 0 0)")
+    sub.add_argument("--plane", type=float, required=True, metavar="Z", help="coordinate of the plate's middle plane along the axis")
+    sub.add_argument("--type", type=int, nargs="+", metavar="TYPE", help="only particles of these types: the plate (default: all)")
+    sub.add_argument("--distance", type=positive, metavar="R", help="only the largest piece of these, of particles closer than R: what drifts in the hole is "
+                     "no plate (default: all)")
+    sub.add_argument("--thickness", type=positive, metavar="H", help="of the layer around the plane that is looked at (default: it is measured)")
+    sub.add_argument("--dr", type=positive, metavar="D", help="spacing of the map (default: it is measured)")
+    sub.add_argument("--fill", type=float, default=0.5, metavar="F", help="share of the intact plate's mass per area that makes plate (default: 0.5)")
+    sub.add_argument("--reference", type=positive, metavar="M", help="mass per area of the intact plate (default: it is measured)")
+    sub.add_argument("--sectors", type=int, default=36, metavar="N", help="for the smallest and largest diameter (default: 36)")
+    sub.add_argument("--all", action="store_true", help="a row for every frame instead of the values of one")
+    _frame(sub)
+    _reading(sub)
+    _output(sub, "the map of mass per area with the edge of the hole")
 
     sub = command("map", "axial velocity against position, as a map of mass (phase) or of its mean (field)")
     _files(sub)
@@ -296,6 +369,10 @@ def options():
     _debris(sub)
     _reading(sub)
     _output(sub, "both maps", out=False)
+
+    sub = command("material", "checks material files, says what they have, lack and assume, and for which use; of one file the curves, too")
+    sub.add_argument("files", nargs="+", metavar="FILE.hvi", help="material file, here or in LAMMPS_POTENTIALS; of several a table")
+    _output(sub, "Hugoniot, isentrope, yield stress and spall strength of one file")
 
     sub = command("compare", "two runs side by side: result.yaml (or its folder), or the same measures of two dumps")
     for name in "AB":

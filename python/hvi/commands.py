@@ -10,6 +10,7 @@ from . import cloud as clouds
 from . import compare as comparison
 from . import debris as below
 from . import distribution, fragments as pieces, mirror, progress, tables
+from .data import DataFile
 from .dump import Dump
 from .errors import HVIError
 from .scan import open_binary
@@ -173,6 +174,59 @@ def _fits(args, masses, unit, images):
     return fits
 
 
+def hole(args):
+    from . import hole as holes
+
+    def look(frame):
+        return holes.measure(frame, args.axis, args.center, args.plane, thickness=args.thickness, dr=args.dr, fill=args.fill,
+                             reference=args.reference, sectors=args.sectors, types=args.type, distance=args.distance)
+
+    if _is_dump(args.files[0]):
+        frames = _open(args)
+    else:
+        frames = [_of_data(args)]
+    if args.all:
+        return _all_holes(args, frames, look)
+    frame = frames[args.frame]
+    found = look(frame)
+    print(_moment(frame))
+    print(f"hole: {holes.SAID[found.values['found']]}")
+    _print({name: value for name, value in found.values.items() if found.values["found"] >= 0 or name in ("share", "layer", "reference", "spacing", "found")})
+    if args.out:
+        tables.write_csv(args.out, list(found.values), [list(found.values.values())])
+    if args.figure:
+        from . import figures
+
+        _save(figures.hole(frame, found, args.axis), args.figure)
+    return 0 if found.values["found"] >= 0 else 1
+
+
+def _of_data(args):
+    """The Frame of a data file"""
+    if len(args.files) > 1 or args.data or args.dt or args.interval:
+        raise HVIError(f"{args.files[0]} is no dump: one data file, without --data, --dt and --interval, or dumps")
+    frame = DataFile(args.files[0]).frame(dict(args.mass or ()), args.units, mirror.of_words(args.mirror))
+    if frame.planes:
+        print(f"model: {mirror.text(frame.planes)}; what follows is of the whole")
+    return frame
+
+
+def _all_holes(args, frames, look):
+    """One row per frame: when, and all values"""
+    if args.figure:
+        raise HVIError("--all makes a table; for a figure choose one frame with --frame")
+    rows = []
+    with progress.bar(len(frames), "hole") as bar:
+        for frame in frames:
+            rows.append({"frame": frame.number, "step": frame.step, "time": _time(frame), **look(frame).values})
+            bar.update()
+    names, rows = list(rows[0]), [tuple(row.values()) for row in rows]
+    lengths = ("diameter", "smallest", "largest", "layer", "spacing", *(name for name in names if name.startswith("center")))
+    print(tables.text(names, rows, {"time": "time", **dict.fromkeys(lengths, "distance")}, frames[0].units))
+    if args.out:
+        tables.write_csv(args.out, names, rows)
+
+
 def map(args):
     from . import figures
 
@@ -280,3 +334,41 @@ def _measures(args, path, which):
         summary = pieces.both(frame, **_rule(args, args.bonds and args.bonds[which]))[1]
         result.update({name: value for name, value in summary.items() if name not in ("mass", "particles")})
     return result
+
+
+def material(args):
+    from . import curves, material as materials
+
+    found = [materials.read(name) for name in args.files]
+    if len(found) > 1:
+        if args.figure:
+            raise HVIError("--figure draws one file")
+        rows = [materials.row(one) for one in found]
+        print(tables.text(("file", "eos", "strength", "damage", "spall", "assumed"),
+                          [[row["file"], row["eos"].partition(":")[0], row["strength"], row["damage"], row["spall"], sum(len(keys) for keys in one.assumed().values())]
+                           for one, row in zip(found, rows)]))
+        if args.out:
+            tables.write_csv(args.out, rows[0], [list(row.values()) for row in rows])
+        return
+    one = found[0]
+    print(f"{one.path}: {one.title}\nunits {one.units}, {'of ' + one.date if one.date else 'no date'}\n")
+    for kind in materials.WANTED:
+        why = one.lacks().get(kind)
+        print(f"  {kind:9} {', '.join(one.laws(kind)) or 'none' + (f': {why}' if why else '; the file does not say why')}")
+    for section, keys in one.assumed().items():
+        for key, note in keys.items():
+            print(f"  assumed   {' '.join(section)} {key} {one.sections[section][key]:g}: {note}")
+    print("\nfor")
+    for use, words, missing in materials.uses(one):
+        print(f"  {'no ' if missing else 'yes'} {use}" + (f" ({words})" if words else "") + (f": it has no {', no '.join(missing)}" if missing else ""))
+    if one.laws("eos")[0] in ("table", "idealgas"):
+        print(f"\nno curves of eos {one.laws('eos')[0]}")
+    else:
+        names, rows = curves.shock_table(one)
+        print("\nshocks into the reference state\n" + tables.text(names, rows))
+        if args.out:
+            tables.write_csv(args.out, names, rows)
+    if args.figure:
+        from .material_figure import draw
+
+        _save(draw(one), args.figure)

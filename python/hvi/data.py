@@ -7,11 +7,16 @@ import re
 import numpy as np
 
 from . import mirror as mirrors
+from . import units as unit_systems
+from .box import Box
 from .errors import HVIError
+from .frame import Frame
 from .scan import open_binary
 
 # atom styles that put the molecule between ID and type
 _MOLECULE_FIRST = {"angle", "bond", "full", "line", "molecular", "tri"}
+# where x y z begin, of atom styles with masses by type
+_PLACE = {"angle": 3, "atomic": 2, "bond": 3, "charge": 3, "full": 4, "molecular": 3, "sph": 5}
 # LAMMPS's own sections, and those of fixes, which have the ID of the fix
 _SECTION = re.compile(rb"^([A-Z][A-Za-z ]*[a-z]|[A-Za-z_]\w*)[ \t]*(?:#[ \t]*([^\n]*))?\n", re.M)
 
@@ -83,8 +88,48 @@ class DataFile:
         return self._table("Bonds", self._counts["bonds"], (2, 3)).astype(np.int64)
 
     @property
+    def _style(self):
+        return (self._sections["Atoms"][2].split() or ["atomic"])[0]
+
+    def frame(self, masses=None, units=None, mirror=None):
+        """The particles as a Frame: id, type, x y z, ix iy iz if they are there; what is given goes before what the file says."""
+        if units and self.units and units != self.units:
+            raise HVIError(f"{self.path} is in units {self.units}, not {units}")
+        if self._style not in _PLACE:
+            raise HVIError(f"{self.path}: atom_style {self._style} is not read here, but {', '.join(sorted(_PLACE))}; take a dump")
+        names = dict(zip(("id", "type"), (0, 2 if self._style in _MOLECULE_FIRST else 1)))
+        names.update(zip("xyz", range(_PLACE[self._style], _PLACE[self._style] + 3)))
+        start, end, _ = self._sections["Atoms"]
+        first = self._read(start, end).lstrip().partition(b"\n")[0].split(b"#")[0].split()
+        if len(first) == names["z"] + 4:
+            names.update(zip(("ix", "iy", "iz"), range(names["z"] + 1, names["z"] + 4)))
+        elif first and len(first) != names["z"] + 1:
+            raise HVIError(f"{self.path}, section Atoms: {len(first)} columns are not those of atom_style {self._style}")
+        table = self._table("Atoms", self._counts["atoms"], tuple(names.values()))
+        table = table[np.argsort(table[:, 0])]
+        columns = {name: table[:, k].astype(np.int64) if name in ("id", "type", "ix", "iy", "iz") else table[:, k] for k, name in enumerate(names)}
+        return Frame(columns, step=self.step or 0, box=self._box(start), units=unit_systems.check(units or self.units or "si"), masses=masses or self.masses,
+                     mirror=self.mirror if mirror is None else mirror, where=self.path)
+
+    def _box(self, end):
+        """from the lines above the sections; which sides are periodic is not there"""
+        head = self._read(0, end).decode("utf-8", "replace")
+        found = [re.search(rf"^\s*(\S+)\s+(\S+)\s+{a}lo\s+{a}hi\b", head, re.M) for a in "xyz"]
+        tilt = re.search(r"^\s*(\S+)\s+(\S+)\s+(\S+)\s+xy\s+xz\s+yz\b", head, re.M)
+        if not all(found):
+            raise HVIError(f"{self.path} has no box: no lines xlo xhi, ylo yhi, zlo zhi")
+        try:
+            lo, hi = np.array([[float(word) for word in bounds.groups()] for bounds in found]).T
+            vectors = np.diag(hi - lo)
+            if tilt:
+                vectors[1, 0], vectors[2, 0], vectors[2, 1] = map(float, tilt.groups())
+        except ValueError as problem:
+            raise HVIError(f"{self.path}: box: {problem}") from None
+        return Box(lo, vectors, (False,) * 3)
+
+    @property
     def atoms(self):
         """(IDs, types), (n,) of int64 each, in order of IDs."""
-        style = (self._sections["Atoms"][2].split() or ["atomic"])[0]
+        style = self._style
         table = self._table("Atoms", self._counts["atoms"], (0, 2 if style in _MOLECULE_FIRST else 1)).astype(np.int64)
         return tuple(table[np.argsort(table[:, 0])].T)

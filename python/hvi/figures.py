@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import ListedColormap, LogNorm
 from matplotlib.figure import Figure
+from scipy import ndimage
 
 from . import units as unit_systems
 from .errors import HVIError
@@ -83,6 +84,10 @@ def _bar(figure, artist, text, extend="neither", **where):
     return bar
 
 
+def _legend_of_lines(ax):
+    ax.legend(fontsize=STYLE["size"] - 1, frameon=False)
+
+
 def _moment(frame):
     """'step 500' or 'time' for a title"""
     if frame.time is None:
@@ -156,7 +161,8 @@ def side(source, axis="z", up=None, color="type", thickness=None, fragments=None
             bar.set_ticks(ticks, labels=[f"{t:.0f}" for t in ticks], minor=False)
             bar.minorticks_off()
     _label(ax, unit_systems.label(axis, unit), unit_systems.label(up, unit))
-    ax.set_title(_moment(frame), fontsize=STYLE["size"], loc="left")
+    cut = "" if thickness is None else f", slice of {thickness / factor:.3g} {unit}"
+    ax.set_title(_moment(frame) + cut, fontsize=STYLE["size"], loc="left")
     return figure
 
 
@@ -255,7 +261,32 @@ def impacts(source, found, axis="z"):
         _bar(figure, mesh, f"{quantity} per area ({text})", "min", ax=ax, orientation="horizontal", pad=0.02, fraction=0.05)
         ax.set_aspect("equal")
         _label(ax, unit_systems.label(names[0], unit), unit_systems.label(names[1], unit))
-    left.set_title(_moment(frame), fontsize=STYLE["size"], loc="left")
+    left.set_title(f"{_moment(frame)}, bins of {(found.x[1] - found.x[0]) / factor:.3g} {unit}", fontsize=STYLE["size"], loc="left")
+    return figure
+
+
+def hole(frame, found, axis="z"):
+    """Map of a plate's mass per area in shares of the intact one, the edge of the hole, and the circle with its area. found: a hole.Hole"""
+    if found.areal is None:
+        raise HVIError(f"{frame.where}: nothing in the layer, there is no map")
+    names = [name for name in "xyz" if name != axis]
+    factor, unit = unit_systems.scale("distance", np.concatenate([found.x, found.y]), frame.units)
+    x, y, values = found.x / factor, found.y / factor, found.values
+    figure, ((ax,),) = _figure(4.8)
+    mesh = ax.pcolormesh(x, y, found.areal.T / values["reference"], cmap="Greys", vmin=0.0, vmax=1.5, shading="nearest", rasterized=True)
+    if found.inside is not None:
+        # what is plate, and what is an opening elsewhere, has no edge here
+        near = ndimage.binary_dilation(found.inside, np.ones((3, 3)))
+        ax.contour(x, y, np.where(near, found.areal, np.nan).T, [found.edge], colors=[BODIES[0]], linewidths=STYLE["line"] + 0.4)
+        angle = np.linspace(0.0, 2.0 * np.pi, 361)
+        at = [values[f"center_{name}"] / factor for name in names]
+        r = 0.5 * values["diameter"] / factor
+        ax.plot(at[0] + r * np.cos(angle), at[1] + r * np.sin(angle), "--", color=BODIES[1], lw=STYLE["line"],
+                label=f"equal area, {2.0 * r:.4g} {unit}; {values['smallest'] / factor:.4g} to {values['largest'] / factor:.4g} {unit}")
+        ax.legend(fontsize=STYLE["size"], frameon=False, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    _bar(figure, mesh, "mass per area / intact", "max", ax=ax)
+    ax.set_aspect("equal")
+    _label(ax, unit_systems.label(names[0], unit), unit_systems.label(names[1], unit))
     return figure
 
 
@@ -326,4 +357,26 @@ def cloud(table, units="si"):
                       borderpad=0.0, handlelength=1.5, columnspacing=1.0)
     for ax in axes[1]:
         _label(ax, x=unit_systems.label("time", ut) if timed else "step")
+    return figure
+
+
+# ---------------------------------------------------------------------- ballistic-limit equations
+def ballistic_limit(speeds, curves, title, point=None):
+    """Critical diameter over speed; curves: {name: [(diameter in mm, is it within the ranges of validity)]}; point: (speed, diameter) of a case"""
+    figure, ((ax,),) = _figure(4.4)
+    speeds, highest = np.asarray(speeds), 0.0
+    for k, (name, points) in enumerate(curves.items()):
+        d, valid = np.array([d for d, _ in points]), np.array([valid for _, valid in points])
+        color, line = BODIES[k % len(BODIES)], STYLE["line"] * (1 + 0.22 * (len(curves) - 1 - k))  # those below show beside those above
+        ax.plot(speeds, d, "--", color=color, lw=0.5 * line, alpha=0.8)
+        ax.plot(speeds, np.where(valid, d, np.nan), color=color, lw=line, label=name, solid_capstyle="butt")
+        highest = max(highest, d[speeds >= min(3.0, speeds[-1])].max())
+    ax.plot([], [], "--", color="0.4", lw=0.7 * STYLE["line"], label="beyond a range of validity")
+    if point is not None:
+        ax.plot(*point, "o", color="black", ms=5, clip_on=False, label=f"the case, {point[1]:g} mm")
+        highest = max(highest, point[1])
+    ax.set(xlim=(speeds[0], speeds[-1]), ylim=(0, 1.25 * highest))
+    ax.set_title(title, fontsize=STYLE["size"])
+    _label(ax, "speed (km/s)", "critical diameter (mm): fails above")
+    ax.legend(fontsize=STYLE["size"] - 1, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=4, columnspacing=1.2)
     return figure

@@ -57,6 +57,10 @@ class Frame:
         return Frame(columns, number=self.number, step=self.step, time=self.time, box=box, units=self.units,
                      masses=self.type_masses, mirror=planes, where=self.where)
 
+    def without_planes(self, axes):
+        """The same frame, cut only at the planes across other axes (0, 1, 2) than these."""
+        return self._with(self.columns, self.box, tuple(plane for plane in self.planes if plane.axis not in axes))
+
     @property
     def planes(self):
         """Mirror planes, a tuple; HVIError if nothing says whether there are any, and it looks as if."""

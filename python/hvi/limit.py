@@ -10,7 +10,7 @@ import math
 import re
 
 from . import case as cases
-from . import runs, shield, tables
+from . import ble, runs, shield, tables
 from .errors import HVIError
 
 
@@ -120,7 +120,7 @@ class Limit:
         for place in self.searches[member].next():
             value = self.values[place]
             name = f"{shield.member_name(self.case, member)}_{self.on}-{value:g}"
-            job = shield.job(with_value(self.case, self.key, self.wall, value), self.source, member, self.folder / name, name, remove=["cloud*.dump"])
+            job = shield.job(with_value(self.case, self.key, self.wall, value), self.source, member, self.folder / name, name, remove=["cloud*.dump", "film.*.dump"])
             self.jobs[job.name] = member, place, job
             found.append(job)
         search, (which, shift) = self.searches[member], member
@@ -159,6 +159,10 @@ class Limit:
         found = {job.name: shield.verdict(job) for member, place, job in self.jobs.values() if place in self.searches[member].said}
         return {name: reasons for name, (verdict, reasons, _) in found.items() if verdict == "undecided"}
 
+    def equations(self):
+        """what ballistic-limit equations say of the same range, or why they say nothing"""
+        return ble.beside(ble.limits, lambda value: with_value(self.case, self.key, self.wall, value), self.values[0], self.values[-1])
+
     def answer(self):
         """The mapping of limit.yaml; limit is None where it is not in the range, reasons say why."""
         borders = {member: (s.borders()[0], s.borders()[3]) for member, s in self.searches.items()}
@@ -196,17 +200,16 @@ def main(args):
             print(" ".join(runner.command(job)))
         return 0
     (limit.folder / "limit.yaml").unlink(missing_ok=True)
-    try:
+    with runs.table_of(lambda: [job for _, _, job in limit.jobs.values()], limit.folder / "runs.csv"):
         failed = runner.run(first, f"{case.name} limit", limit.more)
-    finally:
-        runs.write_table([job for _, _, job in limit.jobs.values()], limit.folder / "runs.csv")
     print(runs.overview([job for _, _, job in limit.jobs.values()], shield.shown(case)))
     if failed:
         raise HVIError(f"no limit: {len(failed)} runs failed: {', '.join(job.name for job in failed)}")
     print()
     print(tables.text(("spacing_mm", "shift", "holds", "undecided", "fails", "runs"), limit.rows()))
     done = [job.result() for _, _, job in limit.jobs.values()]
-    answer = {**limit.answer(), "undecided_runs": limit.undecided(), "runs": len(done), "core_s": round(sum(result.get("core_s", 0) for result in done), 1)}
+    answer = {**limit.answer(), "undecided_runs": limit.undecided(), "runs": len(done), "core_s": round(sum(result.get("core_s", 0) for result in done), 1),
+              "equations": limit.equations()}
     shield.save(limit.folder / "limit.yaml", answer)
     print("\n".join(said(answer)))
     print(f"table: {limit.folder / 'runs.csv'}, answer: {limit.folder / 'limit.yaml'}")
@@ -217,6 +220,7 @@ def said(answer):
     """lines for the eye"""
     unit, cost = answer["unit"], [f"cost: {answer['runs']} runs, {answer['core_s']:g} core-seconds"]
     cost = [line for name, reasons in answer["undecided_runs"].items() for line in (f"undecided: {name}", *(f"  - {reason}" for reason in reasons))] + cost
+    cost = ble.said_of_limits(answer["equations"], unit) + cost
     if answer["limit"] is None:
         return ["limit: not found", *(f"  - {reason}" for reason in answer["reasons"]), *cost]
     spacing, shifts = answer["change_by_spacing"], answer["range_over_shifts"]

@@ -6,6 +6,7 @@ and material files were the same. One that was interrupted goes on from its rest
 what runs; what another process is still at (after kill -9 of the first) is waited for.
 """
 
+import contextlib
 import csv
 import fcntl
 import hashlib
@@ -25,6 +26,8 @@ from .errors import HVIError
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAST = "package_version"  # the last key of result.yaml: it is there if the file is complete
+PATIENCE = 10  # seconds that mpirun has to end its ranks
+FULL = 100_000  # bytes: less is a full disk
 
 
 def read_yaml(path):
@@ -112,7 +115,8 @@ class Job:
         self.record = {"input": source.checksum(), "variables": variables}
         if files := self._files():
             self.record["files"] = files
-        self.process, self.lock, self.start, self.problem, self.resumed, self.asked = None, None, None, "", False, False
+        self.process, self.lock, self.start, self.problem, self.advice, self.asked = None, None, None, "", "", False
+        self.resumed, self.saved = False, []  # if it went on, and from what
 
     def _files(self):
         """checksums of the files that variables name: materials, plates"""
@@ -139,6 +143,10 @@ class Job:
         """what the run left to go on from, newest last"""
         found = self.folder.glob(self.restart) if self.restart and self.begun() else []
         return sorted(found, key=lambda path: path.stat().st_mtime)
+
+    def _saved(self):
+        """files with particles and their times; a state file beside them is written when a run goes on, too"""
+        return sorted((path, path.stat().st_mtime_ns) for path in [*self.folder.glob("*.restart*")] or self.restart_files())
 
     def words(self):
         """LAMMPS's options"""
@@ -172,6 +180,7 @@ class Job:
         self.resumed = bool(self.restart_files())
         if not self.resumed:
             shutil.rmtree(self.folder, ignore_errors=True)
+        self.saved = self._saved()
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / self.product).unlink(missing_ok=True)
         self.input.copy_to(self.folder)
@@ -184,7 +193,7 @@ class Job:
     def ended(self, command, timeout):
         """True when it is over, by itself or by the time limit; self.problem then says what is wrong"""
         if self.start is None:
-            self.start, self.problem = time.monotonic(), ""
+            self.start, self.problem, self.advice = time.monotonic(), "", ""
         late = timeout and time.monotonic() - self.start > timeout
         if self.process is None:  # another process was at it, or it has yet to begin
             if self.take():
@@ -201,14 +210,18 @@ class Job:
         if status is None and not late:
             return False
         if status is None:
-            self.end()
+            end([self])
             self.problem = f"stopped after {timeout:g} s"
+            self.advice = ("call again: it goes on from what it has saved" if self._saved() != self.saved and self.restart_files() else
+                           "it has saved nothing new, another call would come no farther: take a longer --timeout")
         elif status != 0:
-            self.problem = f"exit status {status}"
+            self.problem = said_of(status)
         elif self.result() is None:
             self.problem = f"no complete {self.product}"
-        if self.problem and self.resumed and status is not None:  # what it went on from may be what is wrong: the next try begins anew
-            for path in self.restart_files():
+        if self.problem and shutil.disk_usage(self.folder).free < FULL:
+            self.advice = "the disk is full"
+        if self.problem and self.resumed and status is not None and self._saved() == self.saved:
+            for path in self.restart_files():  # it came no farther: what it went on from may be what is wrong, the next try begins anew
                 path.unlink()
         for pattern in [] if self.problem else self.remove:
             for path in self.folder.glob(pattern):
@@ -223,15 +236,16 @@ class Job:
             self.process.terminate()
             self.asked = True
 
-    def end(self):
-        """mpirun ends its ranks when it is told to; if it does not listen it is killed"""
-        if self.process is None:
-            return
-        self.ask_to_end()
-        try:
-            self.process.wait(timeout=10)
-        except subprocess.TimeoutExpired:
+    def kill(self):
+        """if it still runs; with its ranks, which have groups of their own and would see only later that mpirun is gone"""
+        if self.process is not None and self.process.poll() is None:
+            ranks = []
+            with contextlib.suppress(OSError):  # where there is no such file they end by themselves
+                ranks = pathlib.Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children").read_text().split()
             os.killpg(self.process.pid, signal.SIGKILL)
+            for rank in ranks:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(int(rank), signal.SIGKILL)
             self.process.wait()
         self.leave()
 
@@ -259,8 +273,23 @@ class Job:
         lines = [line for line in lines if line]
         frame = next((i for i, line in enumerate(lines) if re.fullmatch("-{60,}", line)), 0)  # what mpirun says after that hides why
         lines = lines[:frame] or lines
-        errors = [i for i, line in enumerate(lines) if line.startswith("ERROR")]
+        errors = [i for i, line in enumerate(lines) if line.startswith("ERROR") or "*** Process received signal ***" in line]
         return lines[max(0, errors[0] - 1):][:n] if errors else lines[-n:]
+
+
+def end(jobs):
+    """mpirun ends its ranks when it is told to; if it does not listen, or Ctrl-C is pressed again, it is killed"""
+    try:
+        for job in jobs:
+            job.ask_to_end()
+        until = time.monotonic() + PATIENCE
+        for job in jobs:
+            if job.process is not None:
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    job.process.wait(timeout=max(until - time.monotonic(), 0.0))
+    finally:
+        for job in jobs:
+            job.kill()
 
 
 class Runner:
@@ -272,12 +301,16 @@ class Runner:
         self.lmp = pathlib.Path(args.lmp or os.environ.get("HVI_LMP") or ROOT / "build" / "lmp")
         if not self.lmp.is_file():
             raise HVIError(f"{self.lmp} does not exist: run make first, or give --lmp FILE")
+        if not os.access(self.lmp, os.X_OK):
+            raise HVIError(f"{self.lmp} cannot be executed: run make first, or give --lmp FILE")
         self.lmp = self.lmp.resolve()
         if not shutil.which(self.mpirun):
             raise HVIError(f"{self.mpirun} is not there: install MPI, or give --mpirun FILE")
         if os.sep in self.mpirun:
             self.mpirun = os.path.abspath(self.mpirun)  # runs have folders of their own
-        signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C
+        for ends in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C; nohup still works
+            if signal.getsignal(ends) != signal.SIG_IGN:
+                signal.signal(ends, signal.default_int_handler)
 
     def command(self, job):
         command = [self.mpirun, "-np", str(self.ranks), str(self.lmp), *job.words()]
@@ -302,7 +335,7 @@ class Runner:
                             running.append(job)
                         else:
                             waiting += more(job)
-                    for job in [j for j in running if j.ended(self.command, self.timeout)]:
+                    for job in [j for j in running if self._ended(j)]:
                         running.remove(job)
                         over, work = over + 1, work + job.weight
                         if job.problem:
@@ -323,17 +356,28 @@ class Runner:
                 print("interrupted: call again to go on", file=sys.stderr)
                 raise
             finally:
-                for job in running:  # all at once
-                    job.ask_to_end()
-                for job in running:
-                    job.end()
+                end(running)
         return failed
+
+    def _ended(self, job):
+        try:
+            return job.ended(self.command, self.timeout)
+        except OSError as problem:  # every other run would meet the same
+            raise HVIError(f"cannot run in {job.folder}: {problem.strerror}{f': {problem.filename}' if problem.filename else ''}; "
+                           "put that right and call again to go on") from None
 
     def _line(self, job):
         took = f"{time.monotonic() - job.start:.0f} s"
         if not job.problem:
             return f"{job.name}  ok  {took}"
-        return "\n".join([f"{job.name}  FAILED: {job.problem}  {took}", *(f"    | {line}" for line in job.last_lines()), f"    | see {job.folder}"])
+        return "\n".join([f"{job.name}  FAILED: {job.problem}{f'; {job.advice}' if job.advice else ''}  {took}", *(f"    | {line}" for line in job.last_lines()), f"    | see {job.folder}"])
+
+
+def said_of(status):
+    """an exit status in words; that of mpirun is 128 + the signal that ended a rank"""
+    number = -status if status < 0 else status - 128
+    known = {member.value: member.name for member in signal.Signals}
+    return f"exit status {status}" + (f" ({known[number]}{': out of memory?' if number == signal.SIGKILL else ''})" if number in known else "")
 
 
 def duration(seconds):
@@ -346,7 +390,7 @@ def cell(value):
 
 
 def write_table(jobs, path):
-    """A CSV file: job, variables, results of all jobs that are done; returns how many are."""
+    """A CSV file: job, variables, results of all jobs that are done."""
     rows = [{"job": job.name, **result, **job.variables} for job in jobs if (result := job.result())]
     columns = list(dict.fromkeys(["job", *(n for j in jobs for n in j.variables), *(n for row in rows for n in row)]))
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -354,7 +398,24 @@ def write_table(jobs, path):
         writer = csv.DictWriter(out, columns, restval="", lineterminator="\n")
         writer.writeheader()
         writer.writerows({name: cell(value) for name, value in row.items()} for row in rows)
-    return len(rows)
+
+
+@contextlib.contextmanager
+def table_of(jobs, path):
+    """write_table() at the end, of a part of the runs, too; what stopped them is what is said, not that there is no room for the table either
+
+    jobs: function without arguments
+    """
+    try:
+        yield
+    except BaseException:
+        with contextlib.suppress(OSError):
+            write_table(jobs(), path)
+        raise
+    try:
+        write_table(jobs(), path)
+    except OSError as problem:
+        raise HVIError(f"cannot write {path}: {problem.strerror}") from None
 
 
 def overview(jobs, keys):

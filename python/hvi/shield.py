@@ -1,13 +1,16 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """python3 -m hvi shield: does the wall hold?  One case at several spacings and shifts of the lattice, one verdict."""
 
+import itertools
+import math
 import pathlib
 import re
+import shlex
 
 import yaml
 
 from . import case as cases
-from . import runs, tables
+from . import ble, runs, tables
 from .errors import HVIError
 
 INPUT = runs.ROOT / "examples" / "whipple-shield" / "in.whipple"
@@ -39,11 +42,35 @@ def job(case, source, member, folder, name=None, remove=()):
 def verdict(job):
     """(verdict, reasons, notes) of a run that is done; notes: what is doubtful in a run that fails nevertheless"""
     result = job.result()
+    if result is None:
+        raise HVIError(f"{job.folder}: its result is gone or of another case: does another call use the same folder? Call again, or take another --runs DIR")
     said = result.get("verdict")
     if said not in STATUS:
         raise HVIError(f"{job.folder / 'result.yaml'}: no verdict, holds, fails or undecided, but {said}")
     lists = [result.get(key) or [] for key in ("reasons", "notes")]
-    return said, *([as_key(str(text)) for text in (found if isinstance(found, list) else [found])] for found in lists)
+    reasons, notes = ([as_key(str(text)) for text in (found if isinstance(found, list) else [found])] for found in lists)
+    return judged(said, reasons, notes, *whole_in_tension(job))
+
+
+def judged(said, reasons, notes, walls, ball):
+    """(verdict, reasons, notes) with what whole_in_tension() says, of which in.whipple does not know"""
+    if said == "fails":
+        return said, reasons, notes + walls + ball
+    return "undecided" if walls else said, walls + reasons, notes + ball
+
+
+def whole_in_tension(job):
+    """(texts on walls, on the projectile) whose material file has nothing that lets them fail under tension"""
+    given = re.search(r'^\s*variable\s+solid\s+index\s+"([^"\n]*)"', job.input.texts[job.input.name], re.M)
+    solid = job.variables.get("solid") or (given[1] if given else None)
+    return lacking(solid, job.variables["material_p"], job.variables["material"]) if solid else ([], [])
+
+
+def lacking(solid, ball, walls):
+    """the same of words of fix hvi/johnson-cook and of material files"""
+    text = "{} is of {}, whose file has no law of spall for '{}': in tension it does not fail"
+    return ([text.format(f"wall {k}", name, solid) for k, name in enumerate(walls, 1) if not cases.tears(name, solid)],
+            [] if cases.tears(ball, solid) else [text.format("the projectile", ball, solid)])
 
 
 def as_key(text):
@@ -87,6 +114,35 @@ def decide(case, said):
                      f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told], notes
 
 
+def finer(case, said, jobs):
+    """What would say more, as keys of the case: the finest spacing that can be decided and one with a layer more in the last wall, and what that costs.
+
+    said: {member: (verdict, reasons, notes)}; None if no spacing can decide
+    """
+    if case.not_modelled or whole_in_tension(jobs[0, case.shifts[0]])[0]:
+        return None
+    last, which = case.walls[-1], len(case.spacings_mm) - 1
+    fine = (last.spacings_mm or case.spacings_mm)[-1]
+    layers = math.ceil(last.thickness_mm / fine - 0.01)
+    first = 1.0 if layers >= cases.LAYERS else last.thickness_mm / cases.LAYERS / fine
+    second = next(r for n in itertools.count(max(layers, cases.LAYERS) + 1) if (r := last.thickness_mm / n / fine) * cases.RATIO <= first)
+    stay = first == 1.0 and all(said[which, shift][0] != "undecided" for shift in case.shifts)  # those of the finest need not be run again
+
+    def spacings(own):
+        return [float(f"{own[-1] * ratio:.4g}") for ratio in (first, second)]
+
+    spent = sum(jobs[which, shift].result().get("core_s", 0) for shift in case.shifts)
+    return {"spacings_mm": spacings(case.spacings_mm), **{f"wall {k}: spacings_mm": spacings(wall.spacings_mm) for k, wall in enumerate(case.walls, 1) if wall.spacings_mm},
+            "runs": len(case.shifts) * (1 if stay else 2), "core_s": float(f"{spent * (second**-4 + (0 if stay else first**-4)):.2g}")}
+
+
+def said_of_finer(case, found):
+    """a line for the eye"""
+    keys = ", ".join(f"{key}: {value}" for key, value in found.items() if key.endswith("spacings_mm"))
+    more = "more runs, those of the finest spacing stay" if found["runs"] == len(case.shifts) else "runs, with the remedies above"
+    return f"next finer: {keys}: {found['runs']} {more}; about {found['core_s']:g} core-seconds"
+
+
 def shown(case):
     """columns of the table of runs"""
     n = len(case.walls)
@@ -101,6 +157,12 @@ def save(path, mapping):
         raise HVIError(f"cannot write {path}: {problem.strerror}") from None
 
 
+def command(args, ranks):
+    """what was asked for, as it is typed"""
+    given = (("--input", args.input), ("--runs", args.runs), ("--jobs", args.jobs), ("--ranks", ranks), ("--lmp", args.lmp))
+    return shlex.join(["python3", "-m", "hvi", "shield", str(args.case), *(str(word) for option, value in given if value for word in (option, value))])
+
+
 def main(args):
     found = source(args)
     case = cases.read(args.case, found)
@@ -112,19 +174,25 @@ def main(args):
     (folder / "verdict.yaml").unlink(missing_ok=True)  # that of another case, or of fewer runs
     todo = [j for j in jobs.values() if j.result() is None]
     print(f"{case.name}: {len(jobs)} runs, {len(jobs) - len(todo)} done before, {len(todo)} to run", flush=True)
-    try:
+    with runs.table_of(jobs.values, folder / "runs.csv"):
         failed = runner.run(todo, case.name)
-    finally:
-        runs.write_table(jobs.values(), folder / "runs.csv")
     print(runs.overview(jobs.values(), shown(case)))
     if failed:
         raise HVIError(f"no verdict: {len(failed)} of {len(jobs)} runs failed: {', '.join(j.name for j in failed)}")
-    said, reasons, notes = decide(case, {member: verdict(j) for member, j in jobs.items()})
-    save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **({"notes": notes} if notes else {}), "runs": {j.name: verdict(j)[0] for j in jobs.values()},
-                                   "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1)})
+    each = {member: verdict(j) for member, j in jobs.items()}
+    said, reasons, notes = decide(case, each)
+    further = finer(case, each, jobs) if said == "undecided" else None
+    more = {name: value for name, value in (("notes", notes), ("next_finer", further)) if value}
+    equations = ble.beside(ble.predictions, case)
+    (folder / "case.yaml").write_text(pathlib.Path(args.case).read_text())
+    save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **more, "runs": {j.name: verdict(j)[0] for j in jobs.values()},
+                                   "equations": equations, "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1),
+                                   "command": command(args, runner.ranks)})
     print(f"verdict: {said}")
-    print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes)]))
+    print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes),
+                     *([said_of_finer(case, further)] if further else [])]))
     print(f"table: {folder / 'runs.csv'}, verdict: {folder / 'verdict.yaml'}")
+    print("\n".join(ble.said(equations)))
     return STATUS[said]
 
 

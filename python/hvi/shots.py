@@ -204,7 +204,7 @@ class Outcome:
         margins = found.get("margins") or {}
         if not margins:
             return ""
-        if found["verdict"] != "holds" and (margins["hole_mm"] > 0 or margins["apart_mass_mg"] > 0):
+        if found["verdict"] != "holds" and (margins["hole_mm"] != 0 or margins["apart_mass_mg"] > 0):  # nan: unknown
             return f"hole {margins['hole_mm']:.3g} mm, {margins['apart_mass_mg']:.3g} mg apart"
         return f"bulge {margins['bulge_over_thickness']:.2g} t, layer {margins['deepest_failed_layer']:g} of {margins['layers']:g} failed"
 
@@ -281,7 +281,7 @@ def markdown(names, rows):
 
 
 def save(folder, outcomes, ratios):
-    """shots.csv and shots.md of what is done so far, for the eye the same"""
+    """shots.csv and shots.md of all shots of a study and what is done so far, for the eye the same"""
     table = [row(outcome, ratios[outcome.shot.name]) for outcome in outcomes]
     names = list(table[0])
     hidden = {"reasons"} if any(line["finer"] for line in table) else {"reasons", "finer", "both"}
@@ -289,8 +289,9 @@ def save(folder, outcomes, ratios):
     cells = [[line[name] for name in columns] for line in table]
     summary = counts_table(counts(outcomes, ratios))
     tables.write_csv(folder / "shots.csv", names, [line.values() for line in table])
-    (folder / "shots.md").write_text(f"{markdown(columns, cells)}\n\n{markdown(*summary)}\n")
-    return tables.text(columns, cells) + "\n\n" + tables.text(*summary)
+    done = f"{sum(outcome.done(0) for outcome in outcomes)} of {len(outcomes)} shots are done, and counted:"
+    (folder / "shots.md").write_text(f"{markdown(columns, cells)}\n\n{done}\n\n{markdown(*summary)}\n")
+    return f"{tables.text(columns, cells)}\n\n{done}\n{tables.text(*summary)}"
 
 
 # ---------------------------------------------------------------------- the command
@@ -320,16 +321,17 @@ def plan(outcomes, source, runner, folder):
 def main(args):
     source = shield.source(args)
     study = Study(args.study, source)
-    shots = named(study.shots, args.only, args.study) if args.only else study.shots
+    shots = named(study.shots, dict.fromkeys(args.only), args.study) if args.only else study.shots
     used = {alloy for shot in shots for alloy in shot.alloys()}
     for alloy in sorted(used & set(study.stand_ins)):
         print(f"stand-in: {alloy} is computed as {study.stand_ins[alloy]}")
     folder = args.runs.resolve() / study.name
     folder.mkdir(parents=True, exist_ok=True)
-    outcomes = [Outcome(shot, study.case(shot), source, folder) for shot in shots]
+    every = [Outcome(shot, study.case(shot), source, folder) for shot in study.shots]
+    outcomes = [outcome for outcome in every if outcome.shot in shots]
     if args.dry_run:
         return plan(outcomes, source, runs.Runner(args), folder)
-    ratios = {outcome.shot.name: ratios_of(outcome) for outcome in outcomes}
+    ratios = {outcome.shot.name: ratios_of(outcome) for outcome in every}
     if args.equations:
         found = [(name, confusion((shot.observed, by_equation(ratios[shot.name][name])) for shot in shots)) for name in ratios[shots[0].name]]
         names = ("shot", "observed", *ratios[shots[0].name])
@@ -344,7 +346,7 @@ def main(args):
     try:
         failed = runner.run(todo, study.name)
     finally:
-        print(save(folder, outcomes, ratios))
+        print(save(folder, every, ratios))
     print(f"table: {folder / 'shots.csv'}, {folder / 'shots.md'}")
     if failed:
         print(f"{study.name}: {len(failed)} failed: {', '.join(job.name for job in failed)}", flush=True)

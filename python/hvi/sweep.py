@@ -90,10 +90,11 @@ def one(path, args):
         return True
     table = folder / f"{study.name}.csv"
     try:
-        failed = runner.run(todo, study.name)
-        print(runs.overview(jobs, SHOWN))
+        with runs.table_of(lambda: jobs, table):
+            failed = runner.run(todo, study.name)
+            print(runs.overview(jobs, SHOWN))
     finally:
-        done = runs.write_table(jobs, table)
+        done = sum(job.result() is not None for job in jobs)
         print(f"{study.name}: {done} of {len(jobs)} jobs are done, table: {table}", flush=True)
     if failed:
         print(f"{study.name}: {len(failed)} failed: {', '.join(job.name for job in failed)}", flush=True)

@@ -35,6 +35,7 @@ class FixHVIStore : public Fix {
 
   HVI::Materials materials;
   HVI::SphFields fields;
+  bool is_reported = false;    // there was a table of HVISphReport
 
   static FixHVIStore *find(class LAMMPS *);        // of this simulation, nullptr: none
   static FixHVIStore *instance(class LAMMPS *);    // makes it if need be; not in init() of fixes

@@ -38,11 +38,9 @@ static constexpr double FILL_LEAST = 0.4;      // of a body's bounding box, if t
 
 /* ---------------------------------------------------------------------- */
 
-HVISphReport::HVISphReport(LAMMPS *lmp, const FixHVIStore *store,
-                           const std::vector<char> &is_ours) :
-    Pointers(lmp),
-    laws(atom->ntypes + 1), solid(false), kept_bytes(0), forward(0), reverse(0), border(0),
-    store(store), is_ours(is_ours), rows(atom->ntypes + 1), spread(0.0)
+HVISphReport::HVISphReport(LAMMPS *lmp, FixHVIStore *store, const std::vector<char> &is_ours) :
+    Pointers(lmp), laws(atom->ntypes + 1), solid(false), kept_bytes(0), forward(0), reverse(0),
+    border(0), store(store), is_ours(is_ours), rows(atom->ntypes + 1), spread(0.0)
 {
 }
 
@@ -162,13 +160,44 @@ std::string HVISphReport::terms() const
   return text;
 }
 
+/* ----------------------------------------------------------------------
+   Whether the log has this table: the same settings, and no particles that were not there.
+   Motion, losses and lists are nothing new.  Outlives clear, after which a run goes on from
+   the restart file that it has written: then no particle is new.
+------------------------------------------------------------------------- */
+
+struct HVISphReport::Told {
+  double clock = 0.0;    // which LAMMPS, if a process has several
+  std::string settings;
+  std::vector<Row> rows;
+};
+
+bool HVISphReport::is_told(const std::string &settings)
+{
+  static constexpr double SAME = 1.0e-6;    // of mean masses, which are sums in any order
+  static constexpr double NEAR = 0.1;       // of those of fewer particles
+  static Told told;
+  bool same =
+      told.clock == lmp->initclock && told.settings == settings && told.rows.size() == rows.size();
+  for (int i = 1; same && i <= atom->ntypes; i++) {
+    const Row &row = rows[i], &last = told.rows[i];
+    const double most = row.number == last.number ? SAME : NEAR;
+    const bool heavier = row.number > 0.0 && std::fabs(row.mass - last.mass) > most * last.mass;
+    same = (store->is_reported || row.fresh == 0.0) && row.number <= last.number &&
+        row.fresh <= last.fresh && !heavier;
+  }
+  told = {lmp->initclock, settings, rows};
+  store->is_reported = true;
+  return same;
+}
+
 /* ---------------------------------------------------------------------- */
 
-void HVISphReport::write() const
+void HVISphReport::write()
 {
   if (comm->me != 0) return;
   const HVI::SphSettings &set = store->fields.settings;
-  std::string text = fmt::format("Pair style hvi/sph {}\n", set.text);
+  std::string text = fmt::format("Pair style hvi/sph {}\n", set.text), settings = text;
   text += fmt::format("  {:>4} {:>10} {:>11} {:>9} {:>9} {:>21} {:>6}  {}\n", "type", "particles",
                       "spacing", "h/spacing", "neighbors", "rho/rho0 (least,most)", "layers",
                       "material: laws");
@@ -179,21 +208,23 @@ void HVISphReport::write() const
     const std::string density = row.ratio > 0.0
         ? fmt::format("{:.4f} ({:.3f},{:.3f})", row.ratio, row.least, row.most)
         : "-";
-    text += fmt::format("  {:>4} {:>10.0f} {:>11.5g} {:>9.4g} {:>9.4g} {:>21} {:>6}  {}: {}{}\n",
-                        itype, row.number, row.spacing,
-                        row.spacing > 0.0 ? set.h[itype] / row.spacing : 0.0, row.neighbors,
-                        density, row.layers ? std::to_string(row.layers) : "-", material.name,
-                        material.eos->name(), laws[itype].empty() ? "" : ", " + laws[itype]);
+    const std::string what = fmt::format("{}: {}{}\n", material.name, material.eos->name(),
+                                         laws[itype].empty() ? "" : ", " + laws[itype]);
+    text +=
+        fmt::format("  {:>4} {:>10.0f} {:>11.5g} {:>9.4g} {:>9.4g} {:>21} {:>6}  {}", itype,
+                    row.number, row.spacing, row.spacing > 0.0 ? set.h[itype] / row.spacing : 0.0,
+                    row.neighbors, density, row.layers ? std::to_string(row.layers) : "-", what);
+    settings += fmt::format("{} {} {}", itype, set.h[itype], what);
   }
-  text += fmt::format("  terms: {}\n", terms());
-  text += fmt::format("  arrays, bytes: {}\n", store->fields.arrays());
-  text += fmt::format("  memory: {:.0f} bytes per owned and ghost particle, {} more per owned "
+  std::string more = fmt::format("  terms: {}\n", terms());
+  more += fmt::format("  arrays, bytes: {}\n", store->fields.arrays());
+  more += fmt::format("  memory: {:.0f} bytes per owned and ghost particle, {} more per owned "
                       "particle in fixes\n",
                       store->fields.bytes_per_particle(), kept_bytes);
-  text += fmt::format("  communication beyond atom_style sph, doubles per ghost: {} forward and {} "
+  more += fmt::format("  communication beyond atom_style sph, doubles per ghost: {} forward and {} "
                       "reverse in each step, {} when new\n",
                       forward, reverse, border);
-  utils::logmesg(lmp, text);
+  if (!is_told(settings + more)) utils::logmesg(lmp, text + more);
 }
 
 /* ---------------------------------------------------------------------- */

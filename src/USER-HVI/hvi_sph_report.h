@@ -18,13 +18,14 @@
 namespace LAMMPS_NS {
 
 /* ----------------------------------------------------------------------
-   What a run with pair style hvi/sph is about to compute, as a table in the log, and warnings
-   where that is unlikely to be meant.  Made at the start of a run, by all ranks.
+   What a run with pair style hvi/sph is about to compute, as a table in the log unless it
+   tells the same already, and warnings where that is unlikely to be meant.  Made at the
+   start of a run, by all ranks.
 ------------------------------------------------------------------------- */
 
 class HVISphReport : protected Pointers {
  public:
-  HVISphReport(class LAMMPS *, const class FixHVIStore *, const std::vector<char> &is_ours);
+  HVISphReport(class LAMMPS *, class FixHVIStore *, const std::vector<char> &is_ours);
 
   std::vector<std::string> laws;    // by type, what is in force besides the equation of state
   std::vector<char> unmoved;    // by owned particle: not integrated in a run before; empty: unknown
@@ -33,7 +34,7 @@ class HVISphReport : protected Pointers {
   int forward, reverse, border;    // doubles a ghost, sent and returned each step, sent when new
 
   void count(const HVI::SphList &, bool newton);
-  void write() const;
+  void write();
   void warn() const;
 
  private:
@@ -46,12 +47,14 @@ class HVISphReport : protected Pointers {
     double far = 0.0;    // particles with a ratio far from 1 at their start
     int layers = 0;      // of the thinnest direction, 0: cannot be told
   };
-  const class FixHVIStore *store;
+  struct Told;    // the last table
+  class FixHVIStore *store;
   const std::vector<char> &is_ours;
   std::vector<Row> rows;    // by type
   double spread;            // of velocities
 
   std::string terms() const;
+  bool is_told(const std::string &settings);
 };
 
 }    // namespace LAMMPS_NS

@@ -36,7 +36,8 @@ using namespace LAMMPS_NS;
 
 PairHVISPH::PairHVISPH(LAMMPS *lmp) :
     Pair(lmp), visc_a(nullptr), visc_b(nullptr), tension(nullptr), store(nullptr),
-    integrator(nullptr), lists(nullptr), strength(nullptr), placed(false), fastest(0.0), halo()
+    integrator(nullptr), lists(nullptr), strength(nullptr), placed(false), fastest(0.0),
+    narrowest(HVI::NO_BOUND), halo()
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,

@@ -82,6 +82,7 @@ class PairHVISPH :
   std::vector<int> rows;                     // of the list, of those that are awake
   double
       fastest;    // of the last forces: 1/time in which signals pass half of what a kernel reaches
+  double narrowest;    // and the smallest h
 
   // records that are being communicated: the first numbers of each, as many as are sent
 

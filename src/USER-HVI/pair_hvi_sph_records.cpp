@@ -52,6 +52,7 @@ void PairHVISPH::gather()
   const HVI::SphView &records = store->fields.view();
   const HVI::SphLaws &laws = set.laws;
   fastest = 0.0;
+  narrowest = HVI::NO_BOUND;
 
   for (int i = 0; i < nall; i++) {
     const int itype = type[i];
@@ -88,6 +89,7 @@ void PairHVISPH::gather()
     place.z = x[i][2];
     place.h = set.variable ? set.smoothing_length(itype, rho[i], integrator->hscale(i))
                            : set.h[itype];
+    narrowest = MIN(narrowest, place.h);
 
     HVI::SphState &s = records.state[i];
     s.vx = vest[i][0];
@@ -428,7 +430,8 @@ void PairHVISPH::find_images()
 
 /* ----------------------------------------------------------------------
    Shortest h/(c + approach + viscosity), from the last forces.  A pair that is not yet within reach is
-   not seen: it comes no deeper in a step than forces rise slowly.  Those that are not in adjacent
+   not seen: it comes no deeper in a step than forces rise slowly.  What they reach with variable h is
+   that of now: how fast h shrinks is limited by signals.  Those that are not in adjacent
    cells are farther apart by a skin at least.
 ------------------------------------------------------------------------- */
 
@@ -436,10 +439,11 @@ void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
 {
   if (fastest * bounds.signal > 1.0 || std::isnan(fastest)) bounds.signal = 1.0 / fastest;
 
-  double deep = HVI::NO_BOUND;
+  double h = narrowest;
   for (int i = 1; i <= atom->ntypes; i++)
-    if (is_ours[i])
-      deep = MIN(deep, 0.25 * set.support * (set.variable ? set.hmin : 1.0) * set.h[i]);
+    if (is_ours[i] && !set.variable) h = MIN(h, set.h[i]);    // whoever is on this rank
+  if (h >= HVI::NO_BOUND) return;                             // nobody
+  const double deep = 0.25 * set.support * h;
   const double apart = deep + neighbor->skin;
   double speed = placed ? sleep.fastest() : 0.0;
   if (set.mirror.planes) speed = MAX(speed, fastest_to_images(deep / apart));

@@ -8,9 +8,10 @@
 
 // hvi_components.* without LAMMPS: graphs whose vertices lie on the ranks as the first argument
 // says (blocks, cyclic or random), with IDs in random order.  Rank 0 checks every label against
-// a search of its own and prints the number of rounds, the vertices and the components.
+// a search of its own and prints the number of rounds, the vertices and the components, a line
+// for each graph.
 //
-//   mpirun -np P ./snake blocks|cyclic|random chain|cut|pairs|empty N
+//   mpirun -np P ./snake {blocks|cyclic|random chain|cut|pairs|empty N} ...
 
 #include "hvi_components.h"
 
@@ -21,15 +22,11 @@
 #include <random>
 #include <string>
 
-int main(int argc, char **argv)
+static int search(const std::string &layout, const std::string &graph, int n)
 {
-  MPI_Init(&argc, &argv);
   int me, nprocs;
   MPI_Comm_rank(MPI_COMM_WORLD, &me);
   MPI_Comm_size(MPI_COMM_WORLD, &nprocs);
-  if (argc < 4) MPI_Abort(MPI_COMM_WORLD, 1);
-  const std::string layout = argv[1], graph = argv[2];
-  const int n = std::stoi(argv[3]);
 
   // the same on all ranks
 
@@ -97,7 +94,17 @@ int main(int argc, char **argv)
   MPI_Allreduce(&wrong, &allwrong, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
   for (int v = 0; v < n; v++) heads += want[v] == id[v];
   if (me == 0)
-    printf("rounds %d vertices %d components %d wrong %d\n", components.rounds(), n, heads, allwrong);
+    printf("layout %s graph %s rounds %d vertices %d components %d wrong %d\n", layout.c_str(),
+           graph.c_str(), components.rounds(), n, heads, allwrong);
+  return allwrong;
+}
+
+int main(int argc, char **argv)
+{
+  MPI_Init(&argc, &argv);
+  if (argc < 4 || argc % 3 != 1) MPI_Abort(MPI_COMM_WORLD, 1);
+  int wrong = 0;
+  for (int k = 1; k < argc; k += 3) wrong += search(argv[k], argv[k + 1], std::stoi(argv[k + 2]));
   MPI_Finalize();
-  return allwrong > 0;
+  return wrong > 0;
 }

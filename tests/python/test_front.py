@@ -129,12 +129,33 @@ def test_verdict_of_all_runs(folder, capsys, D, verdict, status):
         assert "so near the limit finer spacings_mm may decide" in saved["reasons"][2]
     assert list(saved)[:2] == ["verdict", "reasons"] and saved["verdict"] == verdict and f"\nverdict: {verdict}\n  - {saved['reasons'][0]}\n" in out
     assert tries(folder) == {name: 1 for name in saved["runs"]} and len(saved["runs"]) == 4
+    assert saved["command"] == "python3 -m hvi shield emi.yaml --runs runs --jobs 2 --ranks 2"
+    assert (folder / "runs/emi/case.yaml").read_text() == (folder / "emi.yaml").read_text()
     assert saved["core_s"] == pytest.approx(2 * (0.2**-4 + 39.1), abs=0.1)
     for name, said in saved["runs"].items():
         assert re.search(rf"^ *{name} +done +{said} ", out, re.M)
     reasons = "\n".join(saved["reasons"])
     assert ("differs over the spacing" in reasons) == (status == 4) and ("the verdict differs over the shift of the lattice at 0.4 mm: fails with 0, holds with 0.5" in reasons
                                                                     if D == 4.43 else "differs over the shift" not in reasons)
+
+
+@pytest.mark.parametrize("D, wall, ball, verdict", [(4, "Ti-6Al-4V", "Al2024-T3", "undecided"), (6, "Ti-6Al-4V", "Al2024-T3", "fails"), (4, "Al6061-T6", "PMMA", "holds")])
+def test_what_cannot_tear_in_tension(folder, capsys, D, wall, ball, verdict):
+    """a wall without a law of spall is none that holds: a file of it has nothing that lets it fail"""
+    text = CASE.replace("diameter_mm: 5", f"diameter_mm: {D}").replace("material: Al6061-T6", f"material: {wall}").replace("  material: Al2024-T3", f"  material: {ball}")
+    (folder / "emi.yaml").write_text(text)
+    assert front("shield", "--jobs", "3") == shield.STATUS[verdict]
+    said = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())
+    place = "reasons" if verdict == "undecided" else "notes"
+    what = f"wall 2 is of {wall}.hvi" if wall[0] == "T" else f"the projectile is of {ball}.hvi"
+    assert said["verdict"] == verdict and "next_finer" not in said
+    assert [text for text in said[place] if text.startswith(f"{what}, whose file has no law of spall for 'damage no spall voids'")]
+
+
+def test_laws_that_let_a_material_tear():
+    for name, solid, tears in (("Al6061-T6.hvi", "damage no spall voids", True), ("Ti-6Al-4V.hvi", "damage no spall voids", False), ("Ti-6Al-4V.hvi", "", True),
+                               ("Ti-6Al-4V.hvi", "spall none", True), ("PMMA.hvi", "", False), ("Al6061-T6.hvi", "damage no spall none", False)):
+        assert cases.tears(name, solid) is tears, (name, solid)
 
 
 def test_settings_that_are_right(folder):

@@ -158,6 +158,12 @@ def test_what_is_undecided_and_what_fails_to_run(mine, capsys, monkeypatch):
 def test_only_these(mine, capsys):
     assert front("shots", "--only", "middle", case="mine.yaml") == 0
     assert list(tries(mine)) == ["dx-0.4_shift-0.0"] and "stand-in" not in capsys.readouterr().out
+    assert front("shots", "--only", "small", "small", case="mine.yaml") == 0  # once, and what was done before stays in the table
+    said = capsys.readouterr().out
+    assert "mine: 1 shots, 2 runs, 0 done before" in said and "2 of 3 shots are done, and counted:" in said
+    with open("runs/mine/shots.csv", newline="") as table:
+        assert {line["shot"]: bool(line["predicted"]) for line in csv.DictReader(table)} == {"small": True, "two, large": False, "middle": True}
+    assert "2 of 3 shots are done" in (mine / "runs/mine/shots.md").read_text()
     assert front("shots", "--only", "midle", case="mine.yaml") == 1
     assert "no shot midle; did you mean middle?" in capsys.readouterr().err
 
@@ -188,7 +194,7 @@ def test_margins(mine):
     (job.folder / "job.yaml").write_text(yaml.safe_dump(job.record, sort_keys=False))
     margins = "margins: {hole_mm: %s, apart_mass_mg: %s, bulge_over_thickness: 0.51, deepest_failed_layer: 2, layers: 3}\nverdict: %s\npackage_version: 1\n"
     for numbers, text in (((0, 0, "holds"), "bulge 0.51 t, layer 2 of 3 failed"), ((2.5, 31, "fails"), "hole 2.5 mm, 31 mg apart"),
-                          ((0, 0, "undecided"), "bulge 0.51 t, layer 2 of 3 failed"), ((".nan", 3, "undecided"), "hole nan mm, 3 mg apart")):
+                          ((0, 0, "undecided"), "bulge 0.51 t, layer 2 of 3 failed"), ((".nan", 3, "undecided"), "hole nan mm, 3 mg apart"), ((".nan", 0, "undecided"), "hole nan mm, 0 mg apart")):
         (job.folder / "result.yaml").write_text(margins % numbers)
         assert outcome.margin() == text
 

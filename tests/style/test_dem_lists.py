@@ -37,8 +37,8 @@ def text(name, tmp_path, comm="brick", lists="relative", neigh="", newton="on"):
             + ("fix even all balance 50 1.0 rcb\n" if comm == "tiled" else "") + f"timestep {dt}\n{THERMO}")
 
 
-def runs(name):
-    return "".join(f"run {n}\n{DUMP.format(f'f{k}')}{BONDS.format(f'b{k}')}" for k, n in enumerate(SCENES[name][2]))
+def runs(name, folder=""):
+    return "".join(f"run {n}\n{DUMP.format(f'{folder}f{k}')}{BONDS.format(f'{folder}b{k}')}" for k, n in enumerate(SCENES[name][2]))
 
 
 def error(name, tmp_path, k):
@@ -51,18 +51,23 @@ def error(name, tmp_path, k):
     return np.abs(vectors(dump, "f") - f).max() / np.abs(f).max()
 
 
-@pytest.mark.parametrize("newton", ["on", "off"])
 @pytest.mark.parametrize("nranks, comm", LAYOUTS)
 @pytest.mark.parametrize("name", SCENES)
-def test_forces_are_those_of_all_pairs(lmp, tmp_path, name, nranks, comm, newton):
-    """at the ends of three runs, with the list as old as it may be; flight takes less lists than with displacement; none is late"""
-    r = lmp(text(name, tmp_path, comm, newton=newton) + runs(name), nranks=nranks)
-    for k in range(3):
-        assert error(name, tmp_path, k) <= 1e-12, k
-    assert all(t["Ndanger"][-1] == 0 for t in r.runs)
-    other = lmp(text(name, tmp_path, comm, "displacement", newton=newton) + runs(name), nranks=nranks)
-    count = [sum(t["Nbuild"][-1] for t in one.runs) for one in (r, other)]
-    assert count[0] < (1.2 if name == "impact" else 0.85) * count[1], count
+def test_forces_are_those_of_all_pairs(lmp, tmp_path, name, nranks, comm):
+    """newton on and off, at the ends of three runs, with the list as old as it may be; flight takes less lists than with displacement; none is late"""
+    cases = [(lists, newton) for lists in ("relative", "displacement") for newton in ("on", "off")]
+    for lists, newton in cases:
+        (tmp_path / lists / newton).mkdir(parents=True)
+    found = lmp("clear\n".join(text(name, tmp_path, comm, lists, newton=newton) + runs(name, f"{lists}/{newton}/") for lists, newton in cases),
+                nranks=nranks).runs
+    found = {case: found[3 * k:3 * k + 3] for k, case in enumerate(cases)}
+    for newton in ("on", "off"):
+        relative, other = found["relative", newton], found["displacement", newton]
+        for k in range(3):
+            assert error(name, tmp_path / "relative" / newton, k) <= 1e-12, (newton, k)
+        assert all(t["Ndanger"][-1] == 0 for t in relative), newton
+        count = [sum(t["Nbuild"][-1] for t in one) for one in (relative, other)]
+        assert count[0] < (1.2 if name == "impact" else 0.85) * count[1], (newton, count)
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -1,4 +1,4 @@
-"""The table at the start of a run says what the run is; each warning comes once when it should, and not otherwise."""
+"""The table at the start of a run says once what the run is; each warning comes once when it should, and not otherwise."""
 
 import re
 
@@ -165,16 +165,35 @@ def test_doubles_of_lists(lmp, tmp_path):
     assert [t["sent"] for t in tables(lmp(text).log)] == [[3, 0, 1], [0, 0, 1], [0, 0, 1], [0, 0, 1]]
 
 
-def test_once_per_run(lmp, tmp_path):
-    """not for parts of a run that go on without a setup, nor when files are written; on any ranks"""
+def test_once_per_scene(lmp, tmp_path):
+    """not again while the scene is the same, on any ranks; warnings at each run, but not for parts of one nor when files are written"""
     s = block((6, 6, 6), v=None)
     text = plain(s, tmp_path, h=0.8, fix="group left id < 109\nfix sph left hvi/sph\n", more="timestep 5.0\nvelocity all set 0 0 0\n")
     text += "run 0\nwrite_restart r\nwrite_data d\nrun 4 pre no every 2 NULL\nrun 0\nrun 0 pre no\n"
     for nranks in (1, 2):
         r = lmp(text, nranks=nranks)
-        assert len(tables(r.log)) == len(tables(r.stdout)) == 3
+        assert len(tables(r.log)) == len(tables(r.stdout)) == 1
         for words in ("reaches 1.6 spacings", "are integrated by no fix", "time step 5 is above"):
             assert sum(words in w for w in r.warnings) == 3, (words, r.warnings)
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_again_when_the_scene_changes(lmp, tmp_path, nranks):
+    """other words, smoothing lengths, masses, of fewer particles too, more particles: not fewer, nor those that clear and a restart file bring back"""
+    s = block((6, 6, 6))
+    s.write(tmp_path / "again.data")
+    fixes = "neighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\nfix sph all hvi/sph\ntimestep 0.001\n"
+    last = "write_restart r\nclear\nread_restart r\n" + fixes + "run 1\n"
+    parts = [("run 1\nrun 1\n", 1), ("pair_coeff 1 1 eos tait 1.0 4.0 7 h 1.25\nrun 1\n", 1), ("mass 1 1.01\nrun 1\n", 1), ("run 0\n", 0),
+             ("group few id 1\ndelete_atoms group few compress no\nrun 1\n", 0), ("create_atoms 1 single 3.0 3.0 3.0\nset type 1 sph/rho 1.0\nrun 1\n", 1),
+             (last, 0), (last, 0), ("clear\nread_restart r\nmass 1 1.02\n" + fixes + "run 1\n", 1),
+             ("clear\nread_restart r\ngroup some id 2:9\ndelete_atoms group some compress no\nmass 1 1.3\n" + fixes + "run 1\n", 1),
+             ("clear\n" + plain(s, tmp_path, more="timestep 0.001\n") + "run 1\n", 1), ("clear\n" + plain(s, tmp_path) + "run 0\n", 1)]
+    text = plain(s, tmp_path, more="timestep 0.001\n") + "".join(part + "print 'next part'\n" for part, _ in parts)
+    logs = lmp(text, nranks=nranks).log.split("\nnext part")[:-1]
+    assert [len(tables(log)) for log in logs] == [number for _, number in parts]
+    r = lmp("read_restart r\n" + fixes + "run 1\n", nranks=nranks)  # another process, another log
+    assert len(tables(r.log)) == 1
 
 
 # ---------------------------------------------------------------------- warnings
@@ -257,7 +276,7 @@ def test_neighbors_of_new_particles_only(lmp, tmp_path):
     """a cloud has few by right"""
     s = block((6, 6, 6))
     s.v = 20.0 * (s.x - s.box / 2)
-    r = lmp(plain(s, tmp_path, words="cubic viscosity 0 0", more="timestep 0.001\n") + "run 60\nrun 1\n")
+    r = lmp(plain(s, tmp_path, words="cubic viscosity 0 0", more="timestep 0.001\n") + "run 60\nmass 1 1.001\nrun 1\n")
     assert tables(r.log)[1]["rows"][1]["neighbors"] < 28 < tables(r.log)[0]["rows"][1]["neighbors"]
     assert not r.warnings, r.warnings
 

@@ -154,11 +154,21 @@ def test_only_within_reach_and_nearing(lmp, tmp_path):
     for u in (9.0, 40.0, -40.0):  # the diagonal of the box of velocities
         assert dt(2.7, u) == (pytest.approx(0.25 * 2 * h / np.linalg.norm(u * n), rel=1e-12), APPROACH)
         assert dt(2.7, u, frame=(1e3, 0, 1e2))[0] == pytest.approx(dt(2.7, u)[0], rel=1e-9)
-    # of the smallest h, as small as it may become
+    # of the smallest h
     small = "pair_coeff 2 2 eos tait 1.0 4.0 7 h 1.0\n"
     assert dt(2.7, 40.0, more=small, kinds=(1, 1))[0] == pytest.approx(0.25 * 2 * 1.0 / 40, rel=1e-12)
-    assert dt(2.7, 40.0, words="h variable")[0] == pytest.approx(0.5 * 0.25 * 2 * h / 40, rel=1e-12)
-    assert dt(2.7, 40.0, words="h variable 0.8 1.1")[0] == pytest.approx(0.8 * 0.25 * 2 * h / 40, rel=1e-12)
+
+
+@pytest.mark.parametrize("words, least", [("h variable", 0.5), ("h variable 0.8 1.1", 0.8), ("h variable 0.1 10", 0.1)])
+def test_beyond_reach_of_h_as_it_is(lmp, tmp_path, words, least):
+    """variable h: its start, then that of a particle that has become eight times, and 8000 times as dense, not the smallest it may become"""
+    s, pair = two(2.7, 40.0, words=words, more="pair_coeff 2 2 eos linear 1.0 16.0 h 1.25\n", kinds=(1, 2))
+    text = scene(s, tmp_path / "s.data", pair) + f"fix step all hvi/dt {C}\n" + LINES + "run 0\n"
+    for rho in (8.0, 8000.0):
+        text += f"set type 2 sph/rho {rho}\nfix step all hvi/dt {C}\nrun 0\n"
+    for run, shrunk in zip(lmp(text).runs, (1.0, 0.5, 0.05), strict=True):
+        assert run["Dt"][0] == pytest.approx(0.25 * 2 * 1.25 * max(shrunk, least) / 40, rel=1e-12), shrunk
+        assert run["f_step[3]"][0] == APPROACH
 
 
 def test_travel_keeps_contacts_seen(lmp, tmp_path):

@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 import yaml
+from conftest import read_thermo
 
 PLATE = dict(quarter="yes", dx=1.25, frame=[2, 5], tstop=7)
 SHIELD = dict(quarter="yes", dx=0.8, spacing=12, tstop=7)
@@ -41,6 +42,11 @@ def steps_of(state):
     return int(found.group(1)) if found else -1
 
 
+def logged(file):
+    """steps of thermo output, those before it was stopped too"""
+    return sorted({step for run in read_thermo(file.read_text()) for step in run["Step"]})
+
+
 def stopped(run, state, after, **kw):
     """a run that is killed when its state is of a later step"""
     r = run(kill=lambda: steps_of(state) > after, **kw)
@@ -48,7 +54,7 @@ def stopped(run, state, after, **kw):
     return steps_of(state)
 
 
-@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("nranks", [pytest.param(1, marks=pytest.mark.long), 2])  # on one: test_plate_killed_while_it_writes
 def test_plate_has_the_same_bits(plate, tmp_path, nranks):
     """on the same ranks; all that is told again is where it is"""
     plate("whole", nranks=nranks, vars=PLATE)
@@ -56,6 +62,8 @@ def test_plate_has_the_same_bits(plate, tmp_path, nranks):
     assert 40 < at < result(tmp_path / "whole")["steps"]
     plate("part", nranks=nranks, vars=dict(resume="yes"))
     assert result(tmp_path / "part") == result(tmp_path / "whole")
+    assert len(re.findall("^LAMMPS .*|^until us", (tmp_path / "part" / "log.plate").read_text(), re.M)) == 1  # the table of the end
+    assert logged(tmp_path / "part" / "log.plate") == logged(tmp_path / "whole" / "log.plate")
     for frame in (2, 5, 7):
         one, two = [(tmp_path / f / f"frame.{frame}.dump").read_bytes() for f in ("whole", "part")]
         assert one == two, frame
@@ -137,7 +145,7 @@ def bytes_of(folder, pattern):
     return {f.name: f.read_bytes() for f in folder.glob(pattern)}
 
 
-@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("nranks", [pytest.param(1, marks=pytest.mark.long), 2])  # on one: test_shield_goes_on
 def test_shield_has_the_same_bits(shield, tmp_path, nranks):
     """killed behind wall 2; all that is told again is where it is"""
     shield("whole", nranks=nranks, vars=SHIELD)
@@ -147,6 +155,7 @@ def test_shield_has_the_same_bits(shield, tmp_path, nranks):
     shield("part", nranks=nranks, vars=dict(resume="yes"))
     assert result(tmp_path / "part") == result(tmp_path / "whole")
     assert bytes_of(tmp_path / "part", "*.dump") == bytes_of(tmp_path / "whole", "*.dump")
+    assert logged(tmp_path / "part" / "log.whipple") == logged(tmp_path / "whole" / "log.whipple")
     assert not [f for f in tmp_path.glob("*/shield.*") if f.name != "shield.dump"]  # nothing is left over
 
 
@@ -171,8 +180,9 @@ def test_shield_goes_on(shield, tmp_path):
     assert abs(two["energy_ratio"] - 1) < 1e-3 and two["momentum_error"] < 1e-10 and abs(two["mass_error"]) < 1e-10
 
 
-def test_shield_of_lists_goes_on(shield, tmp_path):
-    """three walls, of which one is a data file; probes and rims: before wall 2, and before wall 3"""
+@pytest.mark.parametrize("reached", [pytest.param(1, marks=pytest.mark.long), 2])
+def test_shield_of_lists_goes_on(shield, tmp_path, reached):
+    """three walls, of which one is a data file; probes and rims: before wall 2, or before wall 3"""
     from hvi import plates
 
     plates.write(tmp_path / "turned.data", plates.make(7e-3, 1.2e-3, 0.6e-3, 4, [0, 45]), 2703.0)
@@ -183,10 +193,9 @@ def test_shield_of_lists_goes_on(shield, tmp_path):
     whole = result(tmp_path / "whole")
     tables = bytes_of(tmp_path / "whole", "probe*.dat")
     assert len(tables) == 6
-    for reached in (1, 2):
-        dump = tmp_path / f"part{reached}" / f"cloud{reached}.dump"
-        shield(dump.parent.name, vars=vars, kill=dump.exists)
-        assert f'variable reached equal "{reached}"' in (dump.parent / "shield.state").read_text()
-        shield(dump.parent.name, vars=dict(resume="yes"))
-        assert result(dump.parent) == whole
-        assert bytes_of(dump.parent, "probe*.dat") == tables and not list(dump.parent.glob("probes*"))
+    dump = tmp_path / f"part{reached}" / f"cloud{reached}.dump"
+    shield(dump.parent.name, vars=vars, kill=dump.exists)
+    assert f'variable reached equal "{reached}"' in (dump.parent / "shield.state").read_text()
+    shield(dump.parent.name, vars=dict(resume="yes"))
+    assert result(dump.parent) == whole
+    assert bytes_of(dump.parent, "probe*.dat") == tables and not list(dump.parent.glob("probes*"))

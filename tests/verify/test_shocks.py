@@ -14,6 +14,12 @@ import shocks
 
 HERE = pathlib.Path(__file__).resolve().parent
 STOCK = ("sod-spacing", "interface-10")  # short, and it gets through
+COSTLY = ("noh-2d", "noh-3d", "sedov-2d", "sedov-3d", "woodward-colella", "interface-100")
+
+
+def is_long(name, method):
+    """not in make test; riemann is there in all cases"""
+    return method != "riemann" and name in COSTLY or method == "stock" and name == "interface-10"
 
 
 def known_misses():
@@ -33,8 +39,9 @@ def methods(lmp_exe, tmp_path_factory):
     return {m for m in shocks.METHODS if shocks.known(lmp_exe, m, tmp_path_factory.mktemp("known"))}
 
 
-@pytest.mark.parametrize("method", shocks.METHODS)
-@pytest.mark.parametrize("name", shocks.CASES)
+@pytest.mark.parametrize("name, method", [
+    pytest.param(name, method, marks=[pytest.mark.long] if is_long(name, method) else [])
+    for name in shocks.CASES for method in shocks.METHODS])
 def test_shock(name, method, methods, lmp_exe, tmp_path):
     case = shocks.CASES[name]
     if shocks.cannot(case, method):

@@ -1,5 +1,6 @@
 """examples/single-plate, coarse and short: a hole, a cloud and closed books; quarter models; other materials, angles, shapes."""
 
+import numpy as np
 import pytest
 import yaml
 
@@ -55,7 +56,45 @@ def test_variants(lmp, root, tmp_path, variables):
     (dict(material_p="Unobtainium.hvi"), "Unobtainium.hvi"), (dict(damage="maybe"), "maybe"), (dict(spall="often"), "often"),
     (dict(dx=0), "dx must be above 0"), (dict(v0=0), "v0 must be above 0"), (dict(D=-1), "D must be above 0"), (dict(dx=6), "two particles across"),
     (dict(angle=90), "angle must be from 0 to less than 90"), (dict(Rplate=4), "the plate must be wider than the projectile"),
-    (dict(tstopp=3), "did you mean tstop?")], ids=str)
+    (dict(dry="maybe"), "dry must be yes or no"), (dict(D=1e5, Rplate=1e5), "more than LAMMPS can number"), (dict(tstopp=3), "did you mean tstop?"),
+    (dict(v0=5.9), "is below 100 m/s, which this model is not for: is it in km/s?"), (dict(dx=2, frame=[4, 1]), "each after the one before: 1 is not")], ids=str)
 def test_wrong_input(lmp, root, tmp_path, variables, message):
     r = plate(lmp, root, tmp_path, fails=True, **variables)
     assert message in r.log + r.stdout
+
+
+@pytest.mark.parametrize("case, used", [(dict(dx=1), 67), (dict(dx=0.5, quarter="yes"), 165), (dict(dx=0.4, quarter="yes"), 288),
+                                        (dict(dx=0.6, quarter="yes", v0=4000, D=8, t=3), 98)], ids=str)
+def test_memory_of_the_plan(lmp, root, tmp_path, case, used):
+    """MB at most in the whole run on one rank, by /usr/bin/time -v; the last was not looked at for the formula"""
+    lmp(root / "examples" / "single-plate" / "in.plate", vars=dict(case, dry="yes", out=tmp_path), env={"LAMMPS_POTENTIALS": str(root / "potentials")})
+    assert yaml.safe_load((tmp_path / "plan.yaml").read_text())["memory_MB"] == pytest.approx(used, rel=0.2)
+
+
+def test_out_is_one_word(lmp, root, tmp_path):
+    """LAMMPS would take a path with a blank for two, and remove a file that is no business of its"""
+    (tmp_path / "some").touch()
+    r = lmp(root / "examples" / "single-plate" / "in.plate", cwd=tmp_path, expect_fail=True, env={"LAMMPS_POTENTIALS": str(root / "potentials")}, vars={"out": "some folder"})
+    assert "out must be one word: a path without blanks" in r.log + r.stdout and (tmp_path / "some").exists()
+
+
+def test_plan_and_log(lmp, root, tmp_path):
+    """what is planned is what is run, where a frame comes before the end of the trial too; a line for each 2 % of the time, no warning twice, nothing
+    said twice of a scene that stays; a dry run stops before"""
+    case = dict(dx=1.25, Rplate=20, quarter="yes", frame=[0.5, 4, 9], tstop=6)
+    r = lmp(root / "examples" / "single-plate" / "in.plate", vars=dict(case, dry="yes", out=tmp_path), env={"LAMMPS_POTENTIALS": str(root / "potentials")})
+    plan = yaml.safe_load((tmp_path / "plan.yaml").read_text())
+    assert "This was the plan" in r.log and not list(tmp_path.glob("*.dump")) + list(tmp_path.glob("result.yaml")) + list(tmp_path.glob("plate.*"))
+    (tmp_path / "run").mkdir()
+    r = lmp(root / "examples" / "single-plate" / "in.plate", vars=dict(case, out=tmp_path / "run"), env={"LAMMPS_POTENTIALS": str(root / "potentials")})
+    result = yaml.safe_load((tmp_path / "run" / "result.yaml").read_text())
+    assert result["particles"] == plan["projectile_particles"] + plan["plate_particles"] and plan["plate_layers"] == pytest.approx(2, rel=0.05)
+    assert result["steps"] == pytest.approx(plan["steps"], rel=0.4) and plan["tstop_us"] == 6 and plan["seconds"] > 0 and plan["memory_MB"] > 20
+    frames = [tmp_path / "run" / f"frame.{us}.dump" for us in ("0.5", "4", "6")]
+    assert plan["disk_MB"] == pytest.approx(1e-6 * sum(f.stat().st_size for f in frames), abs=0.1)
+    us, stage = [np.concatenate([run[name] for run in r.runs]) for name in ("v_us", "v_stage")]
+    assert 40 < len(np.unique(us)) < 70 and np.diff(us).max() < 0.2 and set(stage) == {1, 1.5} and np.all(np.diff(stage) >= 0)
+    assert len(set(r.warnings)) == len(r.warnings) and r.log.count("material: laws") == 1
+    table = r.log[r.log.index("until us    steps        s"):].splitlines()[1:5]
+    times, steps = [[float(row.split()[k]) for row in table[:3]] for k in (0, 1)]
+    assert times == pytest.approx([0.5, 4, 6], abs=0.2) and sum(steps) == int(table[3].split()[1]) == result["steps"]

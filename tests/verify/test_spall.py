@@ -121,22 +121,23 @@ def test_a_record_without_spall(shot):
     assert r["record"].startswith("no pull-back") and r["failed_particles"] == 0
 
 
-def test_convergence(shot):
+@pytest.mark.parametrize("n", [(16, 32, 64, 128), pytest.param((16, 32, 64, 128, 256), marks=pytest.mark.long)], ids=len)
+def test_convergence(shot, n):
     """pull-back velocity by voids changes by less from each spacing to the next, by 2 % from 128 to 256 particles per flyer; that of the limit is without order
 
     Energy per area goes down with the spacing: softening is local, so damage goes into thinner layers.
     """
-    n = (16, 32, 64, 128, 256)
     du, energy, instant = (np.array([shot(n=k, **how)[0][key] for k in n])
                            for key, how in (("pull_back_m_s", {}), ("void_work_J_m2", {}), ("pull_back_m_s", dict(spall="principal"))))
     print("du", du, "energy", energy, "instant", instant)
     change = du[2:] / du[1:-1] - 1
     assert np.all(change < 0) and np.all(np.abs(change) < 0.035) and np.all(np.diff(np.abs(change)) < 0)
-    assert abs(change[-1]) < 0.02
+    assert len(n) < 5 or abs(change[-1]) < 0.02
     assert np.abs(instant[1:] / instant[:-1] - 1).max() > 0.15
     assert np.all((0.75 < energy[1:] / energy[:-1]) & (energy[1:] / energy[:-1] < 0.9))
 
 
+@pytest.mark.long
 def test_rows_that_clump(shot):
     """with h = 1.2 spacings nearest neighbors lie where the kernel gets steeper: 256 particles per flyer clump in tension, and part too soon"""
     assert shot(n=64, eta=1.2)[0]["pull_back_m_s"] == pytest.approx(shot(n=64)[0]["pull_back_m_s"], rel=0.02)
@@ -176,7 +177,7 @@ def test_rates(shot, root):
     assert np.all((0.8 < part) & (part < 1.05))
 
 
-@pytest.mark.parametrize("V", [600, 1000, 1500])
+@pytest.mark.parametrize("V", [pytest.param(600, marks=pytest.mark.long), 1000, pytest.param(1500, marks=pytest.mark.long)])
 def test_place_of_first_failure(shot, V):
     """an instant limit is passed where the head of the flyer's release runs in the release fan of the free surface
 

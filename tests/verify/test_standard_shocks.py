@@ -3,6 +3,7 @@
 import re
 import sys
 
+import numpy as np
 import pytest
 
 
@@ -69,6 +70,20 @@ def test_plateau(run):
     u, p = impedance.match(impedance.AL2024, impedance.COPPER, 5750.0)
     r = run("in.flyer", n=50, v0=5750, flyer="Al2024", target="Cu").result
     assert r["velocity_exact_m_s"] == pytest.approx(u, rel=1e-6) and r["pressure_exact_Pa"] == pytest.approx(p, rel=1e-6)
+
+
+def test_steps_of_sod(run):
+    """no step is longer than that of the gas at rest; none shorter than that of its h, the fastest sound and all of the shock's
+    velocity between two neighbors"""
+    from reference import gas
+
+    n, tstop = 80, 0.1
+    left, right = (1.0, 0.0, 1.0), (0.125, 0.0, 0.1)
+    rho, u, p = states = gas.sample(np.linspace(-2, 2, 1001), left, right)
+    assert rho.max() == 1.0  # the nearest neighbors are those at rest
+    length = 0.2 * 1.5 * 1.2 / n  # C l, l = 1.5 h of the kernel gauss, h = 1.2 spacings
+    longest, shortest = length / gas.sound(left, 1.4), length / (1.6 * gas.sound(states, 1.4).max() + 1.36 * u.max())
+    assert tstop / longest < run("in.sod", n=n, tstop=tstop).result["steps"] < tstop / shortest + 5  # five equal ones at the end
 
 
 def test_hugoniots_are_those_of_the_files(root, example):

@@ -1,0 +1,291 @@
+"""python3 -m hvi report, movie, export: one file that shows what a folder says and runs nothing of it; pictures; files for ParaView read back."""
+
+import html.parser
+import pathlib
+import re
+
+import numpy as np
+import pytest
+import yaml
+from hvi import cli, movie, page, render, report_pictures, shield_run
+from hvi.errors import HVIError
+
+EVIL = "<script>alert(1)</script>"
+NAME = "<img src=x onerror=alert(1)>"  # a name of a folder and of a file has no slash
+COLUMNS = "id type mass x y z vx vy vz time_si p damage spalled vm e eps fragsize mirror_x_lo mirror_y_lo"
+
+
+def lattice(kind, dx, low, high, radius, speed):
+    """rows type x y z vz of a quarter of a cylinder, mm and m/s"""
+    side = np.arange(0.5 * dx, radius, dx)
+    z = np.arange(low + 0.5 * dx, high, dx)
+    x = np.stack(np.meshgrid(side, side, z, indexing="ij"), -1).reshape(-1, 3)
+    x = x[np.hypot(x[:, 0], x[:, 1]) < radius]
+    return np.column_stack([np.full(len(x), kind), x, np.full(len(x), speed)])
+
+
+def write_dump(path, step, time, rows):
+    n = len(rows)
+    table = np.zeros((n, len(COLUMNS.split())))
+    table[:, 0], table[:, 1], table[:, 2] = np.arange(1, n + 1), rows[:, 0], 1e-6
+    table[:, 3:6], table[:, 8], table[:, 9] = 1e-3 * rows[:, 1:4], rows[:, 4], time
+    body = "\n".join(" ".join(f"{v:.9g}" for v in row) for row in table)
+    path.write_text(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{n}\nITEM: BOX BOUNDS ff ff ff\n-0.001 0.02\n-0.001 0.02\n-0.02 0.05\nITEM: ATOMS {COLUMNS}\n{body}\n")
+
+
+def make_run(folder, dx, shift=0.0, verdict="fails", material="Al6061-T6.hvi", film=False, reason="wall 2 is perforated by a hole of 3 mm"):
+    """what in.whipple leaves of two walls, 6 mm apart"""
+    folder.mkdir(parents=True)
+    plan = {"projectile_particles": 8, "projectile_across": 4.0}
+    for k, front in ((1, 0.0), (2, 7.0)):
+        plan.update({f"wall{k}_{what}": value for what, value in (("particles", 100), ("layers", 1), ("radius_mm", 8.0), ("middle_mm", 0.0), ("struck_at_mm", 0.0),
+                                                                  ("front_mm", front), ("thickness_mm", 1.0), ("spacing_mm", dx))})
+    settings = {"dx": dx, "v0": 6000, "D": 3, "angle": 0, "walls": 2, "zones": 1, "quarter": "yes", "shift": shift, "solid": "damage no spall voids", "keep": 0, "film": 0, "probes": "no"}
+    (folder / "plan.yaml").write_text(yaml.safe_dump({**plan, "materials": f"Al2017-T4.hvi; {material}; Al6061-T6.hvi", "settings": settings}))
+    result = {"verdict": verdict, "reasons": [reason], "decided_by": "wall2", "margins": {"hole_mm": 3.0, "layers": 3}, "walls": 2, "walls_reached": 2, "zones": 1,
+              "energy_ratio": 0.9999, "momentum_error": 1e-15, "ranks": 1, "core_s": 4.0, "particles": 99, "lammps_version": 20250204}
+    for k, until in ((1, 2.0), (2, 9.0)):
+        result.update({f"wall{k}_until_us": until, f"wall{k}_bulge_over_thickness": 0.5, f"hole{k}_diameter_mm": 3.0, f"hole{k}_min_mm": 2.9, f"hole{k}_max_mm": 3.1, f"wall{k}_layers": 3})
+    (folder / "result.yaml").write_text(yaml.safe_dump({**result, "package_version": "0.1.0"}, sort_keys=False))
+    (folder / "job.yaml").write_text(yaml.safe_dump({"variables": {"dx": dx, "shift": shift, "thickness": [1, 1]}, "files": {material: "0" * 16}}))
+    first, ball = lattice(2, dx, 0.0, 1.0, 8.0, 0.0), lattice(1, dx, 4.0, 6.0, 1.5, 5000.0)
+    second = lattice(3, dx, 7.0, 8.0, 8.0, 100.0)
+    second = second[np.hypot(second[:, 1], second[:, 2]) > 1.5]
+    write_dump(folder / "cloud1.dump", 50, 2e-6, np.concatenate([ball, first]))
+    write_dump(folder / "shield.dump", 200, 9e-6, np.concatenate([ball + [0, 0, 0, 6, -4000], first, second]))
+    for k in range(3 if film else 0):
+        write_dump(folder / f"film.{10 + 50 * k:09d}.dump", 10 + 50 * k, 1e-6 * (0.2 + 3 * k), np.concatenate([ball - [0, 0, 0, 3 - k, 0], first]))
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch):
+    """pictures of few pixels, for time"""
+    monkeypatch.setattr(report_pictures, "DPI", 40)
+    monkeypatch.setattr(movie, "DPI", 40)
+
+
+@pytest.fixture(name="several")
+def folder_of_several(tmp_path):
+    """as of hvi shield, with names and texts that are HTML"""
+    folder = tmp_path / NAME
+    material = f"{NAME}.hvi"
+    (tmp_path / material).write_text(f"# DATE: 2026 UNITS: si\n# [S] a source & {EVIL} </pre>\n\neos gruneisen\n  rho0 2700\nstrength perfect\n")
+    for dx in (0.5, 1.0):
+        make_run(folder / f"dx-{dx:g}", dx, material=str(tmp_path / material), film=dx == 0.5, reason=EVIL)
+    (folder / "case.yaml").write_text(f"# {EVIL}\nspeed_km_s: 6\n")
+    (folder / "verdict.yaml").write_text(yaml.safe_dump({"verdict": "fails", "reasons": [EVIL, "all 2 runs say so"], "notes": ["a note"], "runs": {"dx-1": "fails", "dx-0.5": "fails"},
+                                                         "core_s": 8.0, "next_finer": {"spacings_mm": [0.5, 0.4], "runs": 1, "core_s": 20.0}, "command": f"python3 -m hvi shield '{NAME}.yaml'"}))
+    return folder
+
+
+class Seen(html.parser.HTMLParser):
+    """elements, attributes and text of a page, as a browser takes them"""
+
+    def __init__(self, text):
+        super().__init__()
+        self.elements, self.text, self.inside = [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, name, attributes):
+        self.elements.append((name, dict(attributes)))
+        if name not in page.VOID:
+            self.inside.append(name)
+
+    def handle_endtag(self, name):
+        assert self.inside.pop() == name, f"{name} is closed where it is not open"
+
+    def handle_data(self, data):
+        if "style" not in self.inside:
+            self.text.append(data)
+
+    def all(self, name):
+        return [attributes for element, attributes in self.elements if element == name]
+
+
+def test_report(several, capsys):
+    """what comes from files is text; the finest run leads, all are in the table; no part is elsewhere"""
+    assert cli.main(["report", str(several)]) == 0
+    path = several / "report.html"
+    assert capsys.readouterr().out.startswith(f"report: {path}")
+    text = path.read_text()
+    seen = Seen(text)
+    assert not seen.inside and not {"script", "iframe", "object", "link"} & {name for name, _ in seen.elements}
+    assert not any(key.startswith("on") for _, attributes in seen.elements for key in attributes)
+    pictures = seen.all("img")
+    assert len(pictures) >= 12 and all(p["src"].startswith("data:image/png;base64,") and p["alt"] for p in pictures)
+    assert all(a["href"].startswith("#") for a in seen.all("a")) and {a["href"][1:] for a in seen.all("a")} <= {s.get("id") for s in seen.all("section")}
+    assert "http" not in re.sub(r"base64,[^\"]*", "", text)
+    words = "".join(seen.text)
+    assert words.count(EVIL) >= 3 and NAME in words  # reasons, case, source
+    order = re.findall(r"<h[123]>([^<]*)", text)
+    wanted = ["Verdict", "Reasons", "Notes", "What the verdict cannot know", "What was run", "Side view in time", "Speeds", "Walls", "Bulge of wall 2", "Where the cloud strikes", "How near it was",
+              "Ballistic-limit equations", "Resolution and ledger", "All runs", "Materials and their sources", "Settings", "Repeat it", "Versions"]
+    assert order[0].startswith("Does the shield hold?") and [title for title in order if title in wanted and title != "Walls"] == [title for title in wanted if title != "Walls"]
+    assert "finest run, dx-0.5 (spacing 0.5 mm)" in words and "dx-1" in words and f"python3 -m hvi shield '{NAME}.yaml'" in words
+    assert "mpirun -np 1 lmp -in in.whipple -var dx 0.5 -var shift 0.0 -var thickness 1 1" in words
+    assert "next finer: spacings_mm: [0.5, 0.4]: 1 more runs" in words
+    assert "HAS CHANGED since the run" in words and "damage no spall voids" in words
+    assert [d for d in seen.all("div") if d.get("class") == "said"] and "\u2715 fails" in words and seen.all("body")[0]["class"] == "fails"
+
+
+def test_report_of_one_run(tmp_path, capsys):
+    """says that one run is one; a verdict that holds is not red"""
+    make_run(tmp_path / "one", 1.0, verdict="holds")
+    (tmp_path / "one/job.yaml").unlink()
+    assert cli.main(["report", str(tmp_path / "one"), "--out", "a.html"]) == 0
+    seen = Seen((tmp_path / "a.html").read_text())
+    words = "".join(seen.text)
+    assert "JSC: JSC Whipple 2011 [RC11]" in words  # of walls and projectile of the plan
+    assert "One run: nothing says how far" in words and seen.all("body")[0]["class"] == "holds"
+    assert "-var thickness 1 1 -var spacings 1 1 -var layers 1 1 -var radius 8 8 -var gap 0 6" in words
+
+
+def test_report_of_a_run_by_hand(tmp_path, capsys):
+    """what is not modelled is in its reasons only, and in the command to repeat it; equations say nothing of it"""
+    make_run(tmp_path / "one", 1.0, verdict="undecided", reason="the shield has MLI, of 20 layers, which is not modelled (as stuffing, MLI and honeycomb are not) -- test it")
+    (tmp_path / "one/job.yaml").unlink()
+    assert cli.main(["report", str(tmp_path / "one"), "--out", "a.html"]) == 0
+    words = "".join(Seen((tmp_path / "a.html").read_text()).text)
+    assert "-var outside 'MLI, of 20 layers'" in words and "It was run by hand" in words
+    assert "do not have what one names in not_modelled: MLI, of 20 layers" in words and "JSC Whipple 2011" not in words
+
+
+def test_report_of_a_wall_that_cannot_tear(tmp_path, capsys):
+    """of one run as of several"""
+    make_run(tmp_path / "one", 1.0, verdict="holds", material="Ti-6Al-4V.hvi")
+    assert cli.main(["report", str(tmp_path / "one"), "--out", "a.html"]) == 0
+    seen = Seen((tmp_path / "a.html").read_text())
+    assert seen.all("body")[0]["class"] == "undecided" and "wall 1 is of Ti-6Al-4V.hvi, whose file has no law of spall" in "".join(seen.text)
+
+
+def test_report_of_what_is_not_known(several, capsys):
+    """a hole that nobody knows, reasons that are one text"""
+    result = several / "dx-1/result.yaml"
+    result.write_text(result.read_text().replace("hole1_diameter_mm: 3.0", "hole1_diameter_mm: .nan"))
+    verdict = yaml.safe_load((several / "verdict.yaml").read_text())
+    (several / "verdict.yaml").write_text(yaml.safe_dump({**verdict, "reasons": "one text", "core_s": None}))
+    assert cli.main(["report", str(several)]) == 0
+    text = (several / "report.html").read_text()
+    assert "<td>unknown</td>" in text and "<td>nan</td>" not in text and "<li>one text</li>" in text
+
+
+def test_wrong_folders(tmp_path, capsys):
+    make_run(tmp_path / "run", 1.0)
+    (tmp_path / "empty").mkdir()
+    for folder, message in (("none", "is not a folder"), ("empty", "neither verdict.yaml (of python3 -m hvi shield) nor result.yaml")):
+        assert cli.main(["report", str(tmp_path / folder)]) == 1 and message in capsys.readouterr().err
+    result = tmp_path / "run/result.yaml"
+    whole = result.read_text()
+    result.write_text(whole.replace("package_version", "version"))
+    assert cli.main(["report", str(tmp_path / "run")]) == 1 and "no complete result.yaml" in capsys.readouterr().err
+    result.write_text(whole.replace("verdict: fails", "verdict: perhaps"))
+    assert cli.main(["report", str(tmp_path / "run")]) == 1 and "must be holds, fails, undecided, not perhaps" in capsys.readouterr().err
+    result.write_text(whole)
+    plan = (tmp_path / "run/plan.yaml").read_text()
+    (tmp_path / "run/plan.yaml").write_text(plan.replace("wall2_radius_mm", "wall2_r"))
+    assert cli.main(["report", str(tmp_path / "run")]) == 1 and "run/plan.yaml has no wall2_radius_mm: it is of another input" in capsys.readouterr().err
+    (tmp_path / "run/plan.yaml").write_text(plan)
+    result.write_text(whole.replace("ranks:", "rank:"))
+    assert cli.main(["report", str(tmp_path / "run")]) == 1 and "run/result.yaml has no ranks: it is of another input" in capsys.readouterr().err
+    result.write_text(whole)
+    (tmp_path / "empty/verdict.yaml").write_text("verdict: holds\nruns: {}\n")
+    assert cli.main(["report", str(tmp_path / "empty")]) == 1 and "verdict.yaml names no runs" in capsys.readouterr().err
+    (tmp_path / "run/plan.yaml").write_text("steps: 3\n")
+    assert cli.main(["report", str(tmp_path / "run")]) == 1 and "does not say what was run" in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------------- pictures
+def test_nearest_sphere_is_seen():
+    """depth of the middle of a sphere is its top; the nearer one hides the other, whatever comes first"""
+    x = np.array([[0.0, 0.0, 2.0], [-0.1, 0.0, 0.0], [3.0, 0.0, 0.0]])
+    for order in ([0, 1, 2], [2, 1, 0]):
+        depth, who = render.splat(x[order], np.ones(3), (-2.0, 5.0, -2.0, 2.0), (80, 140))
+        assert order[who[40, 40]] == 0 and depth[40, 40] == pytest.approx(3.0, abs=0.01)
+        assert order[who[40, 100]] == 2 and depth[40, 100] == pytest.approx(1.0, abs=0.01)
+        assert who[0, 0] == -1 and depth[0, 0] == -np.inf and (who >= 0).mean() * 28.0 == pytest.approx(2.0 * np.pi + 0.2, rel=0.01)  # two discs, and what of a third is beside the first
+
+
+def test_light_and_shadow():
+    """above to the left is brighter; a plate under a sphere is darker on the other side of it; nothing is clear"""
+    gray = np.full((1, 3), 0.6)
+    image = render.picture(np.zeros((1, 3)), np.ones(1), gray, np.eye(3), (-1.5, 1.5, -1.5, 1.5), 90).astype(int)
+    assert image.shape == (90, 90, 4) and image[30, 30, 0] > image[60, 60, 0] + 30 and image[45, 45, 3] == 255 and image[2, 2, 3] == 0
+    side = np.arange(-5, 5, 0.25)
+    plate = np.stack(np.meshgrid(side, side, [0.0], indexing="ij"), -1).reshape(-1, 3)
+    x = np.concatenate([plate, [[0.0, 0.0, 3.0]]])
+    radius = np.append(np.full(len(plate), 0.2), 1.0)
+    image = render.picture(x, radius, np.repeat(gray, len(x), axis=0), np.eye(3), (-5.0, 5.0, -5.0, 5.0), 100).astype(int)
+    light = -render.LIGHT[:2] / render.LIGHT[2] * 3.0  # where its shadow falls
+    dark, bright = (image[int(50 - 10 * s * light[1]) - 3:, :][:6, int(50 + 10 * s * light[0]) - 3:][:, :6, 0].mean() for s in (1.0, -1.0))
+    assert dark < 0.9 * bright
+
+
+def test_scene_is_the_whole(tmp_path):
+    """four times the particles of a quarter, in mm, us, km/s; spheres of their volume"""
+    make_run(tmp_path / "run", 0.5)
+    run = shield_run.Run(tmp_path / "run")
+    scene = run.scene("shield.dump")
+    part = len(scene.frame)
+    assert len(scene.x) == 4 * part and scene.time == pytest.approx(9.0) and scene.v[:, 2].max() == pytest.approx(1.0)
+    assert sorted(np.unique(scene.body)) == [0, 1, 2] and scene.x[:, 0].min() == pytest.approx(-scene.x[:, 0].max())
+    assert 4 / 3 * np.pi * scene.radius[scene.body == 0][0] ** 3 == pytest.approx(0.125)
+    left = report_pictures.body_of(run, scene, 2)
+    assert len(left) == (scene.body == 2).sum()
+    case = run.case()
+    assert (case.diameter_mm, case.speed_km_s, [w.gap_mm for w in case.walls]) == (3.0, 6.0, [None, 6.0])
+
+
+# ---------------------------------------------------------------------- movie and export
+def test_movie(several, tmp_path, capsys):
+    """a frame for each moment, the last stays; with too few of them a remedy"""
+    from PIL import Image
+
+    assert cli.main(["movie", str(several), "--rate", "10", "--out", "m.gif"]) == 0 and "5 frames, dx-0.5" in capsys.readouterr().out
+    with Image.open(tmp_path / "m.gif") as image:
+        assert image.n_frames == 5 and image.info["duration"] == 100
+        image.seek(4)
+        assert image.info["duration"] == 600
+    assert cli.main(["movie", str(several / "dx-1")]) == 1 and "2 frames, too few for a movie: run it with -var film 1" in capsys.readouterr().err
+
+
+def test_export_read_back(several, tmp_path, capsys):
+    """positions, velocities and columns with units as in the dump, of the whole; times in the PVD"""
+    meshio = pytest.importorskip("meshio", reason="meshio is not there (Debian: python3-meshio)")
+    assert cli.main(["export", str(several), "--out", "a/shield.pvd"]) == 1 and "cannot write" in capsys.readouterr().err
+    for folder in (".", ".."):
+        assert cli.main(["export", str(several), "--out", folder]) == 1 and f"--out {folder} is a folder: it must be a name" in capsys.readouterr().err
+    assert cli.main(["export", str(several)]) == 0
+    assert "5 frames, lengths in m, times in s" in capsys.readouterr().out
+    import xml.etree.ElementTree as tree
+
+    sets = tree.parse(several / "shield.pvd").getroot().findall("Collection/DataSet")
+    assert [float(s.get("timestep")) for s in sets] == pytest.approx([0.2e-6, 2e-6, 3.2e-6, 6.2e-6, 9e-6])
+    mesh = meshio.read(several / sets[-1].get("file"))
+    scene = shield_run.Run(several / "dx-0.5").scene("shield.dump").whole
+    np.testing.assert_array_equal(mesh.points, scene.x)
+    np.testing.assert_array_equal(mesh.point_data["velocity (m/s)"], scene.v)
+    np.testing.assert_array_equal(mesh.point_data["mass (kg)"], scene.m)
+    assert {"p (Pa)", "vm (Pa)", "e (J/kg)", "damage", "type", "fragsize (m)"} <= set(mesh.point_data) and not {"x", "time_si", "mirror_x_lo"} & set(mesh.point_data)
+    assert cli.main(["export", str(several / "dx-0.5/shield.dump"), "--part", "--out", str(tmp_path / "part")]) == 0
+    assert len(meshio.read(tmp_path / "part.0000.vtu").points) == len(mesh.points) // 4
+
+
+def test_export_without_meshio(several, monkeypatch, capsys):
+    monkeypatch.setitem(__import__("sys").modules, "meshio", None)
+    assert cli.main(["export", str(several)]) == 1 and "VTU files need meshio: Debian's python3-meshio" in capsys.readouterr().err
+
+
+def test_texts_are_escaped():
+    """whatever is no Html is text, in attributes too"""
+    made = page.tag("p", EVIL, page.tag("b", "x & y"), title='"><i>')
+    assert made == '<p title="&quot;&gt;&lt;i&gt;">&lt;script&gt;alert(1)&lt;/script&gt;<b>x &amp; y</b></p>'
+    assert EVIL not in page.table(("a",), [(EVIL,), (1.5,)], EVIL) and EVIL not in page.join([EVIL])
+
+
+def test_only_runs_that_are_whole(several):
+    """a verdict of runs that are not there is no report"""
+    said = yaml.safe_load((several / "verdict.yaml").read_text())
+    said["runs"]["dx-2"] = "fails"
+    (several / "verdict.yaml").write_text(yaml.safe_dump(said))
+    with pytest.raises(HVIError, match="dx-2: no complete result.yaml"):
+        shield_run.runs_of(pathlib.Path(several))
