@@ -269,7 +269,8 @@ double FixHVIJohnsonCook::compute_vector(int i)
 {
   const HVI::SolidModel *const model = models.empty() ? nullptr : models[i + 1].get();
   if (!model) return 0.0;
-  return (options.spall != HVI::Spall::NONE && model->spall_limited()) || model->damage() ? 1.0 : 0.0;
+  return (options.spall != HVI::Spall::NONE && model->spall_limited()) || model->damage() ? 1.0
+                                                                                          : 0.0;
 }
 
 double FixHVIJohnsonCook::mass(int i) const

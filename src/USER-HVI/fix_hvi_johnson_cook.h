@@ -77,8 +77,9 @@ class FixHVIJohnsonCook :
   }    // energy, from the start on
   double void_work(int i) const override { return mass(i) * extra[i].voids.work; }
   bool failed(int i) const { return extra[i].failed(); }
-  bool can_fail() const;                   // collective: has failed, or may fail in this run
-  double compute_vector(int) override;     // of types: 1 if there is a law by which they fail in tension
+  bool can_fail() const;    // collective: has failed, or may fail in this run
+  double
+  compute_vector(int) override;    // of types: 1 if there is a law by which they fail in tension
   std::string laws_of(int itype) const;    // in words
 
  private:

@@ -261,6 +261,22 @@ def test_layers_of_the_wall_that_decides(shield, t2, verdict):
     assert [text[:6] for text in r["reasons"] if "layer" in text] == ["wall 2"] * (verdict == "undecided")
 
 
+@pytest.mark.parametrize("wall, ball", [("Ti-6Al-4V", "Al2017-T4"), ("Al6061-T6", "PMMA")])
+def test_what_cannot_fail_in_tension(shield, wall, ball):
+    """LAMMPS has read the files: a wall without a law to fail by does not hold, a projectile is named"""
+    r = shield(D=2, dx=0.4, v0=5000, material_p=f"{ball}.hvi", material=["Al6061-T6.hvi", f"{wall}.hvi"], thickness=[0.8, 3], gap=[0, 10], spacings=[0.4, 0.8], tstop=22, keep=-1)
+    said = [text for text in r["reasons"] + r.get("notes", []) if "no law of spall (damage no spall voids), so it does not fail in tension" in text]
+    assert [text.split(", ")[0] for text in said] == ["wall 2 is of Ti-6Al-4V.hvi" if wall[0] == "T" else "the projectile is of PMMA.hvi"]
+    assert (said[0] in r["reasons"]) == (r["verdict"] == "undecided") == (wall[0] == "T")
+
+
+def test_a_cloud_slips_through_coarser_particles(shield):
+    """wall 2 is neither torn nor spalled, but particles of the cloud are behind it: 3.3 times finer ones"""
+    r = shield(D=3, dx=0.3, v0=5470, material_p="Al2017-T4.hvi", material=["Al6061-T6.hvi", "Al6061-T6.hvi"], thickness=[0.6, 3], gap=[0, 20], spacings=[0.3, 1.0], keep=-1)
+    undecided(r, "may have slipped between its particles, 3.3 times as far apart as those of the cloud")
+    assert r["margins"]["hole_mm"] == 0 and r["wall2_spall_mass_mg"] == 0 and r["margins"]["apart_mass_mg"] > 0
+
+
 def test_log(lmp, root, tmp_path):
     """the verdict at its end, too; a line for each 2 % of the time; no warning twice"""
     r = lmp(root / "examples" / "whipple-shield" / "in.whipple", vars=dict(COARSE, spacing=10, tstop=5),
