@@ -74,7 +74,7 @@ def test_hugoniot_of_al6061(lmp, potentials):
 @pytest.mark.parametrize("nranks", [1, 2])
 def test_every_material_is_found_and_read(lmp, potentials, nranks):
     files = sorted(f.name for f in potentials.glob("*.hvi"))
-    assert len(files) == 22
+    assert len(files) == 26
     for name in files if nranks == 1 else files[:2]:
         units = "lj" if "UNITS: lj" in (potentials / name).read_text() else "si"
         result = lmp(text(name, units), nranks=nranks, env={"LAMMPS_POTENTIALS": str(potentials)})
