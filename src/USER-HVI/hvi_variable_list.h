@@ -11,6 +11,7 @@
 
 #include "info.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ namespace HVI {
    says them in text:
    Variable[  0]: dx,                style = index,            def = 0.4
    Variable[  1]: a,                 style = equal,            def = 1e-3*v_dx 0.0004
-   where the last word is the value that was asked for last.
+   where the last word is the value that was asked for last.  Where none was, LAMMPS (both versions)
+   shows what happens to be in memory: what is no text is cut off first.  Sanitizers see that.
 ------------------------------------------------------------------------- */
 
 struct VariableText {
@@ -43,7 +45,13 @@ inline std::vector<VariableText> variable_list(LAMMPS_NS::LAMMPS *lmp)
     const size_t from = style + STYLE.size();
     VariableText one = {std::string(names[i]), text.substr(from, text.find(',', from) - from),
                         text.substr(value + VALUE.size())};
-    if (one.style == "equal") one.value.resize(one.value.rfind(' '));
+    if (one.style == "equal") {
+      const auto no_text = [](unsigned char c) {
+        return c < ' ' || c > '~';
+      };
+      one.value.erase(std::find_if(one.value.begin(), one.value.end(), no_text), one.value.end());
+      one.value.resize(one.value.rfind(' '));
+    }
     list.push_back(one);
   }
   return list;

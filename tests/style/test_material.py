@@ -76,9 +76,10 @@ def test_every_material_is_found_and_read(lmp, potentials, nranks):
     files = sorted(f.name for f in potentials.glob("*.hvi"))
     assert len(files) == 26
     for name in files if nranks == 1 else files[:2]:
-        units = "lj" if "UNITS: lj" in (potentials / name).read_text() else "si"
+        head = (potentials / name).read_text()
+        units, date = "lj" if "UNITS: lj" in head else "si", head.split()[2]
         result = lmp(text(name, units), nranks=nranks, env={"LAMMPS_POTENTIALS": str(potentials)})
-        assert result.log.count(f"Reading material file {name} with DATE: 2026-02-01") == 1
+        assert result.log.count(f"Reading material file {name} with DATE: {date}") == 1 and date[:3] == "202"
         p, c, T = state(result)
         assert np.isfinite(p) and c > 0, name
 
