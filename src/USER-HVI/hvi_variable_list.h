@@ -47,7 +47,7 @@ inline std::vector<VariableText> variable_list(LAMMPS_NS::LAMMPS *lmp)
                         text.substr(value + VALUE.size())};
     if (one.style == "equal") {
       const auto no_text = [](unsigned char c) {
-        return c < ' ' || c > '~';
+        return c != '\t' && (c < ' ' || c > '~');
       };
       one.value.erase(std::find_if(one.value.begin(), one.value.end(), no_text), one.value.end());
       one.value.resize(one.value.rfind(' '));

@@ -270,10 +270,12 @@ def test_what_cannot_fail_in_tension(shield, wall, ball):
     assert (said[0] in r["reasons"]) == (r["verdict"] == "undecided") == (wall[0] == "T")
 
 
-def test_a_cloud_slips_through_coarser_particles(shield):
+def test_a_cloud_slips_through_coarser_particles(shield, tmp_path):
     """wall 2 is neither torn nor spalled, but particles of the cloud are behind it: 3.3 times finer ones"""
     r = shield(D=3, dx=0.3, v0=5470, material_p="Al2017-T4.hvi", material=["Al6061-T6.hvi", "Al6061-T6.hvi"], thickness=[0.6, 3], gap=[0, 20], spacings=[0.3, 1.0], keep=-1)
     undecided(r, "may have slipped between its particles, 3.3 times as far apart as those of the cloud")
+    logs = "".join(p.read_text() for p in (tmp_path / "run").glob("log*"))
+    assert "apart as those of the cloud" in logs and logs.count(" times as far") == logs.count(" 3.3 times as far")  # at the end of the log, too
     assert r["margins"]["hole_mm"] == 0 and r["wall2_spall_mass_mg"] == 0 and r["margins"]["apart_mass_mg"] > 0
 
 
