@@ -281,3 +281,80 @@ def test_command_and_lammps(lmp, root, tmp_path, capsys):
     frames = [DataFile(f"{name}.data").frame() for name in "ab"]
     assert n3 == (frames[1]["type"] == 3).sum() and nodes == sum((f["type"] == k).sum() for f, k in zip(frames, (2, 4)))
     assert m1 == pytest.approx(DataFile("a.data").masses[1] * n1)
+
+
+@pytest.fixture
+def meshio():
+    return pytest.importorskip("meshio", reason="meshio is not there (Debian: python3-meshio)")
+
+
+def written(meshio, path, change=None, cells=None, sets=None):
+    """12 cubes in two blocks, with a surface and a node of nobody; the fourth is numbered inside out"""
+    made = mesh.block(3, 2, 2)
+    elements = made.elements.copy()
+    elements[3] = elements[3][[4, 5, 6, 7, 0, 1, 2, 3]]
+    points = np.vstack([[[9, 9, 9]], made.nodes])
+    if change:
+        change(points, elements)
+    elements += 1
+    cells = cells or [("hexahedron", elements[:8]), ("quad", elements[:1, :4]), ("hexahedron", elements[8:])]
+    meshio.Mesh(points, cells, cell_sets=sets or {}).write(path)
+
+
+@pytest.mark.parametrize("kind", ["inp", "vtk", "vtu", "msh"])
+def test_import(meshio, kind, tmp_path, capsys):
+    written(meshio, tmp_path / f"a.{kind}")
+    assert cli.main(["mesh", "w.data", "--import", f"a.{kind}", "--scale", "0.5", "--move", "1", "0", "0", "--density", "2", "--particles", "3"]) == 0
+    said = dict(line.split(": ") for line in capsys.readouterr().out.splitlines() if ": " in line)
+    assert said["elements that were inside out"] == "1" and said["nodes"] == "36" and float(said["mass"]) == 3
+    found, _ = sections(tmp_path / "w.data")
+    rows, x = found["Elements"].astype(int), found["Atoms # sph"][:, 5:]
+    assert divergence(x[rows[:, 2:10] - 1]) == pytest.approx(np.full(12, 0.125)) and (rows[:, 10] == 3).all()
+    assert x[:36].min(axis=0) == pytest.approx([1, 0, 0]) and x[:36].max(axis=0) == pytest.approx([2.5, 1, 1])
+
+
+def test_import_of_a_set(meshio, tmp_path, capsys):
+    """Elements of a set hold particles; sets that meshio does not tell rightly are refused"""
+    def sets(*rows):
+        return {"STRUCK": [np.array(r, dtype=int) for r in rows]}
+
+    words = ["mesh", "w.data", "--import", "a.inp", "--set", "STRUCK", "--density", "2"]
+    written(meshio, tmp_path / "a.inp", sets=sets([], [], [1, 2]))
+    assert cli.main(words) == 0
+    rows = sections(tmp_path / "w.data")[0]["Elements"].astype(int)
+    assert list(np.flatnonzero(rows[:, 10])) == [9, 10]
+    capsys.readouterr()
+    written(meshio, tmp_path / "a.inp", sets=sets([1], [], [1, 2]))
+    assert cli.main(words) == 1 and "in one *ELSET of that name" in capsys.readouterr().err
+    text = (tmp_path / "a.inp").read_text()
+    text = text[:text.index("*ELSET")]
+    at = text.rindex("*ELEMENT")
+    (tmp_path / "a.inp").write_text(text[:at] + re.sub(r"(\*ELEMENT.*)", r"\1, ELSET=STRUCK", text[at:]))
+    assert cli.main(words) == 1 and "in one *ELSET of that name" in capsys.readouterr().err
+    assert cli.main([*words[:-4], "--set", "OTHER", "--density", "2"]) == 1 and "no set of cells OTHER, but STRUCK" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("change, cells, message", [
+    (lambda x, e: x.__setitem__(e[5, 6] + 1, [0.9, 0.9, -3]), None, "turned inside out or flat"),
+    (lambda x, e: e.__setitem__((2, 3), e[2, 2]), None, "1 hexahedra have a node twice, the first is number 3"),
+    (None, [("tetra", [[1, 2, 4, 9]])], "not tetra"), (None, [("quad", [[1, 2, 5, 4]])], "not a mesh without any")], ids=str)
+def test_wrong_imports(meshio, change, cells, message, tmp_path, capsys):
+    written(meshio, tmp_path / "a.vtu", change, cells)
+    assert cli.main(["mesh", "w.data", "--import", "a.vtu", "--density", "2"]) == 1
+    assert message in capsys.readouterr().err and not (tmp_path / "w.data").exists()
+
+
+@pytest.mark.parametrize("words, message", [
+    (["--import", "no.vtu"], "cannot read no.vtu as a mesh"), (["--import", "a.vtu", "--core", "1"], "--core is of plates"),
+    (["--side", "8", "--thickness", "1"], "needs --element"), (["--radius", "8", "--element", "1"], "needs --thickness"),
+    (["--side", "8", "--thickness", "1", "--element", "1", "--scale", "2"], "--scale is of imported meshes"),
+    (["--side", "8", "--thickness", "1", "--element", "1", "--circle"], "as wide as an element")], ids=str)
+def test_wrong_commands(words, message, meshio, tmp_path, capsys):
+    assert cli.main(["mesh", "w.data", *words, "--density", "2"]) == 1
+    assert message in capsys.readouterr().err and not (tmp_path / "w.data").exists()
+
+
+def test_without_meshio(monkeypatch, capsys):
+    monkeypatch.setitem(__import__("sys").modules, "meshio", None)
+    assert cli.main(["mesh", "w.data", "--import", "a.vtu", "--density", "2"]) == 1
+    assert "python3-meshio" in capsys.readouterr().err
