@@ -107,9 +107,8 @@ def _lattice(half, element, fine, growth, largest):
     return points, quads, np.zeros((0, 2)), 0.0
 
 
-def _butterfly(radius, element, core, hold, growth, largest):
-    """A quarter of a circle around a square lattice"""
-    need = core + 1.5 * element if core else 0.0
+def _butterfly(radius, element, need, hold, growth, largest):
+    """A quarter of a circle around a square lattice that reaches as far as there is need, or more"""
     cells = max(1, int(np.ceil(max(need, min(hold, 0.5 * radius)) / element - 1e-6)))
     a = cells * element
     if 1.6 * a > radius:
@@ -189,8 +188,9 @@ def plate(thickness, element, side=None, radius=None, n=2, core=0.0, hold=np.inf
         raise HVIError(f"particles per edge of an element must be {'1 or more with a core of free particles' if core > 0.0 else '0 or more'}, not {n}")
     if growth > 1.0 and not hold < width:
         raise HVIError("elements grow beyond the radius up to which they hold particles: say which, below that of the plate")
-    if core < 0.0 or (core > 0.0 and (hold < core + 1.5 * element or width < core + 1.5 * element)):
-        raise HVIError(f"free particles up to {core:g} need elements with particles around them: at least up to {core + 1.5 * element:g}, "
+    around = core + (1.5 if n > 1 else 2.5) * element  # two layers of particles or more also where the core is ragged
+    if core < 0.0 or (core > 0.0 and min(hold, width) < around):
+        raise HVIError(f"free particles up to {core:g} need elements with particles around them: at least up to {around:g}, "
                        f"not {min(hold, width):g}")
     if circle and not core >= element:
         raise HVIError(f"a circular core is at least as wide as an element, {element:g}, not {core:g}")
@@ -201,7 +201,7 @@ def plate(thickness, element, side=None, radius=None, n=2, core=0.0, hold=np.inf
     if circle:
         points, quads, disk, area = _circular(None if half is None else half[0], radius, element, n, core, hold, growth, largest)
     elif half is None:
-        points, quads, disk, area = _butterfly(radius, element, core, hold, growth, largest)
+        points, quads, disk, area = _butterfly(radius, element, around if core else 0.0, hold, growth, largest)
     else:
         points, quads, disk, area = _lattice(half, element, min(hold, half.max()), growth, largest)
     parts = 4

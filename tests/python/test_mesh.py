@@ -217,7 +217,7 @@ def test_periodic_block(tmp_path):
     (dict(radius=8.0), "square .side. or round"), (dict(side=None), "square .side. or round"), (dict(n=-1), "0 or more, not -1"),
     (dict(n=0, core=2.0), "1 or more with a core"), (dict(growth=1.2), "grow beyond the radius"), (dict(growth=0.5), "ratio from 1 to 2"),
     (dict(growth=1.2, hold=2.0, largest=0.1), "at least 0.5"), (dict(core=2.0, hold=2.1), "at least up to 2.75"),
-    (dict(core=7.9), "at least up to 8.65"), (dict(circle=True), "as wide as an element"),
+    (dict(core=2.0, hold=3.2, n=1), "at least up to 3.25"), (dict(core=7.9), "at least up to 8.65"), (dict(circle=True), "as wide as an element"),
     (dict(circle=True, core=2.0, side=(16.0, 12.0)), "not in a rectangle"), (dict(quarter=True, center=(1.0, 0.0)), "around 0 0"),
     (dict(side=None, radius=2.0, core=1.0), "no room around"), (dict(type=2, node_type=2), "a type of their own: 2")], ids=str)
 def test_wrong_plates(change, message, tmp_path):
