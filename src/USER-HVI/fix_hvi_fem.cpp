@@ -182,7 +182,8 @@ void FixHVIFEM::post_integrate()
 /* ----------------------------------------------------------------------
    Half of a step's energy.  Forces on nodes work on the velocity v of the middle of the step, in both
    halves: that is what kinetic energy changes by, but for dt^2/8 f^2/m, which cancels between a
-   step and the next if they are as long; what is left is taken, too, as in fix hvi/sph.  Of pairs
+   step and the next if they are as long; what is left is given back, and at output all of it, see
+   internal_energy().  Of pairs
    particles have gained de, and forces worked f.w on them at the velocity that pairs have seen; on v
    it is another work.
 ------------------------------------------------------------------------- */
@@ -200,7 +201,7 @@ void FixHVIFEM::half_energy(double dt)
       kick += n[KICK];
     }
     one.change = 0.5 * dt * (one.power - work) / one.mass;
-    one.e += one.change - kick / CORNERS;
+    one.e += one.change + kick / CORNERS;
   }
 }
 
@@ -223,15 +224,21 @@ void FixHVIFEM::end_of_step()
 void FixHVIFEM::show_particles()
 {
   nodes.gather(
-      3,
+      4,
       [this](int i, double *b) {
         std::copy_n(atom->v[i], 3, b);
+        b[3] = half_kick(i);
       },
       [this](int k, const double *b) {
         std::copy_n(b, 3, &node[NODE * k + W]);
+        node[NODE * k + KICK] = dt_last * dt_last * b[3];
       });
-  for (std::size_t e = 0; e < elements.size(); e++)
-    if (alive(e)) elements[e].mark = fingerprint(e);
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (!alive(e)) continue;
+    elements[e].mark = fingerprint(e);
+    now[e].kick = 0.0;
+    for (int a = 0; a < CORNERS; a++) now[e].kick += at(e, a)[KICK] / CORNERS;
+  }
   particles.scatter(
       3,
       [this](int k, double *b) {
@@ -250,6 +257,14 @@ void FixHVIFEM::show_particles()
       });
   show_states(true);
   read_probes();
+}
+
+// dt^2/8 f^2/m per mass, over dt^2: half kicks give that beyond the work on the velocity of the middle of a step
+
+double FixHVIFEM::half_kick(int i) const
+{
+  const double *const f = atom->f[i], m = atom->rmass[i];
+  return 0.125 * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) / (m * m);
 }
 
 // of its nodes: an element that goes on has forces of its own at the start of a run
@@ -276,11 +291,13 @@ void FixHVIFEM::tighten(HVI::TimeStepBounds &bounds)
 
 /* ---------------------------------------------------------------------- */
 
+// with what the last half kick gave, as known at output, so that the sum with kinetic energy is exact
+
 double FixHVIFEM::internal_energy(int i) const
 {
   double sum = 0.0;
   for (int e = head[i]; e >= 0; e = next[e])
-    if (alive(e)) sum += elements[e].mass * elements[e].e;
+    if (alive(e)) sum += elements[e].mass * (elements[e].e - now[e].kick);
   return sum;
 }
 

@@ -165,7 +165,7 @@ class FixHVIFEM :
   enum { RHO = 9, ESPH, FLAG, PLACE };    // of a particle, after X, V, W
   enum { STAYS, IS_FREE, IS_NO_MORE };    // FLAG
   struct Now {
-    double p, c;
+    double p, c, kick;
     double L[9], K[9];
     double sums[SUMS];
   };
@@ -194,6 +194,7 @@ class FixHVIFEM :
   std::uint64_t fingerprint(std::size_t) const;
   void gather_nodes();
   void half_energy(double dt);
+  double half_kick(int i) const;
   void place_particles(const std::vector<char> &freed);
   void show_particles();
   void gather_sums();

@@ -40,9 +40,9 @@ using HVI::Vec;
 
 void FixHVIFEM::gather_nodes()
 {
-  const double *const *const x = atom->x, *const *const v = atom->v, *const *const f = atom->f;
+  const double *const *const x = atom->x, *const *const v = atom->v;
   const double *const *const vest = atom->vest;
-  const double factor = 0.125 * (update->dt * update->dt - dt_last * dt_last);
+  const double factor = (update->dt * update->dt - dt_last * dt_last);
   node.resize(NODE * nodes.size());
   nodes.gather(
       NODE,
@@ -50,10 +50,7 @@ void FixHVIFEM::gather_nodes()
         std::copy_n(x[i], 3, b + X);
         std::copy_n(v[i], 3, b + V);
         std::copy_n(vest[i], 3, b + W);
-        const double over_m = 1.0 / atom->rmass[i];
-        b[KICK] = dt_last > 0.0
-            ? factor * over_m * over_m * (f[i][0] * f[i][0] + f[i][1] * f[i][1] + f[i][2] * f[i][2])
-            : 0.0;
+        b[KICK] = factor * half_kick(i);
         b[USERS] = users[i];
       },
       [this](int k, const double *b) {
@@ -120,6 +117,7 @@ void FixHVIFEM::settle()
   now.resize(elements.size());
   for (Now &one : now) {
     std::fill_n(one.K, 9, 0.0);
+    one.kick = 0.0;
     std::fill_n(one.sums, +SUMS, 0.0);
   }
   gather_sums();

@@ -156,7 +156,6 @@ void FixHVIFEM::mark_particles()
 
 void FixHVIFEM::start_elements()
 {
-  dt_last = dt_last > 0.0 ? dt_last : 0.0;
   gather_nodes();
   double *const rmass = atom->rmass;
   for (int i = 0; i < atom->nlocal; i++)
