@@ -165,6 +165,14 @@ void FixHVIFEM::setup(int /*vflag*/)
   going_on = false;    // from now on forces are made anew
 }
 
+// tables of nodes are others when particles have been exchanged
+
+void FixHVIFEM::pre_neighbor()
+{
+  connect();
+  gather_nodes();
+}
+
 /* ----------------------------------------------------------------------
    fix hvi/sph has moved the nodes.  What forces have worked, failures, and particles to their places
 ------------------------------------------------------------------------- */

@@ -48,7 +48,7 @@ class FixHVIFEM :
   void setup(int) override;
   void post_integrate() override;
   void pre_exchange() override;
-  void pre_neighbor() override { connect(); }
+  void pre_neighbor() override;
   void post_neighbor() override;
   void pre_force(int) override {}
   void pre_reverse(int, int) override;
