@@ -46,6 +46,7 @@ FixHVIFEM::~FixHVIFEM()
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(head);
   memory->destroy(users);
+  unmark_particles();
   if (FixHVIStore *const now = FixHVIStore::find(lmp)) now->embedded = 0;
 }
 
@@ -92,7 +93,7 @@ void FixHVIFEM::init()
   const bigint here = elements.size();
   bigint all;
   MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all == 0 && total <= 0)
+  if (all == 0 && total < 0)
     error->all(FLERR, "Fix hvi/fem has no elements: use read_data FILE fix {} elements Elements",
                id);
   if (total < 0) total = all;
@@ -131,15 +132,24 @@ void FixHVIFEM::setup_pre_exchange()
   atom->map_set();
   mark_particles();
   start_elements();
+  gather_start();
+  check_state();
+  if (!going_on) place_particles({});
 }
 
 void FixHVIFEM::setup_pre_neighbor()
 {
   connect();
-  gather_nodes();
-  check_state();
-  if (!going_on) place_particles({});
+  gather_start();
   comm->forward_comm();
+}
+
+// there is no other velocity yet
+
+void FixHVIFEM::gather_start()
+{
+  gather_nodes();
+  for (std::size_t k = 0; k < node.size(); k += NODE) std::copy_n(&node[k + V], 3, &node[k + W]);
 }
 
 /* ----------------------------------------------------------------------

@@ -123,6 +123,7 @@ class FixHVIFEM :
   std::vector<char> nodal;    // by type
   std::vector<Probe> probes;
   bigint announced;          // number of elements in the header of a data file
+  std::int64_t before;       // highest ID of elements that were there before it
   bigint total;              // of elements of all ranks; -1: to be counted
   int held;                  // bit of the group of particles in elements
   std::vector<int> inner;    // by type: that of those left out of lists; 0: there are none
@@ -189,8 +190,15 @@ class FixHVIFEM :
   void link();
   void connect();
   void start_elements();
+  void ids_have_changed(tagint) const;
   void mark_particles();
+  void unmark_particles();
+  void check_group(int) const;
+  void check_masses();
+  bool left_over(int) const;
+  void gather_start();
   void check_state();
+  bool strayed();
   std::uint64_t fingerprint(std::size_t) const;
   void gather_nodes();
   void half_energy(double dt);

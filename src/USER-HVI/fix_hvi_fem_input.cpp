@@ -27,10 +27,15 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), announced(-1), total(-1), held(0), store(nullptr), integrator(nullptr),
+    Fix(lmp, narg, arg), announced(-1), before(0), total(-1), held(0), store(nullptr), integrator(nullptr),
     strength(nullptr), ledger(nullptr), head(nullptr), users(nullptr), nodes(lmp), particles(lmp),
     near(lmp), dt_last(0.0), shortest(HVI::NO_BOUND), going_on(false), wraps(false), count()
 {
+  if (igroup != 0)
+    error->all(FLERR,
+               "Fix hvi/fem must be of group all, not {}: elements say which particles are "
+               "theirs",
+               group->names[igroup]);
   read_options(narg, arg);
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR, "Fix hvi/fem needs atom_style sph");

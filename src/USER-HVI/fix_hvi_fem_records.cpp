@@ -131,20 +131,28 @@ void FixHVIFEM::unpack_restart(int i, int nth)
 }
 
 /* ----------------------------------------------------------------------
-   what is of all: the last step, numbers of elements and what has become of others
+   what is of all: the last step, numbers of elements and what has become of others, and which elements probes
+   have found
 ------------------------------------------------------------------------- */
+
+static constexpr int NALL = 4;
 
 void FixHVIFEM::write_restart(FILE *fp)
 {
-  double list[3 + NCOUNT];
+  std::vector<double> list(NALL + NCOUNT);
   list[0] = SIZE;
   list[1] = dt_last;
   list[2] = total;
-  MPI_Reduce(count, list + 3, NCOUNT, MPI_DOUBLE, MPI_SUM, 0, world);
+  list[3] = probes.size();
+  MPI_Reduce(count, &list[NALL], NCOUNT, MPI_DOUBLE, MPI_SUM, 0, world);
   if (comm->me) return;
-  const int size = sizeof(list);
+  for (const Probe &probe : probes) {
+    list.insert(list.end(), probe.x, probe.x + 3);
+    list.push_back(ubuf(probe.id).d);
+  }
+  const int size = list.size() * sizeof(double);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(list, size, 1, fp);
+  fwrite(list.data(), size, 1, fp);
 }
 
 void FixHVIFEM::restart(char *buf)
@@ -153,18 +161,28 @@ void FixHVIFEM::restart(char *buf)
   if (list[0] != SIZE) error->all(FLERR, "Fix hvi/fem: the restart file is of another version");
   dt_last = list[1];
   total = list[2];
-  if (comm->me == 0) std::copy_n(list + 3, +NCOUNT, count);
+  if (comm->me == 0) std::copy_n(list + NALL, +NCOUNT, count);
+  for (int n = 0; n < (int) list[3]; n++) {
+    const double *const old = list + NALL + NCOUNT + 4 * n;
+    for (Probe &probe : probes)
+      if (std::equal(probe.x, probe.x + 3, old)) probe.id = (std::int64_t) ubuf(old[3]).i;
+  }
 }
 
 /* ----------------------------------------------------------------------
    Data files: "N elements" in the header; the section Elements, of those that are left; and as many more
-   sections as their state needs, with what restart files have, too.  Their titles end with numbers.
+   sections as their state needs, with what restart files have, too.  Their titles end with numbers.  Elements
+   of a further file are numbered on from those that are there.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::read_data_header(char *line)
 {
   announced = utils::bnumeric(FLERR, utils::split_words(line)[0], false, lmp);
   if (announced < 1) error->all(FLERR, "Fix hvi/fem: no elements in the header of the data file");
+  std::int64_t last = 0;
+  for (const Element &one : elements)
+    if (one.type > 0) last = std::max(last, one.id);
+  MPI_Allreduce(&last, &before, 1, MPI_INT64_T, MPI_MAX, world);
 }
 
 void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset)
@@ -185,7 +203,7 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
       if ((int) values.count() != ncolumn + 1)
         throw TokenizerException("it has another number of columns", "");
       Element one = {};
-      one.id = values.next_bigint();
+      one.id = values.next_bigint() + before;
       if (state) {
         const auto found = where.find(one.id);
         if (found == where.end()) continue;    // of another rank

@@ -10,8 +10,8 @@
    Contributing authors: the lammps-hvi developers
 ------------------------------------------------------------------------- */
 
-// particles in elements: which of them, where they are, and elements that become particles; the rest of the
-// class is in fix_hvi_fem.cpp
+// particles in elements: which of them pairs see, where they are, and elements that become particles; the rest of
+// the class is in fix_hvi_fem.cpp
 
 #include "fix_hvi_fem.h"
 
@@ -21,6 +21,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
+#include "fix_hvi_ledger.h"
 #include "fix_hvi_sph.h"
 #include "fix_hvi_store.h"
 #include "force.h"
@@ -34,228 +35,6 @@
 
 using namespace LAMMPS_NS;
 using HVI::CORNERS;
-
-/* ----------------------------------------------------------------------
-   who is where, after particles have been exchanged
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::connect()
-{
-  link();
-  std::vector<tagint> wanted, held_ids;
-  inside.clear();
-  corner.resize(CORNERS * elements.size());
-  place.assign(elements.size(), -1);
-  for (std::size_t e = 0; e < elements.size(); e++) {
-    const Element &one = elements[e];
-    wanted.insert(wanted.end(), one.node, one.node + CORNERS);
-    if (one.n > 0) place[e] = inside.size();
-    for (int p = 0; p < one.particles(); p++) {
-      inside.push_back({(int) e, p});
-      held_ids.push_back(one.first + p);
-    }
-    if (one.n >= (int) subcells.size()) subcells.resize(one.n + 1);
-    if (one.n > 0 && subcells[one.n].empty()) subcells[one.n] = HVI::hex_subcells(one.n);
-  }
-
-  // each node once
-
-  std::vector<tagint> unique = wanted;
-  std::sort(unique.begin(), unique.end());
-  unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
-  for (std::size_t k = 0; k < wanted.size(); k++)
-    corner[k] = std::lower_bound(unique.begin(), unique.end(), wanted[k]) - unique.begin();
-
-  const bigint here = elements.size();
-  bigint all;
-  MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  const tagint lost_node = nodes.connect(unique, [this](int i) {
-    return is_node(atom->type[i]);
-  });
-  const tagint lost = particles.connect(held_ids, [this](int i) {
-    return !is_node(atom->type[i]);
-  });
-  if (lost_node || lost || all != total)
-    error->all(FLERR,
-               "Fix hvi/fem: {} is not there at step {}: elements, their nodes and particles must "
-               "not leave the box, nor be deleted",
-               lost_node ? fmt::format("node {}", lost_node)
-                         : (lost ? fmt::format("particle {}", lost) : "an element"),
-               update->ntimestep);
-
-  std::vector<double> uses(unique.size(), 0.0);
-  for (const int k : corner) uses[k] += 1.0;
-  std::fill_n(users, atom->nlocal, 0);
-  nodes.scatter(
-      1,
-      [&](int k, double *b) {
-        b[0] = uses[k];
-      },
-      [this](int i, const double *b) {
-        users[i] += b[0];
-      });
-}
-
-/* ----------------------------------------------------------------------
-   elements by their first nodes, without those that are no more
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::link()
-{
-  elements.erase(std::remove_if(elements.begin(), elements.end(),
-                                [](const Element &one) {
-                                  return one.type <= 0;
-                                }),
-                 elements.end());
-  next.assign(elements.size(), -1);
-  std::fill_n(head, atom->nlocal, -1);
-  std::vector<int> number(atom->nlocal, 0);
-  int most = 0;
-  for (int e = elements.size() - 1; e >= 0; e--) {
-    const int i = atom->map(elements[e].node[0]);
-    if (i < 0 || i >= atom->nlocal)
-      error->one(FLERR,
-                 "Fix hvi/fem: node {} of element {} is not there at step {}: elements must not "
-                 "leave the box",
-                 elements[e].node[0], elements[e].id, update->ntimestep);
-    next[e] = head[i];
-    head[i] = e;
-    most = std::max(most, ++number[i]);
-  }
-  maxexchange = 2 + std::max(most, 1) * Element::SIZE;
-}
-
-/* ----------------------------------------------------------------------
-   Groups say which particles are in elements, and which of those lists leave out.  Not in restarts of
-   other fixes, nor in data files.
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::mark_particles()
-{
-  int inner_all = 0;
-  for (const int bit : inner) inner_all |= bit;
-  for (int i = 0; i < atom->nlocal; i++) atom->mask[i] &= ~(held | inner_all);
-  connect();
-  particles.scatter(
-      1,
-      [this](int k, double *b) {
-        b[0] = elements[inside[k].e].type;
-      },
-      [this](int i, const double *b) {
-        const int itype = b[0];
-        if (atom->type[i] != itype)
-          error->one(FLERR, "Fix hvi/fem: particle {} in an element of type {} has type {}",
-                     atom->tag[i], itype, atom->type[i]);
-        atom->mask[i] |= held | inner[itype];
-      });
-}
-
-/* ----------------------------------------------------------------------
-   Elements without a mass are new: at rest in their material.  So is a particle without one of its own.
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::start_elements()
-{
-  gather_nodes();
-  double *const rmass = atom->rmass;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (rmass[i] == 0.0 && !is_node(atom->type[i]) && !(atom->mask[i] & held))
-      rmass[i] = atom->mass[atom->type[i]];
-
-  std::vector<double> added(nodes.size(), 0.0), given(inside.size(), 0.0);
-  for (std::size_t e = 0; e < elements.size(); e++) {
-    Element &one = elements[e];
-    if (one.mass > 0.0) continue;
-    const HVI::Material *const material = store->materials.of(one.type);
-    if (!material || is_node(one.type))
-      error->one(FLERR, "Fix hvi/fem: type {} of element {} has no material", one.type, one.id);
-    HVI::HexNodes x, B;
-    load(e, 1, X, x);
-    one.V = one.V0 = HVI::hex_gradient(x, B)[0];
-    double places[CORNERS][3];
-    corners(e, X, places);
-    if (!(one.V > 0.0) || !(HVI::hex_shape(places).jacobian > 0.0))
-      error->one(FLERR,
-                 "Fix hvi/fem: element {} is turned inside out or has no volume: its nodes must be "
-                 "numbered around the bottom and then above it, seen from inside against the clock",
-                 one.id);
-    one.rho = material->eos->rho0();
-    one.mass = one.rho * one.V;
-    one.s = HVI::SolidModel::blank();
-    model(one).start(one.s, input(one), true);
-    for (int a = 0; a < CORNERS; a++) added[corner[CORNERS * e + a]] += one.mass / CORNERS;
-    for (int p = 0; p < one.particles(); p++) given[place[e] + p] = one.mass / one.particles();
-  }
-  nodes.scatter(
-      1,
-      [&](int k, double *b) {
-        b[0] = added[k];
-      },
-      [&](int i, const double *b) {
-        rmass[i] += b[0];
-      });
-  particles.scatter(
-      1,
-      [&](int k, double *b) {
-        b[0] = given[k];
-      },
-      [&](int i, const double *b) {
-        if (b[0] > 0.0) rmass[i] = b[0];
-      });
-  bigint without = 0, everywhere;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (is_node(atom->type[i]) && !(rmass[i] > 0.0)) without++;
-  MPI_Allreduce(&without, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (everywhere) error->all(FLERR, "Fix hvi/fem: {} nodes belong to no element", everywhere);
-
-  // on mirror planes to the last digit
-
-  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_node(atom->type[i])) continue;
-    const double size =
-        1.0e-6 * std::cbrt(rmass[i]);    // of nothing in particular: far below an element
-    for (int k = 0; k < 3; k++) {
-      if (!mirror.has(k)) continue;
-      const double depth = mirror.depth(k, atom->x[i]);
-      if (std::fabs(depth) <= size)
-        atom->x[i][k] = mirror.at[k];
-      else if (depth < 0.0)
-        error->one(FLERR, "Fix hvi/fem: node {} is beyond the mirror plane {}", atom->tag[i],
-                   "xyz"[k]);
-    }
-  }
-}
-
-/* ----------------------------------------------------------------------
-   Elements of a run that goes on where the last one ended have the forces of its end; if a command has changed
-   any node since, all are made anew
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::check_state()
-{
-  int here = 1, all;
-  for (std::size_t k = 0; k < node.size(); k += NODE)
-    std::copy_n(&node[k + V], 3, &node[k + W]);    // there is no other velocity yet
-  for (std::size_t e = 0; e < elements.size(); e++) {
-    HVI::HexNodes x, B;
-    load(e, 1, X, x);
-    const double volume = HVI::hex_gradient(x, B)[0];
-    if (elements[e].mark != fingerprint(e) ||
-        std::fabs(volume - elements[e].V) > 1.0e-9 * elements[e].V)
-      here = 0;
-    elements[e].ahead = elements[e].e;
-  }
-  MPI_Allreduce(&here, &all, 1, MPI_INT, MPI_MIN, world);
-  going_on = all;
-  if (going_on) return;
-  dt_last = 0.0;
-  for (Element &one : elements) {
-    one.power = one.q = 0.0;
-    std::fill_n(one.force, 3 * CORNERS, 0.0);
-    std::fill_n(one.pair_force, 3 * CORNERS, 0.0);
-  }
-}
 
 /* ----------------------------------------------------------------------
    After lists have been made: an element is active if something in them acts on its particles, that is,
@@ -336,7 +115,8 @@ void FixHVIFEM::post_neighbor()
 
 /* ----------------------------------------------------------------------
    To their places, with velocity and what pairs and lists see of density and energy.  Who leaves an element
-   keeps all that.
+   keeps all that, but for the energy: its own is that of the middle of the step, to which fix hvi/sph adds what
+   the second half brings.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::place_particles(const std::vector<char> &freed)
@@ -355,8 +135,8 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         for (int what = 0; what < 3; what++)
           for (int k = 0; k < 3; k++) row[3 * what + k] += weights[p][a] * y[what][a][k];
       row[RHO] = one.rho;
-      row[ESPH] = one.ahead * one.mass / one.particles();
       row[FLAG] = !freed.empty() && freed[e] ? IS_FREE : (alive(e) ? STAYS : IS_NO_MORE);
+      row[ESPH] = (row[FLAG] == IS_FREE ? one.e : one.ahead) * one.mass / one.particles();
     }
   }
   const bool tell = !freed.empty();
@@ -380,6 +160,7 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         if (tell && b[FLAG] == IS_FREE) {
           atom->mask[i] &= ~(held | inner[atom->type[i]]);
           integrator->let_go(i);
+          ledger->hand_over(i, atom->rmass[i]);
           if (i < (int) store->fields.embedded.size()) store->fields.embedded[i] = 0;
         }
       });
@@ -476,6 +257,7 @@ void FixHVIFEM::let_go(const std::vector<char> &freed)
       [this](int i, const double *b) {
         if (b[1] == 0.0) return;
         users[i] -= b[1];
+        ledger->hand_over(i, -b[0]);
         if (users[i] > 0) {
           atom->rmass[i] -= b[0];
           return;
