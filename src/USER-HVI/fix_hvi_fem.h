@@ -134,6 +134,7 @@ class FixHVIFEM :
   class FixHVILedger *ledger;
 
   std::vector<Element> elements;    // of this rank, which has their first nodes; type 0: is no more
+  int nmax;                         // length of the following
   int *head;                        // of owned particles: its first element, -1: none
   int *users;                       // of owned particles: number of elements that have it as a node
   std::vector<int> next;            // by element: of the same particle, -1: none
@@ -190,6 +191,7 @@ class FixHVIFEM :
   void link();
   void connect();
   void start_elements();
+  int first_of(int) const;
   void ids_have_changed(tagint) const;
   void mark_particles();
   void unmark_particles();

@@ -28,7 +28,7 @@ using namespace FixConst;
 
 FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), announced(-1), before(0), total(-1), held(0), store(nullptr), integrator(nullptr),
-    strength(nullptr), ledger(nullptr), head(nullptr), users(nullptr), nodes(lmp), particles(lmp),
+    strength(nullptr), ledger(nullptr), nmax(0), head(nullptr), users(nullptr), nodes(lmp), particles(lmp),
     near(lmp), dt_last(0.0), shortest(HVI::NO_BOUND), going_on(false), wraps(false), count()
 {
   if (igroup != 0)

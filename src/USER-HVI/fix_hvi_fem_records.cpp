@@ -39,6 +39,8 @@ void FixHVIFEM::grow_arrays(int n)
 {
   memory->grow(head, n, "hvi/fem:head");
   memory->grow(users, n, "hvi/fem:users");
+  if (n > nmax) std::fill(head + nmax, head + n, -1);
+  nmax = n;
 }
 
 void FixHVIFEM::copy_arrays(int i, int j, int /*delflag*/)
@@ -47,10 +49,21 @@ void FixHVIFEM::copy_arrays(int i, int j, int /*delflag*/)
   users[j] = users[i];
 }
 
+// read_data says that a particle is new when it has read all sections, those of elements, too
+
 void FixHVIFEM::set_arrays(int i)
 {
-  head[i] = -1;
+  head[i] = first_of(i);
   users[i] = 0;
+}
+
+// head, if that is of this particle and not of one that was in its place
+
+int FixHVIFEM::first_of(int i) const
+{
+  const int e = head[i];
+  const bool known = e >= 0 && e < (int) elements.size() && alive(e);
+  return known && elements[e].node[0] == atom->tag[i] ? e : -1;
 }
 
 /* ----------------------------------------------------------------------
@@ -224,7 +237,7 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
         throw TokenizerException("n must be from 0 to 8", std::to_string(one.n));
       const int i = atom->map(one.node[0]);
       if (i < 0 || i >= atom->nlocal) continue;
-      next.push_back(head[i]);
+      next.push_back(first_of(i));
       head[i] = elements.size();
       elements.push_back(one);
     } catch (TokenizerException &wrong) {
