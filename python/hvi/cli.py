@@ -61,6 +61,10 @@ EXAMPLES = {
       --material potentials/Al2024-T3.hvi
   python3 -m hvi plate far.data --radius 140e-3 --thickness 0.8e-3 --spacing 0.2e-3 --zones 20e-3 40e-3 80e-3 \\
       --density 2785 --quarter""",
+    "mesh": """  python3 -m hvi mesh wall.data --side 300e-3 --thickness 1e-3 --element 0.5e-3 --core 8e-3 --hold 12e-3 --circle \\
+      --growth 1.2 --largest 5e-3 --quarter --material potentials/Al2024-T3.hvi
+  python3 -m hvi mesh plate.data --radius 20e-3 --thickness 1e-3 --element 0.5e-3 --particles 2 --density 2785
+  python3 -m hvi mesh part.data --import part.inp --scale 1e-3 --particles 2 --set STRUCK --density 2785""",
     "impacts": """  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --figure witness
   python3 -m hvi impacts old.dump --axis z --plane 60.8e-3 --quarter --after 0 --bins 60 --figure witness.png
   python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --after 0.8e-3 --distance 0.6e-3 --sound \\
@@ -98,6 +102,13 @@ def positive(text):
     if not 0.0 < value < float("inf"):
         raise argparse.ArgumentTypeError(f"{text} is not a number > 0")
     return value
+
+
+class _OneOrTwo(argparse.Action):
+    def __call__(self, parser, namespace, values, option_string=None):
+        if len(values) > 2:
+            parser.error(f"{option_string} takes one or two numbers, not {len(values)}")
+        setattr(namespace, self.dest, values)
 
 
 def _files(parser):
@@ -357,6 +368,35 @@ def options():
     group = sub.add_mutually_exclusive_group(required=True)
     group.add_argument("--density", type=positive, metavar="RHO", help="of the material, in units of the run")
     group.add_argument("--material", metavar="FILE.hvi", help="material file; the run must have its units")
+
+    sub = command("mesh", "hexahedra for fix hvi/fem, with particles in them and beside them, as a LAMMPS data file: plates, or the mesh of a file")
+    sub.add_argument("file", metavar="FILE", help="data file to write (atom_style sph; read_data FILE fix ID elements Elements)")
+    group = sub.add_mutually_exclusive_group(required=True)
+    group.add_argument("--side", type=positive, nargs="+", action=_OneOrTwo, metavar="L", help="of a square plate, or both of a rectangle")
+    group.add_argument("--radius", type=positive, metavar="R", help="of a round plate")
+    group.add_argument("--import", dest="import_", metavar="MESH", help="hexahedra of a file that meshio reads (Abaqus, Gmsh, VTK, ...)")
+    sub.add_argument("--particles", type=int, default=2, metavar="N", help="per edge of an element that holds some; 0: none does (default: 2)")
+    sub.add_argument("--type", type=int, default=1, metavar="TYPE", help="of the material (default: 1)")
+    sub.add_argument("--node-type", type=int, metavar="TYPE", help="of the nodes (default: the next)")
+    group = sub.add_mutually_exclusive_group(required=True)
+    group.add_argument("--density", type=positive, metavar="RHO", help="of the material, in units of the run")
+    group.add_argument("--material", metavar="FILE.hvi", help="material file; the run must have its units")
+    group = sub.add_argument_group("plates, across z")
+    group.add_argument("--thickness", type=positive, metavar="T", help="of the plate")
+    group.add_argument("--element", type=positive, metavar="E", help="edge of elements in the plane")
+    group.add_argument("--layers", type=int, metavar="N", help="elements through the thickness (default: as thick as wide)")
+    group.add_argument("--core", type=positive, metavar="R", help="free particles, E/N apart, instead of elements up to this radius")
+    group.add_argument("--circle", action="store_true", default=None, help="the core is a circle with rings of elements around it, not cells of a lattice")
+    group.add_argument("--hold", type=positive, metavar="R", help="elements hold particles up to this radius (default: all)")
+    group.add_argument("--growth", type=positive, metavar="G", help="beyond, elements grow by this ratio from one to the next (default: 1)")
+    group.add_argument("--largest", type=positive, metavar="E", help="up to this size")
+    group.add_argument("--quarter", action="store_true", default=None, help="only x > 0, y > 0, for mirrors")
+    group.add_argument("--center", type=float, nargs=2, metavar=("X", "Y"), help="of the plate (default: 0 0)")
+    group.add_argument("--bottom", type=float, metavar="Z", help="the plate is from Z to Z + T (default: 0)")
+    group = sub.add_argument_group("imported meshes")
+    group.add_argument("--scale", type=positive, metavar="S", help="units of the run per unit of the file (default: 1)")
+    group.add_argument("--move", type=float, nargs=3, metavar=("X", "Y", "Z"), help="after that (default: 0 0 0)")
+    group.add_argument("--set", metavar="NAME", help="only elements of this set of cells hold particles (default: all)")
 
     sub = command("impacts", "where a cloud will strike a wall: momentum and energy per area of particles that fly on freely")
     _files(sub)

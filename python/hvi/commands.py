@@ -250,6 +250,38 @@ def plate(args):
     print(tables.text(("type", "particles", "spacing", "step", "mass"), rows))
 
 
+PLATE = ("thickness", "element", "layers", "core", "hold", "circle", "growth", "largest", "quarter", "center", "bottom")
+
+
+def mesh(args):
+    from . import mesh_import, mesh_plate, plates
+
+    given = {name: getattr(args, name) for name in PLATE if getattr(args, name) is not None}
+    common = {"n": args.particles, "type": args.type, "node_type": args.node_type}
+    inverted = 0
+    if args.import_:
+        if given:
+            raise HVIError(f"--{next(iter(given))} is of plates, not of imported meshes")
+        made, inverted = mesh_import.load(args.import_, cells=args.set, scale=args.scale or 1.0, move=args.move or (0.0, 0.0, 0.0), **common)
+    else:
+        for name in ("thickness", "element"):
+            if name not in given:
+                raise HVIError(f"a plate needs --{name}")
+        for name in ("set", "scale", "move"):
+            if getattr(args, name) is not None:
+                raise HVIError(f"--{name} is of imported meshes, not of plates")
+        side = None if args.side is None else args.side if len(args.side) > 1 else args.side[0]
+        made = mesh_plate.plate(side=side, radius=args.radius, **given, **common)
+    density, units = (args.density, None) if args.material is None else plates.density_of(args.material)
+    made.write(args.file, density, " ".join(os.path.basename(args.file).split()))
+    found = made.quality()
+    _print({**found, "mass": density * found["volume"]})
+    if inverted:
+        print(f"elements that were inside out: {inverted}")
+    print(f"density: {density:.10g}" + (f" (units {units})" if units else ""))
+    print(tables.text(("type", "mass", "of"), [(k, m, "nodes" if k == made.node_type else "material") for k, m in made.masses(density).items()]))
+
+
 def impacts(args):
     from . import maps
 

@@ -16,6 +16,7 @@
 #include "comm.h"
 #include "error.h"
 #include "fix_hvi_ledger.h"
+#include "fix_hvi_store.h"
 #include "group.h"
 #include "hvi_energy_carrier.h"
 #include "hvi_interface.h"
@@ -124,8 +125,14 @@ void ComputeHVIEnergy::compute_vector()
   const double *const mass = atom->mass;
   const int *const type = atom->type;
 
+  // particles in elements are there twice: what they have is in nodes and elements
+
+  const FixHVIStore *const store = FixHVIStore::find(lmp);
+  const int embedded = store ? store->embedded : 0;
+
   double here[NVALUES] = {0.0};
   for (int i = 0; i < atom->nlocal; i++) {
+    if (atom->mask[i] & embedded) continue;
     const double m = rmass ? rmass[i] : mass[type[i]];
     here[KINETIC] += m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]);
     here[PX] += m * v[i][0];
@@ -135,9 +142,11 @@ void ComputeHVIEnergy::compute_vector()
   }
   here[KINETIC] *= 0.5 * force->mvv2e;
   if (atom->esph_flag)
-    for (int i = 0; i < atom->nlocal; i++) here[INTERNAL] += atom->esph[i];
+    for (int i = 0; i < atom->nlocal; i++)
+      if (!(atom->mask[i] & embedded)) here[INTERNAL] += atom->esph[i];
   for (const auto *const carrier : HVI::find_interface<HVI::EnergyCarrier>(lmp))
     for (int i = 0; i < atom->nlocal; i++) {
+      if (atom->mask[i] & embedded) continue;
       here[INTERNAL] += carrier->internal_energy(i);
       here[PLASTIC] += carrier->plastic_work(i);
       here[VOIDS] += carrier->void_work(i);

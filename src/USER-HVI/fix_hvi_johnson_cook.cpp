@@ -423,7 +423,7 @@ template <class Step> void FixHVIJohnsonCook::each_solid(const Step &step)
   };
   for (int i = 0; i < atom->nlocal; i++) {
     const HVI::SolidModel *const model = of(i);
-    if (!model || failed(i)) continue;
+    if (!model || failed(i) || (atom->mask[i] & store->embedded)) continue;
     if (store->fields.asleep(i)) {
       HVI::SolidModel::rest(extra[i]);
       continue;

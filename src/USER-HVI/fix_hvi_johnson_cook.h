@@ -50,6 +50,11 @@ class FixHVIJohnsonCook :
   void whole_step(double);
   void reflect(int, int);
 
+  // for fix hvi/fem: law of a type, null: no solid; the state of an element that has the particle
+
+  const HVI::SolidModel *model(int itype) const { return models[itype].get(); }
+  void embed(int i, const Solid &s) { extra[i] = s; }
+
   static FixHVIJohnsonCook *find(class LAMMPS *);    // of this simulation, nullptr: none
 
   // for the pair style and computes; owned particles

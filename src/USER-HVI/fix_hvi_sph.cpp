@@ -233,9 +233,16 @@ bool FixHVISPH::has_material(int i) const
   return store->fields.settings.h[atom->type[i]] > 0.0;
 }
 
+// particles in elements go where these go
+
+bool FixHVISPH::moves(int i) const
+{
+  return (atom->mask[i] & (groupbit | store->embedded)) == groupbit;
+}
+
 bool FixHVISPH::integrates(int i) const
 {
-  return (atom->mask[i] & groupbit) && has_material(i);
+  return moves(i) && has_material(i);
 }
 
 // what others move must be remembered, too, where forces go by the velocity of the middle of a step
@@ -352,7 +359,7 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
   double missed = 0.0;
 
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
+    if (!moves(i)) continue;
     const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     Extra &e = extra[i];
     const bool solid = whole && has_material(i);
@@ -398,7 +405,7 @@ void FixHVISPH::final_integrate()
   double missed = 0.0;
 
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
+    if (!moves(i)) continue;
     const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     for (int k = 0; k < 3; k++) v[i][k] += dtfm * f[i][k];
     Extra &e = extra[i];

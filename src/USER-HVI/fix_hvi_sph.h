@@ -72,6 +72,12 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   double step() const { return last; }
   bool is_due() const { return due; }
   double settle_density(int i, double div);
+
+  // for fix hvi/fem: a particle in an element is moved by it, with this velocity at the end of the step;
+  // when it is free in the middle of a step, it goes on with density and energy as they are
+
+  void carry(int i, const double *working);
+  void let_go(int i);
   void settle_solids();
 
   double sleep() const { return quiet; }    // differences that count as none; 0: nothing sleeps
@@ -102,6 +108,7 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   double quiet;      // parts of the speed of sound
   bool relative;     // lists are made anew by relative motion
 
+  bool moves(int) const;
   bool integrates(int) const;
   bool has_material(int) const;
   void check_restart() const;

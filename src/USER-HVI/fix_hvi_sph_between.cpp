@@ -30,7 +30,22 @@ using namespace LAMMPS_NS;
 
 const double *FixHVISPH::working_velocity(int i) const
 {
-  return integrates(i) ? extra[i].working : atom->v[i];
+  const bool known = integrates(i) || (atom->mask[i] & store->embedded);
+  return known ? extra[i].working : atom->v[i];
+}
+
+void FixHVISPH::carry(int i, const double *working)
+{
+  for (int k = 0; k < 3; k++) extra[i].working[k] = working[k];
+}
+
+void FixHVISPH::let_go(int i)
+{
+  Extra &e = extra[i];
+  e.drho = e.de = e.stretch = 0.0;
+  e.trend_rho = e.trend_e = 0.0;
+  e.settled = e.rho = atom->rho[i];
+  e.esph = atom->esph[i];
 }
 
 /* ----------------------------------------------------------------------

@@ -35,6 +35,8 @@ class FixHVIStore : public Fix {
 
   HVI::Materials materials;
   HVI::SphFields fields;
+  int embedded =
+      0;    // bit of the group of particles in elements, whose mass and energy are those of nodes and elements
   bool is_reported = false;    // there was a table of HVISphReport
 
   static FixHVIStore *find(class LAMMPS *);        // of this simulation, nullptr: none

@@ -96,6 +96,12 @@ class SphFields {
   VelocityGradient velocity_gradient(int i) const;
   const double *own_force(int i) const { return &rates[i].fx; }    // solids with gradient corrected
   bool asleep(int i) const { return (std::size_t) i < sleepers.size() && sleepers[i]; }
+  // of particles in elements, owned and ghosts: their type, else 0; whether nothing acts on them.  Empty:
+  // there are no elements
+
+  std::vector<int> embedded;
+  std::vector<char> idle;
+  bool is_idle(int i) const { return !idle.empty() && idle[i]; }
   std::vector<char> sleepers;    // owned particles that nothing happens to; empty: there are none
   double viscous_power = 0.0;    // heat of viscosity, of particles that fix hvi/sph integrates
   double plane_force[3] = {0, 0, 0};    // of mirror planes on the particles

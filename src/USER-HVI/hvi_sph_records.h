@@ -33,9 +33,9 @@ struct alignas(64) SphState {
 };
 
 struct alignas(64) SphRates {
-  static constexpr int FORCE = 3;    // its numbers
-  double fx, fy, fz;                 // force
-  double de;                         // of the internal energy of the particle
+  static constexpr int FORCE = 3, WITH_POWER = 4;    // its first numbers
+  double fx, fy, fz;                                 // force
+  double de;                                         // of the internal energy of the particle
   double drho;
   double heat;    // viscous part of de
   double unused[2];

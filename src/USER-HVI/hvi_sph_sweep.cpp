@@ -42,6 +42,20 @@ namespace {
   };
 
   /* ----------------------------------------------------------------------
+     of the neighbors of a particle in an element those that are not in elements of the same body
+  ------------------------------------------------------------------------- */
+
+  void outside(const SphWork &work, int i, const int *jlist, int jnum, std::vector<int> &free)
+  {
+    free.clear();
+    for (int jj = 0; jj < jnum; jj++) {
+      const int j = jlist[jj] & NEIGHBOR_INDEX;
+      const int owner = work.images && work.images->is_image(j) ? work.images->owner(j) : j;
+      if (work.embedded[owner] != work.embedded[i]) free.push_back(j);
+    }
+  }
+
+  /* ----------------------------------------------------------------------
      squeeze out those beyond reach without a branch
   ------------------------------------------------------------------------- */
 
@@ -120,6 +134,7 @@ namespace {
     SphNear near;
     near.fastest = Vec{} + work.fastest;
     std::size_t nkept = 0;
+    std::vector<int> free;
 
     if (pass == FIRST) {
       std::size_t most = 0;
@@ -131,8 +146,14 @@ namespace {
     for (int ii = 0; ii < list.inum; ii++) {
       const int i = list.ilist[ii];
       const SphPlace pi = work.records.place[i];
-      const int *const jlist = pass == SECOND ? kept.j.data() + nkept : list.firstneigh[i];
-      const int jnum = pass == SECOND ? kept.number[ii] : list.numneigh[i];
+      const int *jlist = pass == SECOND ? kept.j.data() + nkept : list.firstneigh[i];
+      int jnum = pass == SECOND ? kept.number[ii] : list.numneigh[i];
+      const bool held = work.embedded && work.embedded[i];
+      if (held && pass != SECOND) {
+        outside(work, i, jlist, jnum, free);
+        jlist = free.data();
+        jnum = free.size();
+      }
       Record sum = {};
 
       if (SCENE & SPH_BODIES) {
@@ -161,7 +182,9 @@ namespace {
       nkept += found;
       if (work.images) {
         const std::vector<int> &also = work.images->near(i, jlist, jnum);
-        if (!also.empty()) visit(also.data(), also.size(), ONLY);
+        if (held) outside(work, i, also.data(), also.size(), free);
+        const std::vector<int> &those = held ? free : also;
+        if (!those.empty()) visit(those.data(), those.size(), ONLY);
       }
       for (int k = 0; k < (int) (sizeof(Record) / sizeof(Vec4)); k++)
         part(&records[i], k) += part(&sum, k);

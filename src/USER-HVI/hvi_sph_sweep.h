@@ -54,6 +54,7 @@ struct SphWork {
   const int *type;
   Images *images;    // null: no mirror planes
   SphKept *kept;
+  const int *embedded;    // in elements, by index without images: the type; null: none are
   SphWatcher *watcher;
   bool tally;
   double fastest;    // of the speeds of signals over h: that of particles, and then of pairs

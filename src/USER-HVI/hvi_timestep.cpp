@@ -65,13 +65,14 @@ HVI::StableSteps HVI::stable_steps(const LAMMPS *lmp, const std::vector<TimeStep
     GROWTH,
     TRAVEL,
     MEET,
+    STABLE,
     V,
     MINUS_V = V + 3,
     N = MINUS_V + 3
   };
   double here[N] = {bounds.contact, bounds.spring, bounds.approach, bounds.signal, bounds.growth,
-                    bounds.travel,  bounds.meet,   NO_BOUND,        NO_BOUND,      NO_BOUND,
-                    NO_BOUND,       NO_BOUND,      NO_BOUND};
+                    bounds.travel,  bounds.meet,   bounds.stable,   NO_BOUND,      NO_BOUND,
+                    NO_BOUND,       NO_BOUND,      NO_BOUND,        NO_BOUND};
   double sum = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
     for (int k = 0; k < 3; k++) {
@@ -99,7 +100,8 @@ HVI::StableSteps HVI::stable_steps(const LAMMPS *lmp, const std::vector<TimeStep
   travel = std::min(travel, lowest[MEET]);
 
   return {factor * lowest[CONTACT], factor * lowest[SPRING],
-          std::min(factor * lowest[APPROACH], travel), factor * lowest[SIGNAL], lowest[GROWTH]};
+          std::min(factor * lowest[APPROACH], travel),
+          std::min(factor * lowest[SIGNAL], lowest[STABLE]), lowest[GROWTH]};
 }
 
 /* ---------------------------------------------------------------------- */

@@ -31,6 +31,10 @@ struct TimeStepBounds {
   double approach = NO_BOUND;    // stiffness where approaching pairs will turn back
   double signal = NO_BOUND;      // not of a stiffness: a length over the speed of signals
 
+  // a step that is stable as it is: not in proportion to C
+
+  double stable = NO_BOUND;
+
   // by this factor a step may be longer than the one before, for schemes that dissipate
 
   double growth = 1.01;

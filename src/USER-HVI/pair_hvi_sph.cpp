@@ -20,6 +20,7 @@
 #include "fix_hvi_lists.h"
 #include "fix_hvi_sph.h"
 #include "force.h"
+#include "hvi_interface.h"
 #include "hvi_sph_report.h"
 #include "memory.h"
 #include "modify.h"
@@ -36,8 +37,8 @@ using namespace LAMMPS_NS;
 
 PairHVISPH::PairHVISPH(LAMMPS *lmp) :
     Pair(lmp), visc_a(nullptr), visc_b(nullptr), tension(nullptr), store(nullptr),
-    integrator(nullptr), lists(nullptr), strength(nullptr), placed(false), fastest(0.0),
-    narrowest(HVI::NO_BOUND), halo()
+    integrator(nullptr), lists(nullptr), mesh(nullptr), strength(nullptr), placed(false),
+    fastest(0.0), narrowest(HVI::NO_BOUND), halo()
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
@@ -79,12 +80,13 @@ void PairHVISPH::compute(int eflag, int vflag)
   if (mirrored) images.fill(set.mirror, records);
 
   HVI::SphWork work = {
-      records,     {(int) rows.size(), rows.data(), list->numneigh, list->firstneigh},
-      set.laws,    visc_a,
-      visc_b,      tension,
-      atom->type,  mirrored ? &images : nullptr,
-      &kept,       this,
-      evflag != 0, fastest};
+      records,    {(int) rows.size(), rows.data(), list->numneigh, list->firstneigh},
+      set.laws,   visc_a,
+      visc_b,     tension,
+      atom->type, mirrored ? &images : nullptr,
+      &kept,      fields.embedded.empty() ? nullptr : fields.embedded.data(),
+      this,       evflag != 0,
+      fastest};
   if (records.traction) work.laws.half = 0.5 * integrator->step();
   if (sweeps->has_first()) {
     sweeps->first(work);
@@ -103,7 +105,7 @@ void PairHVISPH::compute(int eflag, int vflag)
   scatter();
   if (records.gradv && force->newton_pair) {
     if (records.traction)
-      reverse(records.rates, HVI::SphRates::FORCE);
+      reverse(records.rates, mesh ? HVI::SphRates::WITH_POWER : HVI::SphRates::FORCE);
     else
       reverse(records.gradv, HVI::SphGradV::SENT_PLAIN);
   }
@@ -179,6 +181,12 @@ void PairHVISPH::init_style()
   integrator = integrators.empty() ? nullptr : dynamic_cast<FixHVISPH *>(integrators[0]);
   lists = FixHVILists::make(lmp, !integrator || integrator->relative_lists(), false);
   strength = FixHVIJohnsonCook::find(lmp);
+  const auto meshes = HVI::find_interface<HVI::Mesh>(lmp);
+  mesh = meshes.empty() ? nullptr : meshes[0];
+  if (!mesh) {
+    store->fields.embedded.clear();
+    store->fields.idle.clear();
+  }
 
   const int ntypes = atom->ntypes;
   is_ours.assign(ntypes + 1, 0);
@@ -245,8 +253,10 @@ int PairHVISPH::choose_scene()
 
 double PairHVISPH::init_one(int i, int j)
 {
-  for (const int itype : {i, j})
+  for (const int itype : {i, j}) {
+    if (mesh && mesh->is_node(itype)) return 0.0;
     if (!is_ours[itype]) error->all(FLERR, "Pair style hvi/sph: type {} has no material", itype);
+  }
   const double h = set.riemann || set.whole ? MAX(set.h[i], set.h[j]) : 0.5 * (set.h[i] + set.h[j]);
   return set.support * (set.variable ? set.hmax : 1.0) * h;
 }

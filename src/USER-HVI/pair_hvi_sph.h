@@ -17,6 +17,7 @@ PairStyle(hvi/sph,PairHVISPH);
 
 #include "fix_hvi_store.h"
 #include "hvi_energy_carrier.h"
+#include "hvi_mesh.h"
 #include "hvi_mirror.h"
 #include "hvi_sleep.h"
 #include "hvi_sph_sweep.h"
@@ -70,6 +71,7 @@ class PairHVISPH :
   class FixHVIStore *store;             // of materials and records
   class FixHVISPH *integrator;          // null: another fix integrates
   class FixHVILists *lists;             // when they are made anew, and who is near
+  HVI::Mesh *mesh;                      // has elements; null: there are none
   class FixHVIJohnsonCook *strength;    // keeps the stress of solids; null: there are none
   std::unique_ptr<HVI::SphSweeps> sweeps;
   std::vector<char> is_ours;    // by type: has a material of this pair style
@@ -122,6 +124,10 @@ class PairHVISPH :
   void finish_gradients();
   void correct_gradient(int);
   void find_traction(int);
+  bool is_embedded(int i) const
+  {
+    return !store->fields.embedded.empty() && store->fields.embedded[i];
+  }
   bool touches(int) const;    // something that it does not hang together with
   [[noreturn]] void no_answer(int, double) const;
   void scatter();

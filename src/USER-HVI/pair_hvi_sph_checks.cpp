@@ -69,7 +69,7 @@ void PairHVISPH::check_materials() const
   const bool hybrid = utils::strmatch(force->pair_style, "^hybrid");
   for (int i = 1; i <= atom->ntypes; i++) {
     if (!is_ours[i]) {
-      if (hybrid) continue;
+      if (hybrid || (mesh && mesh->is_node(i))) continue;
       error->all(FLERR, "Pair style hvi/sph: type {} has no material", i);
     }
     const HVI::Materials::Entry &entry = store->materials.entry(i);

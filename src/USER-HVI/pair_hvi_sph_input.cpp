@@ -253,13 +253,26 @@ void PairHVISPH::coeff(int narg, char **arg)
     return;
   }
 
+  // of fix hvi/fem, which LAMMPS need not ask for anything else of
+
+  if (words[0] == "nodes") {
+    if (words.size() > 1 || ilo != jlo || ihi != jhi)
+      error->all(FLERR, "Pair_coeff hvi/sph nodes is for single types: pair_coeff I I nodes");
+    for (int i = ilo; i <= ihi; i++) {
+      if (set.h[i] > 0.0)
+        error->all(FLERR, "Pair_coeff hvi/sph nodes: type {} has a material", i);
+      setflag[i][i] = 1;
+    }
+    return;
+  }
+
   for (std::size_t n = 0; n < words.size();) {
     const std::string &key = words[n];
     const std::size_t nvalues = key == "tension" ? 1 : 2;
     if (key != "tension" && key != "viscosity")
       error->all(FLERR,
                  "Unknown pair_coeff hvi/sph keyword: {} (use file NAME h H, eos STYLE ARGS h H, "
-                 "tension yes|no or viscosity a b)",
+                 "nodes, tension yes|no or viscosity a b)",
                  key);
     if (n + nvalues >= words.size())
       utils::missing_cmd_args(FLERR, fmt::format("pair_coeff hvi/sph {}", key), error);

@@ -29,6 +29,7 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -56,6 +57,7 @@ void PairHVISPH::gather()
 
   for (int i = 0; i < nall; i++) {
     const int itype = type[i];
+    if (store->fields.is_idle(i)) continue;
     records.rates[i] = {};
     if (records.gradv) records.gradv[i] = {};
     if (records.contact) records.contact[i] = {};
@@ -246,8 +248,15 @@ void PairHVISPH::choose_rows()
 {
   const int nlocal = atom->nlocal;
   const std::vector<char> &sleepers = store->fields.sleepers;
+  const HVI::SphFields &fields = store->fields;
   if (sleepers.empty()) {
     rows.assign(list->ilist, list->ilist + list->inum);
+    if (mesh)
+      rows.erase(std::remove_if(rows.begin(), rows.end(),
+                                [&](int i) {
+                                  return fields.is_idle(i);
+                                }),
+                 rows.end());
     return;
   }
 
@@ -257,6 +266,7 @@ void PairHVISPH::choose_rows()
   rows.clear();
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
+    if (fields.is_idle(i)) continue;
     if (sums ? sleep.near_awake(cells.cell_of(i)) : !sleepers[i]) rows.push_back(i);
   }
   const HVI::SphView &records = store->fields.view();
@@ -280,7 +290,7 @@ void PairHVISPH::artificial_stress()
   const bool whole = records.traction;
   for (int i = 0; i < atom->nlocal + (whole ? 0 : atom->nghost); i++) {
     const int itype = atom->type[i];
-    if (!is_ours[itype]) continue;
+    if (!is_ours[itype] || store->fields.is_idle(i)) continue;
     const HVI::SphStress s = whole ? strength->settled(i) : records.stress[i];
     const double p = whole ? records.traction[i].p : records.state[i].p;
     const HVI::Deviator T = HVI::tensile_part(p, {s.xx, s.yy, s.zz, s.xy, s.xz, s.yz});
@@ -394,6 +404,7 @@ void PairHVISPH::scatter()
 
   double heating = 0.0;
   for (int i = 0; i < n; i++) {
+    if (store->fields.is_idle(i)) continue;
     f[i][0] += rates[i].fx;
     f[i][1] += rates[i].fy;
     f[i][2] += rates[i].fz;

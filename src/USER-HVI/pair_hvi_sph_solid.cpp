@@ -50,11 +50,15 @@ void PairHVISPH::finish_gradients()
     reverse(records.gradv, SphGradV::SENT);
     if (records.contact) reverse(records.contact, SphGradV::SENT);
   }
+  const auto is_out = [this](int i) {
+    return !is_ours[atom->type[i]] || store->fields.asleep(i) || store->fields.is_idle(i);
+  };
   for (int i = 0; i < atom->nlocal; i++)
-    if (is_ours[atom->type[i]] && !store->fields.asleep(i)) correct_gradient(i);
+    if (!is_out(i) && !is_embedded(i)) correct_gradient(i);
+  if (mesh) mesh->settle();
   integrator->settle_solids();
   for (int i = 0; i < atom->nlocal; i++)
-    if (is_ours[atom->type[i]] && !store->fields.asleep(i)) find_traction(i);
+    if (!is_out(i)) find_traction(i);
 
   forward(records.traction, SphTraction::SENT);
   if (records.art) {
@@ -126,6 +130,23 @@ static VelocityGradient corrected(const SphGradV &sum, double full, const bool *
   return product(gradient(sum), inverse(middle, full, along));
 }
 
+// what of the stress is normal to the contact, in place of L of what touches
+
+static void put_normal(SphGradV &contact, double nu)
+{
+  Symmetric normal = {};
+  if (contact.mxx + contact.myy + contact.mzz > 0.0)
+    normal = HVI::along_largest(
+        {contact.mxx, contact.myy, contact.mzz, contact.mxy, contact.mxz, contact.myz});
+  const double share = MIN(1.0, 4.0 * contact.nu / nu);
+  contact.xx = share * normal.xx;
+  contact.yy = share * normal.yy;
+  contact.zz = share * normal.zz;
+  contact.xy = share * normal.xy;
+  contact.xz = share * normal.xz;
+  contact.yz = share * normal.yz;
+}
+
 /* ----------------------------------------------------------------------
    In gradv L M^-1 of what hangs together, and M^-1 in place of M.  Where something else touches, in
    contact the M^-1 of all, and in place of L what of the stress is normal to the contact.  Density
@@ -153,17 +174,7 @@ void PairHVISPH::correct_gradient(int i)
     for (int k = 0; k < SphGradV::SENT; k++) (&all.xx)[k] += (&contact.xx)[k];
     const Symmetric by_all = inverse(all, scale * all.nu, store->fields.along);
     L_all = corrected(all, scale * all.nu, store->fields.along, half);
-    Symmetric normal = {};
-    if (contact.mxx + contact.myy + contact.mzz > 0.0)
-      normal = HVI::along_largest(
-          {contact.mxx, contact.myy, contact.mzz, contact.mxy, contact.mxz, contact.myz});
-    const double share = MIN(1.0, 4.0 * contact.nu / all.nu);
-    contact.xx = share * normal.xx;
-    contact.yy = share * normal.yy;
-    contact.zz = share * normal.zz;
-    contact.xy = share * normal.xy;
-    contact.xz = share * normal.xz;
-    contact.yz = share * normal.yz;
+    put_normal(contact, all.nu);
     put_inverse(by_all, contact);
   }
 
@@ -208,12 +219,18 @@ void PairHVISPH::find_traction(int i)
   HVI::SphTraction &T = records.traction[i];
   T.p = HVI::clip_tension(T.p, S.p_min);
 
-  const Symmetric by_own = get_inverse(records.gradv[i]);
+  // in an element, whose others are left out of the sums, neighbors are as even as on a lattice
+
+  static constexpr Symmetric ONE = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+  const bool held = is_embedded(i);
+  if (held && touches(i))
+    put_normal(records.contact[i], records.state[i].w / T.volume);    // nu of a lattice
+  const Symmetric by_own = held ? ONE : get_inverse(records.gradv[i]);
   Symmetric by_all = by_own;
   double rest = 0.0;
   if (touches(i)) {
     const SphGradV &contact = records.contact[i];
-    by_all = get_inverse(contact);
+    if (!held) by_all = get_inverse(contact);
     if (S.shear > 0.0)
       rest = -(contact.xx * S.xx + contact.yy * S.yy + contact.zz * S.zz +
                2.0 * (contact.xy * S.xy + contact.xz * S.xz + contact.yz * S.yz));

@@ -1,0 +1,420 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "fix_hvi_fem.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_hvi_johnson_cook.h"
+#include "fix_hvi_ledger.h"
+#include "fix_hvi_sph.h"
+#include "fix_hvi_store.h"
+#include "force.h"
+#include "group.h"
+#include "hvi_compat.h"
+#include "memory.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "output.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using HVI::CORNERS;
+
+/* ---------------------------------------------------------------------- */
+
+FixHVIFEM::~FixHVIFEM()
+{
+  if (copymode || !head) return;
+  atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
+  memory->destroy(head);
+  memory->destroy(users);
+  if (FixHVIStore *const now = FixHVIStore::find(lmp)) now->embedded = 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixHVIFEM::setmask()
+{
+  return POST_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | PRE_FORCE | PRE_REVERSE |
+      FINAL_INTEGRATE | END_OF_STEP;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVIFEM::init()
+{
+  if (modify->get_fix_by_style("^hvi/fem$").size() > 1)
+    error->all(FLERR, "More than one fix hvi/fem: one has all elements");
+  store = FixHVIStore::find(lmp);
+  integrator = nullptr;
+  for (Fix *const fix : modify->get_fix_list()) {
+    if (fix == this && !integrator)
+      error->all(FLERR, "Fix hvi/fem must come after fix hvi/sph, which moves its nodes");
+    if (strcmp(fix->style, "hvi/sph") == 0) integrator = dynamic_cast<FixHVISPH *>(fix);
+  }
+  strength = FixHVIJohnsonCook::find(lmp);
+  if (!store || !force->pair_match("^hvi/sph$", 0) || !strength)
+    error->all(FLERR,
+               "Fix hvi/fem needs pair style hvi/sph, for materials, and fix hvi/johnson-cook, for "
+               "the laws of solids");
+  if (!store->fields.settings.whole)
+    error->all(FLERR, "Fix hvi/fem needs pair style hvi/sph with gradient corrected");
+  if (domain->dimension != 3 || store->fields.settings.laws.dim != 3)
+    error->all(FLERR,
+               "Fix hvi/fem needs three dimensions: plane strain is one layer of elements between "
+               "periodic faces, or mirror planes");
+  if (!atom->rmass)
+    error->all(FLERR,
+               "Fix hvi/fem needs masses of particles, for those of nodes change: use fix ID all "
+               "property/atom rmass ghost yes before read_data");
+  ledger = FixHVILedger::instance(lmp);
+  store->embedded = held;
+  wraps = domain->periodicity[0] || domain->periodicity[1] || domain->periodicity[2];
+
+  const bigint here = elements.size();
+  bigint all;
+  MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all == 0 && total <= 0)
+    error->all(FLERR, "Fix hvi/fem has no elements: use read_data FILE fix {} elements Elements",
+               id);
+  if (total < 0) total = all;
+  make_groups();
+}
+
+/* ----------------------------------------------------------------------
+   Lists leave out pairs of particles that are both inside of elements of one body, unless these are
+   about to fail
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::make_groups()
+{
+  std::vector<int> here(atom->ntypes + 1, 0), used(atom->ntypes + 1);
+  for (const Element &one : elements)
+    if (one.n > 0) here[one.type] = 1;
+  MPI_Allreduce(here.data(), used.data(), used.size(), MPI_INT, MPI_MAX, world);
+  inner.resize(atom->ntypes + 1, 0);
+  for (int itype = 1; itype <= atom->ntypes; itype++) {
+    if (!used[itype] || inner[itype]) continue;
+    const std::string name = fmt::format("{}_inner_{}", id, itype);
+    inner[itype] = group->bitmask[group->find_or_create(name.c_str())];
+    neighbor->modify_params(fmt::format("exclude group {} {}", name, name));
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Of a run that begins: masses that nobody has given, and which particles are in elements, before
+   particles go to other ranks
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::setup_pre_exchange()
+{
+  atom->nghost = 0;
+  atom->map_init();
+  atom->map_set();
+  mark_particles();
+  start_elements();
+}
+
+void FixHVIFEM::setup_pre_neighbor()
+{
+  connect();
+  gather_nodes();
+  check_state();
+  if (!going_on) place_particles({});
+  comm->forward_comm();
+}
+
+/* ----------------------------------------------------------------------
+   after fix hvi/sph, which has seen who was changed by others
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::setup_pre_force(int /*vflag*/)
+{
+  if (!going_on) place_particles({});
+  show_states(true);
+  comm->forward_comm();
+}
+
+void FixHVIFEM::setup_pre_reverse(int, int)
+{
+  make_forces(0.0);
+}
+
+void FixHVIFEM::setup(int /*vflag*/)
+{
+  find_probes();
+  show_particles();
+  going_on = false;    // from now on forces are made anew
+}
+
+// tables of nodes are others when particles have been exchanged
+
+void FixHVIFEM::pre_neighbor()
+{
+  connect();
+  gather_nodes();
+}
+
+/* ----------------------------------------------------------------------
+   fix hvi/sph has moved the nodes.  What forces have worked, failures, and particles to their places
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::post_integrate()
+{
+  gather_nodes();
+  half_energy(update->dt);
+  for (Element &one : elements) one.ahead = one.e + one.change;
+  std::vector<char> freed;
+  if (options.fails) release(freed);
+  place_particles(freed);
+}
+
+/* ----------------------------------------------------------------------
+   Half of a step's energy.  Forces on nodes work on the velocity v of the middle of the step, in both
+   halves: that is what kinetic energy changes by, but for dt^2/8 f^2/m, which cancels between a
+   step and the next if they are as long; what is left is given back, and at output all of it, see
+   internal_energy().  Of pairs
+   particles have gained de, and forces worked f.w on them at the velocity that pairs have seen; on v
+   it is another work.
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::half_energy(double dt)
+{
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (!alive(e)) continue;
+    Element &one = elements[e];
+    double work = 0.0, kick = 0.0;
+    for (int a = 0; a < CORNERS; a++) {
+      const double *const n = at(e, a);
+      for (int k = 0; k < 3; k++)
+        work += (one.force[3 * a + k] + one.pair_force[3 * a + k]) * n[V + k];
+      kick += n[KICK];
+    }
+    one.change = 0.5 * dt * (one.power - work) / one.mass;
+    one.e += one.change + kick / CORNERS;
+  }
+}
+
+void FixHVIFEM::final_integrate()
+{
+  for (std::size_t k = 0; k < node.size(); k += NODE) node[k + KICK] = 0.0;
+  dt_last = update->dt;
+  half_energy(dt_last);
+}
+
+/* ----------------------------------------------------------------------
+   what output sees of particles in elements: velocity of the end of the step, and all of their state
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::end_of_step()
+{
+  if (update->ntimestep == output->next || update->ntimestep == update->laststep) show_particles();
+}
+
+void FixHVIFEM::show_particles()
+{
+  nodes.gather(
+      4,
+      [this](int i, double *b) {
+        std::copy_n(atom->v[i], 3, b);
+        b[3] = half_kick(i);
+      },
+      [this](int k, const double *b) {
+        std::copy_n(b, 3, &node[NODE * k + W]);
+        node[NODE * k + KICK] = dt_last * dt_last * b[3];
+      });
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (!alive(e)) continue;
+    elements[e].mark = fingerprint(e);
+    now[e].kick = 0.0;
+    for (int a = 0; a < CORNERS; a++) now[e].kick += at(e, a)[KICK] / CORNERS;
+  }
+  particles.scatter(
+      3,
+      [this](int k, double *b) {
+        const Member &m = inside[k];
+        std::fill_n(b, 3, 0.0);
+        if (!alive(m.e)) {
+          b[0] = NAN;
+          return;
+        }
+        const auto &N = subcells[elements[m.e].n][m.p];
+        for (int a = 0; a < CORNERS; a++)
+          for (int d = 0; d < 3; d++) b[d] += N[a] * at(m.e, a)[W + d];
+      },
+      [this](int i, const double *b) {
+        if (!std::isnan(b[0])) std::copy_n(b, 3, atom->v[i]);
+      });
+  show_states(true);
+  read_probes();
+}
+
+// dt^2/8 f^2/m per mass, over dt^2: half kicks give that beyond the work on the velocity of the middle of a step
+
+double FixHVIFEM::half_kick(int i) const
+{
+  const double *const f = atom->f[i], m = atom->rmass[i];
+  return 0.125 * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) / (m * m);
+}
+
+// of its nodes: an element that goes on has forces of its own at the start of a run
+
+std::uint64_t FixHVIFEM::fingerprint(std::size_t e) const
+{
+  std::uint64_t mark = 0x9E3779B97F4A7C15ull;
+  for (int a = 0; a < CORNERS; a++)
+    for (int k = 0; k < 3; k++) {
+      std::uint64_t bits;
+      memcpy(&bits, at(e, a) + W + k, sizeof(bits));
+      mark = (mark ^ bits) * 0xFF51AFD7ED558CCDull;
+      mark ^= mark >> 32;
+    }
+  return mark | 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVIFEM::tighten(HVI::TimeStepBounds &bounds)
+{
+  if (!(options.courant * shortest >= bounds.stable)) bounds.stable = options.courant * shortest;
+}
+
+/* ---------------------------------------------------------------------- */
+
+// with what the last half kick gave, as known at output, so that the sum with kinetic energy is exact
+
+double FixHVIFEM::internal_energy(int i) const
+{
+  double sum = 0.0;
+  for (int e = head[i]; e >= 0; e = next[e])
+    if (alive(e)) sum += elements[e].mass * (elements[e].e - now[e].kick);
+  return sum;
+}
+
+double FixHVIFEM::plastic_work(int i) const
+{
+  double sum = 0.0;
+  for (int e = head[i]; e >= 0; e = next[e])
+    if (alive(e)) sum += elements[e].mass * elements[e].s.heat;
+  return sum;
+}
+
+double FixHVIFEM::void_work(int i) const
+{
+  double sum = 0.0;
+  for (int e = head[i]; e >= 0; e = next[e])
+    if (alive(e)) sum += elements[e].mass * elements[e].s.voids.work;
+  return sum;
+}
+
+/* ----------------------------------------------------------------------
+   Elements that are left; then sums over ranks: the numbers of those that have become particles, and why;
+   heat of that, hourglass energy of all, elements without particles that have failed, internal
+   energy, smallest step
+------------------------------------------------------------------------- */
+
+double FixHVIFEM::compute_scalar()
+{
+  return total;
+}
+
+double FixHVIFEM::compute_vector(int k)
+{
+  double here = 0.0, sum;
+  if (k < NCOUNT) {
+    here = count[k];
+    if (k == HOURGLASS)
+      for (const Element &one : elements)
+        if (one.type > 0) here += one.hourglass;
+    if (k == PLAIN)
+      for (const Element &one : elements)
+        if (one.type > 0 && one.s.failed()) here += 1.0;
+  } else if (k == NCOUNT) {
+    for (const Element &one : elements)
+      if (one.type > 0) here += one.mass * one.e;
+  } else {
+    MPI_Allreduce(&shortest, &sum, 1, MPI_DOUBLE, MPI_MIN, world);
+    return options.courant * sum;
+  }
+  MPI_Allreduce(&here, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
+  return sum;
+}
+
+double FixHVIFEM::compute_array(int i, int k)
+{
+  return probes[i].value[k];
+}
+
+/* ----------------------------------------------------------------------
+   Probes: the element whose center was nearest at the start of the first run; when it has become
+   particles, nothing
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::find_probes()
+{
+  for (Probe &probe : probes) {
+    if (probe.id) continue;
+    struct {
+      double distance;
+      int rank;
+    } here = {HUGE_VAL, comm->me}, nearest;
+    std::int64_t id_here = 0;
+    for (std::size_t e = 0; e < elements.size(); e++) {
+      double x[CORNERS][3], square = 0.0;
+      corners(e, X, x);
+      for (int k = 0; k < 3; k++) {
+        double center = 0.0;
+        for (const auto &corner_x : x) center += corner_x[k] / CORNERS;
+        square += (center - probe.x[k]) * (center - probe.x[k]);
+      }
+      if (square >= here.distance) continue;
+      here.distance = square;
+      id_here = elements[e].id;
+    }
+    MPI_Allreduce(&here, &nearest, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
+    MPI_Bcast(&id_here, 1, MPI_INT64_T, nearest.rank, world);
+    probe.id = id_here;
+  }
+}
+
+void FixHVIFEM::read_probes()
+{
+  if (probes.empty()) return;
+  std::vector<double> here(Probe::NVALUE * probes.size(), 0.0), all(here.size());
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (!alive(e)) continue;
+    for (std::size_t n = 0; n < probes.size(); n++) {
+      const Element &one = elements[e];
+      if (probes[n].id != one.id) continue;
+      double *const value = &here[Probe::NVALUE * n];
+      const HVI::Deviator &S = one.s.S;
+      const double p = now[e].p;
+      const double stress[7] = {p, S.xx - p, S.yy - p, S.zz - p, S.xy, S.xz, S.yz};
+      std::copy_n(stress, 7, value);
+      value[7] = HVI::von_mises(S);
+      for (int a = 0; a < CORNERS; a++)
+        for (int k = 0; k < 3; k++) value[8 + k] += at(e, a)[W + k] / CORNERS;
+    }
+  }
+  MPI_Allreduce(here.data(), all.data(), here.size(), MPI_DOUBLE, MPI_SUM, world);
+  for (std::size_t n = 0; n < probes.size(); n++)
+    std::copy_n(&all[Probe::NVALUE * n], +Probe::NVALUE, probes[n].value);
+}
