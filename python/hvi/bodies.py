@@ -9,6 +9,21 @@ from scipy.spatial import cKDTree
 from . import glass
 from .errors import HVIError
 
+SMOOTH = 0.15  # depth of the outermost particle of a glass, spacings, at least; half is usual
+HEAVIEST = 10.0  # of images of what is near the middle of small round bodies
+
+def _images(z, low, high, least, most, periodic=False):
+    """[(way, rows)]: images way[0] z + way[1] of z between mirrors at low and high, between least and most; of images, too, where the mirrors are near"""
+    thick = high - low
+    many = int(max(most - high, low - least) / (2 * thick)) + 2
+    ways = [(1, 2 * k * thick) for k in range(-many, many + 1) if k]
+    if periodic:
+        ways += [(1, (2 * k + 1) * thick) for k in range(-many, many)]
+    else:
+        ways += [(-1, 2 * k * thick + 2 * low) for k in range(-many, many + 1)]
+    found = [(way, np.flatnonzero((way[0] * z + way[1] > least) & (way[0] * z + way[1] < most))) for way in ways]
+    return [(way, rows) for way, rows in found if len(rows)]
+
 
 @dataclasses.dataclass(frozen=True)
 class Round:
@@ -43,19 +58,23 @@ class Round:
         new = np.where(r > self.outer, 2 * self.outer - r, np.where(r < self.inner, 2 * self.inner - r, r))
         return self._to(x, r, new)
 
-    def near(self, x, reach):
-        """[(surface, rows)] of those with an image less than reach beyond it"""
-        r, d = self._r(x), len(self.columns)
-        found = [(self.outer, np.flatnonzero(2 * self.outer**d - r**d < (self.outer + reach) ** d))]
-        if self.inner:
-            rest = 2 * self.inner**d - r**d
-            found.append((self.inner, np.flatnonzero((rest > 0.0) & (rest > max(self.inner - reach, 0.0) ** d))))
-        return found
+    def spread(self, u):
+        """places, as dense everywhere, of u between 0 and 1; (n, columns)"""
+        d = len(self.columns)
+        r, turn = (self.inner**d + u[:, 0] * (self.outer**d - self.inner**d)) ** (1 / d), 2 * np.pi * u[:, 1]
+        rho = r if d == 2 else r * np.sqrt(1 - (2 * u[:, 2] - 1) ** 2)
+        flat = [rho * np.cos(turn), rho * np.sin(turn)]
+        return np.column_stack(flat if d == 2 else [*flat, r * (2 * u[:, 2] - 1)])
 
-    def image(self, x, at):
-        """behind the surface of radius at, with as much volume between it and the surface as in front: images are as dense as particles"""
-        r, d = self._r(x), len(self.columns)
-        return self._to(x, r, np.maximum(2 * at**d - r**d, 0.0) ** (1 / d))
+    def near(self, x, reach):
+        """[(way, rows)] of those with images less than reach from a surface"""
+        return _images(self._r(x), self.inner, self.outer, max(self.inner - reach, 0.0), self.outer + reach)
+
+    def image(self, x, way):
+        """places, and weights that make the images as dense as particles: they stand for parts of wider or narrower shells"""
+        r = np.maximum(self._r(x), 1e-300)
+        new = np.maximum(way[0] * r + way[1], 0.0)
+        return self._to(x, r, new), np.minimum((new / r) ** (len(self.columns) - 1), HEAVIEST)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -85,23 +104,23 @@ class Slab:
         x[:, self.column] = np.where(z > self.high, over, np.where(z < self.low, under, z))
         return x
 
+    @property
+    def columns(self):
+        return (self.column,)
+
+    def spread(self, u):
+        return self.low + self.thick * u
+
     def near(self, x, reach):
-        z, thick = x[:, self.column], self.thick
-        if thick == np.inf:
+        z = x[:, self.column]
+        if self.thick == np.inf:
             return [((-1, 2 * self.low), np.flatnonzero(z < self.low + reach))]
-        many = int(np.ceil(reach / (2 * thick))) + 1  # images of images, of thin plates
-        ways = [(1, 2 * k * thick) for k in range(-many, many + 1) if k]
-        if self.periodic:
-            ways += [(1, (2 * k + 1) * thick) for k in range(-many - 1, many + 1)]
-        else:
-            ways += [(-1, 2 * k * thick + 2 * self.low) for k in range(-many, many + 1)]
-        made = [(way, way[0] * z + way[1]) for way in ways]
-        return [(way, np.flatnonzero((to > self.low - reach) & (to < self.high + reach))) for way, to in made]
+        return _images(z, self.low, self.high, self.low - reach, self.high + reach, self.periodic)
 
     def image(self, x, way):
         x = x.copy()
         x[:, self.column] = way[0] * x[:, self.column] + way[1]
-        return x
+        return x, np.ones(len(x))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -136,20 +155,32 @@ class Shape:
             x = p.keep(x)
         return x
 
+    def spread(self, u):
+        """places, as dense everywhere, of u between 0 and 1, (n, 3)"""
+        x = u.copy()
+        for p in self.parts:
+            if p.thick < np.inf:
+                x[:, p.columns] = p.spread(u[:, p.columns])
+        x[:, self.planes] = np.abs(x[:, self.planes])
+        return x
+
     def images_near(self, x, reach, parts=None):
         """which particles have images less than reach outside: for with_images(), as long as nobody moves far"""
         found = []
         for p in self.parts if parts is None else parts:
             found.append((p, p.near(x, reach)))
-            x = self.with_images(x, found[-1:])
+            x = self.with_images(x, found[-1:])[0]
         return found
 
     @staticmethod
     def with_images(x, found):
-        """x, and the images behind it; of images, too, at edges"""
+        """x, and the images behind it; of images, too, at edges. And their weights: 1 for what is no image"""
+        weight = np.ones(len(x))
         for p, ways in found:
-            x = np.concatenate([x, *(p.image(x[rows], way) for way, rows in ways)])
-        return x
+            made = [(*p.image(x[rows], way), weight[rows]) for way, rows in ways]
+            x = np.concatenate([x, *(m[0] for m in made)])
+            weight = np.concatenate([weight, *(m[1] * m[2] for m in made)])
+        return x, weight
 
 
 @dataclasses.dataclass(frozen=True)
@@ -228,9 +259,11 @@ def make(shape, spacing, fill="glass", seed=1):
         raise HVIError(f"no site of a lattice of spacing {spacing:g} is in the body: give a smaller one, or glass")
     shift = shape.center - x.mean(axis=0)
     shift[[*shape.planes, *shape.endless]] = 0.0
-    if not shape.inside(x + shift).all():
-        raise HVIError(f"{len(x)} particles of spacing {spacing:g} do not fit into this body: give a smaller spacing, or another seed")
-    return Body(x + shift, shape, shape.volume / len(x), step)
+    x += shift
+    if not shape.inside(x).all() or fill == "glass" and shape.depths(x).min() < SMOOTH * spacing:
+        raise HVIError(f"the surface is not smooth: a body of {len(x)} particles is too small for {fill}, round ones need some 10 across; give a smaller "
+                       f"spacing than {spacing:g}, another seed, or the other fill")
+    return Body(x, shape, shape.volume / len(x), step)
 
 
 def _lattice(shape, spacing):
@@ -262,7 +295,7 @@ def measure(body, h=1.6):
     unit, reach = body.spacing, 2 * h * body.spacing
     n, shape = len(body.x), body.shape
     mirrors = shape.images_near(body.x, reach, [p for p in shape.parts if not p.surface])
-    y = shape.with_images(body.x, mirrors)
+    y, _ = shape.with_images(body.x, mirrors)
     tree = cKDTree(y)
     nearest = tree.query(body.x, k=2)[0][:, 1] / unit
     pairs = tree.query_pairs(reach, output_type="ndarray")

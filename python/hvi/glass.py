@@ -26,13 +26,13 @@ def relax(shape, n, seed=1):
         for _ in range(steps):
             if last is None or ((x - last) ** 2).sum(axis=1).max() > (0.5 * SKIN * unit) ** 2:
                 last, images = x, shape.images_near(x, (reach + SKIN) * unit)
-                pairs = cKDTree(shape.with_images(x, images)).query_pairs((reach + SKIN) * unit, output_type="ndarray")
+                pairs = cKDTree(shape.with_images(x, images)[0]).query_pairs((reach + SKIN) * unit, output_type="ndarray")
                 i, j = pairs[pairs.min(axis=1) < n].T.copy()
-            y = shape.with_images(x, images) / unit
-            d = y[i] - y[j]
+            y, weight = shape.with_images(x, images)
+            d = (y[i] - y[j]) / unit
             r = np.sqrt(np.einsum("ij,ij->i", d, d))
             d *= np.where(r < reach, push(np.maximum(r, 1e-6)), 0.0)[:, None]
-            force = np.stack([(np.bincount(i, c, len(y)) - np.bincount(j, c, len(y)))[:n] for c in d.T], axis=1)
+            force = np.stack([(np.bincount(i, c * weight[j], len(y)) - np.bincount(j, c * weight[i], len(y)))[:n] for c in d.T], axis=1)
             way = DRAG * way + far * force
             way *= np.minimum(1.0, FAR / np.maximum(np.sqrt((way**2).sum(axis=1)), 1e-300))[:, None]
             x = shape.keep(x + unit * way)
@@ -40,9 +40,7 @@ def relax(shape, n, seed=1):
 
 
 def _start(shape, n, unit, rng):
-    """one at random in each cell of a grid, so that nowhere are too many; of these the n that are deepest, so that n are inside"""
-    cells = [np.arange(np.floor(a / unit) - 1, np.ceil(b / unit) + 1) for a, b in zip(shape.low, shape.high)]
-    x = np.stack(np.meshgrid(*cells, indexing="ij"), -1).reshape(-1, 3)
-    x = unit * (x + rng.random(x.shape))
-    depth = np.min([p.depth(x) for p in shape.parts], axis=0)
-    return shape.keep(x[np.argsort(-depth, kind="stable")[:n]])
+    """at random, but nowhere too many, which would take long to relax: a sequence of low discrepancy, each moved by up to half a spacing"""
+    root = 1.2207440846057596  # x^4 = x + 1: the powers of 1/x are as far from rational as three numbers can be
+    u = (0.5 + np.arange(1, n + 1)[:, None] * root ** -np.arange(1.0, 4.0) + rng.random(3)) % 1.0
+    return shape.keep(shape.spread(u) + unit * (rng.random((n, 3)) - 0.5))

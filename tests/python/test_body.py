@@ -125,6 +125,7 @@ def test_units_do_not_matter():
     (lambda: bodies.make(bodies.sphere(-1.0), 1.0), "radius > 0"), (lambda: bodies.make(bodies.sphere(1.0, 1.0), 0.1), "inner radius"),
     (lambda: bodies.make(bodies.box([1, 0, 1]), 0.1), "size in y > 0"), (lambda: bodies.make(bodies.cylinder(2, np.inf), 0.1), "length > 0"),
     (lambda: bodies.make(bodies.sphere(1.0), 0.0), "spacing > 0"), (lambda: bodies.make(bodies.sphere(1.0), 0.9), "fewer than 8"),
+    (lambda: bodies.make(bodies.sphere(2.0), 1.0), "surface is not smooth"),
     (lambda: bodies.make(bodies.sphere(1.0), 3.0), "at least as thick"), (lambda: bodies.make(bodies.sphere(5.0, 4.5), 1.0), "at least as thick"),
     (lambda: bodies.make(bodies.sphere(1.0), 1e-4), "units of the body"),
     (lambda: bodies.make(bodies.box([2, 5, 5], periodic=(0,)), 1.0), "3 spacings wide, 3, in x"),
