@@ -358,8 +358,11 @@ double FixHVIFEM::compute_vector(int k)
   return sum;
 }
 
+// all ranks ask for it; what a run has left is of its last step
+
 double FixHVIFEM::compute_array(int i, int k)
 {
+  if (update->whichflag && probed != update->ntimestep) read_probes();
   return probes[i].value[k];
 }
 
@@ -397,7 +400,17 @@ void FixHVIFEM::find_probes()
 
 void FixHVIFEM::read_probes()
 {
-  if (probes.empty()) return;
+  if (probes.empty() || now.size() != elements.size()) return;
+  probed = update->ntimestep;
+  std::vector<double> v(3 * nodes.size());    // in pairs' and forces' table is another until output
+  nodes.gather(
+      3,
+      [this](int i, double *b) {
+        std::copy_n(atom->v[i], 3, b);
+      },
+      [&v](int k, const double *b) {
+        std::copy_n(b, 3, &v[3 * k]);
+      });
   std::vector<double> here(Probe::NVALUE * probes.size(), 0.0), all(here.size());
   for (std::size_t e = 0; e < elements.size(); e++) {
     if (!alive(e)) continue;
@@ -411,7 +424,7 @@ void FixHVIFEM::read_probes()
       std::copy_n(stress, 7, value);
       value[7] = HVI::von_mises(S);
       for (int a = 0; a < CORNERS; a++)
-        for (int k = 0; k < 3; k++) value[8 + k] += at(e, a)[W + k] / CORNERS;
+        for (int k = 0; k < 3; k++) value[8 + k] += v[3 * corner[CORNERS * e + a] + k] / CORNERS;
     }
   }
   MPI_Allreduce(here.data(), all.data(), here.size(), MPI_DOUBLE, MPI_SUM, world);
