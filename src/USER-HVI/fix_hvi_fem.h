@@ -123,6 +123,7 @@ class FixHVIFEM :
   std::vector<char> nodal;    // by type
   std::vector<Probe> probes;
   bigint announced;          // number of elements in the header of a data file
+  std::int64_t id_before;    // largest ID of elements of others that were read before it
   bigint probed;             // step that values of probes are of
   bigint total;              // of elements of all ranks; -1: to be counted
   int held;                  // bit of the group of particles in elements
