@@ -356,6 +356,7 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
           for (int k = 0; k < 3; k++) row[3 * what + k] += weights[p][a] * y[what][a][k];
       row[RHO] = one.rho;
       row[ESPH] = one.ahead * one.mass / one.particles();
+      row[AHEAD] = one.change * one.mass / one.particles();
       row[FLAG] = !freed.empty() && freed[e] ? IS_FREE : (alive(e) ? STAYS : IS_NO_MORE);
     }
   }
@@ -379,7 +380,7 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         integrator->carry(i, b + W);
         if (tell && b[FLAG] == IS_FREE) {
           atom->mask[i] &= ~(held | inner[atom->type[i]]);
-          integrator->let_go(i);
+          integrator->let_go(i, b[AHEAD]);
           if (i < (int) store->fields.embedded.size()) store->fields.embedded[i] = 0;
         }
       });
