@@ -123,6 +123,7 @@ class FixHVIFEM :
   std::vector<char> nodal;    // by type
   std::vector<Probe> probes;
   bigint announced;          // number of elements in the header of a data file
+  std::int64_t beyond;       // IDs of elements in it count from here: those of others before it
   bigint total;              // of elements of all ranks; -1: to be counted
   int held;                  // bit of the group of particles in elements
   std::vector<int> inner;    // by type: that of those left out of lists; 0: there are none

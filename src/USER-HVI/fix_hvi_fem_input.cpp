@@ -27,11 +27,14 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), announced(-1), total(-1), held(0), store(nullptr), integrator(nullptr),
-    strength(nullptr), ledger(nullptr), head(nullptr), users(nullptr), nodes(lmp), particles(lmp),
-    near(lmp), dt_last(0.0), shortest(HVI::NO_BOUND), going_on(false), wraps(false), count()
+    Fix(lmp, narg, arg), announced(-1), beyond(0), total(-1), held(0), store(nullptr),
+    integrator(nullptr), strength(nullptr), ledger(nullptr), head(nullptr), users(nullptr),
+    nodes(lmp), particles(lmp), near(lmp), dt_last(0.0), shortest(HVI::NO_BOUND), going_on(false),
+    wraps(false), count()
 {
   read_options(narg, arg);
+  if (igroup != 0)
+    error->all(FLERR, "Fix hvi/fem must be of group all: its elements say which particles it has");
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR, "Fix hvi/fem needs atom_style sph");
   if (atom->map_style == Atom::MAP_NONE)
@@ -40,7 +43,7 @@ FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
 
   scalar_flag = vector_flag = 1;
   size_vector = NCOUNT + 2;
-  extscalar = 1;
+  extscalar = 0;    // a number, never per particle
   extvector = 0;
   global_freq = 1;
   if (!probes.empty()) {
