@@ -144,7 +144,10 @@ void FixHVIFEM::mark_particles()
       [this](int i, const double *b) {
         const int itype = b[0];
         if (atom->type[i] != itype)
-          error->one(FLERR, "Fix hvi/fem: particle {} in an element of type {} has type {}",
+          error->one(FLERR,
+                     "Fix hvi/fem: particle {} in an element of type {} has type {}: have IDs "
+                     "changed? Use "
+                     "delete_atoms with compress no",
                      atom->tag[i], itype, atom->type[i]);
         atom->mask[i] |= held | inner[itype];
       });
