@@ -454,7 +454,7 @@ void FixHVIFEM::release(std::vector<char> &freed)
     return;
   }
   total -= all[FREED];
-  if (all[REBUILD]) next_reneighbor = update->ntimestep;
+  if (all[FREED]) next_reneighbor = update->ntimestep;
   if (all[STATES]) show_states(true);
   let_go(freed);
 }
