@@ -169,6 +169,7 @@ void FixHVIFEM::restart(char *buf)
 /* ----------------------------------------------------------------------
    Data files: "N elements" in the header; the section Elements, of those that are left; and as many more
    sections as their state needs, with what restart files have, too.  Their titles end with numbers.
+   IDs of elements of a further file come after those that are there.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::read_data_header(char *line)
@@ -177,7 +178,7 @@ void FixHVIFEM::read_data_header(char *line)
   if (announced < 1) error->all(FLERR, "Fix hvi/fem: no elements in the header of the data file");
   std::int64_t here = 0;
   for (const Element &one : elements) here = std::max(here, one.id);
-  MPI_Allreduce(&here, &beyond, 1, MPI_INT64_T, MPI_MAX, world);
+  MPI_Allreduce(&here, &id_before, 1, MPI_INT64_T, MPI_MAX, world);
 }
 
 void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset)
@@ -201,7 +202,7 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
       one.id = values.next_bigint();
       if (one.id < 1)
         throw TokenizerException("IDs of elements must be positive", std::to_string(one.id));
-      one.id += beyond;
+      one.id += id_before;
       if (state) {
         const auto found = where.find(one.id);
         if (found == where.end()) continue;    // of another rank

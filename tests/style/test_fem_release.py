@@ -37,7 +37,7 @@ compute       book all hvi/energy
 variable      pz equal c_book[12]-c_book[26]
 neighbor      1.8e-4 bin
 thermo        5
-thermo_style  custom step f_wall c_book[9] v_pz c_book[26]
+thermo_style  custom step dt f_wall f_wall[11] c_book[9] v_pz c_book[26]
 thermo_modify format float %.15g
 run           150
 """
@@ -51,6 +51,7 @@ def test_books_are_kept(lmp, n):
     assert thermo["f_wall"][-1] <= thermo["f_wall"][0] - n**2 / 3
     assert np.abs(thermo["v_pz"] / thermo["c_book[26]"]).max() < 1e-12
     assert abs(thermo["c_book[9]"][-1] - 1) < 2e-6
+    assert np.all(thermo["f_wall[11]"] < 1.1 * thermo["f_wall[11]"][0])  # of all elements, not of new ones only
 
 
 BARS = START.format(pair="", fem="probe 1.5e-3 0.25e-3 0.25e-3 probe 1.5e-3 5.25e-3 0.25e-3") + """
