@@ -166,8 +166,8 @@ class FixHVIFEM :
     NODE
   };    // of a node: V of the middle of a step, W of its end
   enum { L = 0, M = 9, TRACE = 15, CONTACT = 16, SUMS = 22 };
-  enum { RHO = 9, ESPH, FLAG, PLACE };    // of a particle, after X, V, W
-  enum { STAYS, IS_FREE, IS_NO_MORE };    // FLAG
+  enum { RHO = 9, ESPH, AHEAD, FLAG, PLACE };    // of a particle, after X, V, W
+  enum { STAYS, IS_FREE, IS_NO_MORE };           // FLAG
   struct Now {
     double p, c, kick;
     double L[9], K[9];

@@ -33,6 +33,8 @@ FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
     going_on(false), wraps(false), count()
 {
   read_options(narg, arg);
+  if (igroup != 0)
+    error->all(FLERR, "Fix hvi/fem must be of group all: its elements say which particles it has");
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR, "Fix hvi/fem needs atom_style sph");
   if (atom->map_style == Atom::MAP_NONE)
@@ -41,7 +43,7 @@ FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
 
   scalar_flag = vector_flag = 1;
   size_vector = NCOUNT + 2;
-  extscalar = 1;
+  extscalar = 0;    // a number, never per particle
   extvector = 0;
   global_freq = 1;
   if (!probes.empty()) {

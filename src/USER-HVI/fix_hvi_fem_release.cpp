@@ -144,7 +144,10 @@ void FixHVIFEM::mark_particles()
       [this](int i, const double *b) {
         const int itype = b[0];
         if (atom->type[i] != itype)
-          error->one(FLERR, "Fix hvi/fem: particle {} in an element of type {} has type {}",
+          error->one(FLERR,
+                     "Fix hvi/fem: particle {} in an element of type {} has type {}: have IDs "
+                     "changed? Use "
+                     "delete_atoms with compress no",
                      atom->tag[i], itype, atom->type[i]);
         atom->mask[i] |= held | inner[itype];
       });
@@ -357,6 +360,7 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
           for (int k = 0; k < 3; k++) row[3 * what + k] += weights[p][a] * y[what][a][k];
       row[RHO] = one.rho;
       row[ESPH] = one.ahead * one.mass / one.particles();
+      row[AHEAD] = one.change * one.mass / one.particles();
       row[FLAG] = !freed.empty() && freed[e] ? IS_FREE : (alive(e) ? STAYS : IS_NO_MORE);
     }
   }
@@ -380,7 +384,7 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         integrator->carry(i, b + W);
         if (tell && b[FLAG] == IS_FREE) {
           atom->mask[i] &= ~(held | inner[atom->type[i]]);
-          integrator->let_go(i);
+          integrator->let_go(i, b[AHEAD]);
           if (i < (int) store->fields.embedded.size()) store->fields.embedded[i] = 0;
         }
       });
@@ -460,7 +464,7 @@ void FixHVIFEM::release(std::vector<char> &freed)
     return;
   }
   total -= all[FREED];
-  if (all[REBUILD]) next_reneighbor = update->ntimestep;
+  if (all[FREED]) next_reneighbor = update->ntimestep;
   if (all[STATES]) show_states(true);
   let_go(freed);
 }
