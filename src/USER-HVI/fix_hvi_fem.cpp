@@ -47,6 +47,7 @@ FixHVIFEM::~FixHVIFEM()
   memory->destroy(head);
   memory->destroy(users);
   unmark_particles();
+  memory->destroy(array_local);
   if (FixHVIStore *const now = FixHVIStore::find(lmp)) now->embedded = 0;
 }
 
@@ -172,6 +173,7 @@ void FixHVIFEM::setup(int /*vflag*/)
 {
   find_probes();
   show_particles();
+  if (every > 0) list_elements();
   going_on = false;    // from now on forces are made anew
 }
 
@@ -236,7 +238,9 @@ void FixHVIFEM::final_integrate()
 
 void FixHVIFEM::end_of_step()
 {
-  if (update->ntimestep == output->next || update->ntimestep == update->laststep) show_particles();
+  const bool due = update->ntimestep == output->next || update->ntimestep == update->laststep;
+  if (due) show_particles();
+  if (every > 0 && (due || update->ntimestep % every == 0)) list_elements();
 }
 
 void FixHVIFEM::show_particles()
@@ -254,6 +258,8 @@ void FixHVIFEM::show_particles()
   for (std::size_t e = 0; e < elements.size(); e++) {
     if (!alive(e)) continue;
     elements[e].mark = fingerprint(e);
+    elements[e].step = dt_last;
+    std::copy_n(now[e].L, 9, elements[e].L);
     now[e].kick = 0.0;
     for (int a = 0; a < CORNERS; a++) now[e].kick += at(e, a)[KICK] / CORNERS;
   }
@@ -287,7 +293,7 @@ double FixHVIFEM::half_kick(int i) const
 
 // of its nodes: an element that goes on has forces of its own at the start of a run
 
-std::uint64_t FixHVIFEM::fingerprint(std::size_t e) const
+double FixHVIFEM::fingerprint(std::size_t e) const
 {
   std::uint64_t mark = 0x9E3779B97F4A7C15ull;
   for (int a = 0; a < CORNERS; a++)
@@ -297,7 +303,7 @@ std::uint64_t FixHVIFEM::fingerprint(std::size_t e) const
       mark = (mark ^ bits) * 0xFF51AFD7ED558CCDull;
       mark ^= mark >> 32;
     }
-  return mark | 1;
+  return (double) (mark >> 12) + 1.0;    // with all digits in data files
 }
 
 /* ---------------------------------------------------------------------- */
@@ -368,8 +374,11 @@ double FixHVIFEM::compute_vector(int k)
   return sum;
 }
 
+// all ranks ask for it; what a run has left is of its last step
+
 double FixHVIFEM::compute_array(int i, int k)
 {
+  if (update->whichflag && probed != update->ntimestep) read_probes();
   return probes[i].value[k];
 }
 
@@ -407,7 +416,17 @@ void FixHVIFEM::find_probes()
 
 void FixHVIFEM::read_probes()
 {
-  if (probes.empty()) return;
+  if (probes.empty() || now.size() != elements.size()) return;
+  probed = update->ntimestep;
+  std::vector<double> v(3 * nodes.size());    // in pairs' and forces' table is another until output
+  nodes.gather(
+      3,
+      [this](int i, double *b) {
+        std::copy_n(atom->v[i], 3, b);
+      },
+      [&v](int k, const double *b) {
+        std::copy_n(b, 3, &v[3 * k]);
+      });
   std::vector<double> here(Probe::NVALUE * probes.size(), 0.0), all(here.size());
   for (std::size_t e = 0; e < elements.size(); e++) {
     if (!alive(e)) continue;
@@ -421,10 +440,40 @@ void FixHVIFEM::read_probes()
       std::copy_n(stress, 7, value);
       value[7] = HVI::von_mises(S);
       for (int a = 0; a < CORNERS; a++)
-        for (int k = 0; k < 3; k++) value[8 + k] += at(e, a)[W + k] / CORNERS;
+        for (int k = 0; k < 3; k++) value[8 + k] += v[3 * corner[CORNERS * e + a] + k] / CORNERS;
     }
   }
   MPI_Allreduce(here.data(), all.data(), here.size(), MPI_DOUBLE, MPI_SUM, world);
   for (std::size_t n = 0; n < probes.size(); n++)
     std::copy_n(&all[Probe::NVALUE * n], +Probe::NVALUE, probes[n].value);
+}
+
+/* ----------------------------------------------------------------------
+   Elements of this rank for dump local and compute reduce: ID, type, center, pressure, stress, von Mises
+   stress, plastic strain, damage, energy per mass, particles per edge
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::list_elements()
+{
+  size_local_rows = std::count_if(elements.begin(), elements.end(), [](const Element &one) {
+    return one.type > 0;
+  });
+  memory->destroy(array_local);
+  memory->create(array_local, size_local_rows, NCOLUMN, "hvi/fem:local");
+  int row = 0;
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (!alive(e)) continue;
+    const Element &one = elements[e];
+    const HVI::Deviator &S = one.s.S;
+    double x[CORNERS][3], center[3] = {};
+    corners(e, X, x);
+    for (const auto &corner_x : x)
+      for (int k = 0; k < 3; k++) center[k] += corner_x[k] / CORNERS;
+    const double p = now[e].p;
+    const double list[NCOLUMN] = {
+        (double) one.id,   (double) one.type, center[0],    center[1], center[2],     p,
+        S.xx - p,          S.yy - p,          S.zz - p,     S.xy,      S.xz,          S.yz,
+        HVI::von_mises(S), one.s.eps,         one.s.damage, one.e,     (double) one.n};
+    std::copy_n(list, +NCOLUMN, array_local[row++]);
+  }
 }

@@ -122,9 +122,24 @@ void FixHVIFEM::settle()
   }
   gather_sums();
   shortest = HVI::NO_BOUND;
-  for (std::size_t e = 0; e < elements.size(); e += LANES)
-    advance(e, std::min<std::size_t>(LANES, elements.size() - e), integrator->step(), due);
+  if (going_on)
+    for (std::size_t e = 0; e < elements.size(); e++) resume(e);
+  else
+    for (std::size_t e = 0; e < elements.size(); e += LANES)
+      advance(e, std::min<std::size_t>(LANES, elements.size() - e), integrator->step(), due);
   show_states(false);
+}
+
+// as the last run has left it: what advance() told others
+
+void FixHVIFEM::resume(std::size_t e)
+{
+  const Element &one = elements[e];
+  double csq;
+  store->materials.of(one.type)->eos->evaluate(one.rho, one.ahead, now[e].p, csq);
+  now[e].p = HVI::clip_tension(now[e].p, one.s.failed() ? 0.0 : one.s.least);
+  std::copy_n(one.L, 9, now[e].L);
+  if (!(one.stable >= shortest)) shortest = one.stable;
 }
 
 /* ----------------------------------------------------------------------
@@ -259,8 +274,10 @@ void FixHVIFEM::advance(std::size_t first, int n, double dt, bool due)
     if (!alive(first + lane)) continue;
     elements[first + lane].q = q[lane];
     elements[first + lane].stable = stable[lane];
-    if (elements[first + lane].at_start == 0.0) elements[first + lane].at_start = stable[lane];
     if (!(stable[lane] >= shortest)) shortest = stable[lane];
+    if (elements[first + lane].at_start > 0.0) continue;
+    elements[first + lane].at_start = stable[lane];
+    elements[first + lane].shared = shared(first + lane);
   }
 }
 

@@ -115,8 +115,7 @@ void FixHVIFEM::post_neighbor()
 
 /* ----------------------------------------------------------------------
    To their places, with velocity and what pairs and lists see of density and energy.  Who leaves an element
-   keeps all that, but for the energy: its own is that of the middle of the step, to which fix hvi/sph adds what
-   the second half brings.
+   keeps all that.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::place_particles(const std::vector<char> &freed)
@@ -136,7 +135,8 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
           for (int k = 0; k < 3; k++) row[3 * what + k] += weights[p][a] * y[what][a][k];
       row[RHO] = one.rho;
       row[FLAG] = !freed.empty() && freed[e] ? IS_FREE : (alive(e) ? STAYS : IS_NO_MORE);
-      row[ESPH] = (row[FLAG] == IS_FREE ? one.e : one.ahead) * one.mass / one.particles();
+      row[ESPH] = one.ahead * one.mass / one.particles();
+      row[AHEAD] = one.change * one.mass / one.particles();
     }
   }
   const bool tell = !freed.empty();
@@ -159,11 +159,20 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         integrator->carry(i, b + W);
         if (tell && b[FLAG] == IS_FREE) {
           atom->mask[i] &= ~(held | inner[atom->type[i]]);
-          integrator->let_go(i);
+          integrator->let_go(i, b[AHEAD]);
           ledger->hand_over(i, atom->rmass[i]);
           if (i < (int) store->fields.embedded.size()) store->fields.embedded[i] = 0;
         }
       });
+}
+
+// how many corners other elements have, too
+
+int FixHVIFEM::shared(std::size_t e) const
+{
+  int n = 0;
+  for (int a = 0; a < CORNERS; a++) n += at(e, a)[USERS] > 1.0;
+  return n;
 }
 
 /* ----------------------------------------------------------------------
@@ -177,9 +186,8 @@ FixHVIFEM::Reason FixHVIFEM::reason(std::size_t e) const
   if (options.spall && one.s.spalled != 0.0) return SPALL;
   if (options.strain > 0.0 && one.s.eps > options.strain) return STRAIN;
   if (one.stable < options.shrink * one.at_start) return STEP;
-  int shared = 0;
-  for (int a = 0; a < CORNERS; a++) shared += at(e, a)[USERS] > 1.0;
-  if (shared < 4) return ORPHAN;    // a face has four
+  const int others = shared(e);
+  if (others < 4 && others < one.shared) return ORPHAN;    // a face has four
   if (one.s.eps > 0.0 || one.s.failed()) {
     double x[CORNERS][3];
     corners(e, X, x);
@@ -221,6 +229,7 @@ void FixHVIFEM::release(std::vector<char> &freed)
     const double heat = 0.5 * (of_nodes - of_particles);
     one.e += heat;
     one.ahead += heat;
+    model(one).present(one.s, input(one));    // what forces see of it in this step
     count[why] += 1.0;
     count[HEAT] += one.mass * heat;
     count[HOURGLASS] += one.hourglass;
@@ -231,7 +240,7 @@ void FixHVIFEM::release(std::vector<char> &freed)
     return;
   }
   total -= all[FREED];
-  if (all[REBUILD]) next_reneighbor = update->ntimestep;
+  if (all[FREED]) next_reneighbor = update->ntimestep;
   if (all[STATES]) show_states(true);
   let_go(freed);
 }
