@@ -35,15 +35,15 @@ def run_struck(lmp, nranks=1, balance="", steps=40, between="", **more):
     return r.runs, read_state("state.dump")
 
 
+KICK = "velocity all set NULL NULL 100 sum yes units box\n"
 ONE = {}  # on one rank
 
 
 @pytest.fixture
 def one(lmp):
     if not ONE:
-        ONE["table"], ONE["state"] = run_struck(lmp, between="write_restart middle\nvelocity all set NULL NULL 100 sum yes units box\nrun 0\n"
-                                                + STATE.format("anew.dump"))
-        ONE["anew"], ONE["restart"] = read_state("anew.dump"), open("middle", "rb").read()
+        ONE["table"], ONE["anew"] = run_struck(lmp, between=STATE.format("first.dump") + "write_restart middle\n" + KICK + "run 0\n")
+        ONE["state"], ONE["restart"] = read_state("first.dump"), open("middle", "rb").read()
         assert ONE["table"][0]["f_wall"][0] == 64 and 10 < ONE["table"][0]["f_wall"][-1] < 50
     return ONE
 
@@ -52,7 +52,7 @@ def one(lmp):
 def test_same_on_every_layout(lmp, one, layout):
     """40 steps of an impact in which a third of the elements become particles, on their way between ranks: positions, velocities, forces,
     states and all that is booked"""
-    runs, got = run_struck(lmp, between="velocity all set NULL NULL 100 sum yes units box\n", **LAYOUTS[layout])
+    runs, got = run_struck(lmp, **LAYOUTS[layout])
     assert difference(one["state"], got) < 1e-11
     for name, values in one["table"][0].items():
         assert np.abs(values - runs[0][name]).max() <= 1e-11 * np.abs(values).max() + 1e-15, name
@@ -63,7 +63,7 @@ def test_forces_on_one_state(lmp, one, tmp_path, layout):
     """of a restart file with elements and what others have become, forces made anew"""
     how = LAYOUTS[layout]
     (tmp_path / "middle").write_bytes(one["restart"])
-    lmp(again(**how) + "velocity all set NULL NULL 100 sum yes units box\nrun 0\n" + STATE.format("anew.dump"), nranks=how.get("nranks", 1))
+    lmp(again(**how) + KICK + "run 0\n" + STATE.format("anew.dump"), nranks=how.get("nranks", 1))
     got = read_state("anew.dump")
     assert np.abs(got["F"] - one["anew"]["F"]).max() <= 1e-12 * np.abs(got["F"]).max()
     assert difference(one["anew"], got) < 1e-11
@@ -98,7 +98,7 @@ def test_clamps(lmp):
     text = text.replace("compute book", groups + "compute book")
     text += "fix hold held setforce 0 0 0\n" + strike_it + "velocity all set 30 100 0 sum yes units box\n"
     table = lmp(text + "run 160\n").thermo
-    assert table["f_wall"][-1] < 50
+    assert table["f_wall"][-1] < 55
     assert np.abs(column(table, TOTAL) / table["c_book[8]"][0] - 1).max() < 1e-4
     moved = column(table, P, 3) - column(table, J, 3)
     impulse = np.abs(column(table, J, 3)).max()
