@@ -121,7 +121,7 @@ void FixHVIFEM::link()
   std::vector<int> number(atom->nlocal, 0);
   int most = 0;
   for (int e = elements.size() - 1; e >= 0; e--) {
-    const int i = atom->map(elements[e].node[0]);
+    const int i = nodes.local(elements[e].node[0]);
     if (i < 0 || i >= atom->nlocal)
       error->one(FLERR,
                  "Fix hvi/fem: node {} of element {} is not there at step {}: elements must not "
@@ -304,11 +304,11 @@ void FixHVIFEM::check_masses()
   for (int i = 0; i < atom->nlocal; i++) {
     if (is_node(atom->type[i]) && users[i] == 0 && total > 0 && !left_over(i)) without++;
     if (should[i] > 0.0 && std::fabs(atom->rmass[i] - should[i]) > 1.0e-9 * should[i])
-      error->one(FLERR,
-                 "Fix hvi/fem: {} {} has mass {}, but its elements {}: they give masses to nodes and "
-                 "particles, which must not have others",
-                 is_node(atom->type[i]) ? "node" : "particle", atom->tag[i], atom->rmass[i],
-                 should[i]);
+      error->one(
+          FLERR,
+          "Fix hvi/fem: {} {} has mass {}, but its elements {}: they give masses to nodes and "
+          "particles, which must not have others",
+          is_node(atom->type[i]) ? "node" : "particle", atom->tag[i], atom->rmass[i], should[i]);
   }
   MPI_Allreduce(&without, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (everywhere) error->all(FLERR, "Fix hvi/fem: {} nodes belong to no element", everywhere);
@@ -331,7 +331,8 @@ void FixHVIFEM::check_state()
     if (std::fabs(volume - one.V) > 1.0e-9 * one.V) {
       here = 0;
       if (!(volume > 0.0))
-        error->one(FLERR, "Fix hvi/fem: element {} is turned inside out since the last run", one.id);
+        error->one(FLERR, "Fix hvi/fem: element {} is turned inside out since the last run",
+                   one.id);
       one.rho *= one.V / volume;
       one.V = volume;
     }
@@ -388,7 +389,8 @@ bool FixHVIFEM::strayed()
         HVI::minimum_image(domain, way[0], way[1], way[2]);
         const double size = std::cbrt(elements[m.e].V);
         for (int d = 0; d < 3; d++)
-          if (std::fabs(way[d]) > 1.0e-9 * size || std::fabs(past[d]) > 1.0e-9 * speed) found = true;
+          if (std::fabs(way[d]) > 1.0e-9 * size || std::fabs(past[d]) > 1.0e-9 * speed)
+            found = true;
       });
   return found;
 }

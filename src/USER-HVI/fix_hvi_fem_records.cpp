@@ -233,7 +233,7 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
         throw TokenizerException("there is no such type", std::to_string(one.type));
       if (one.n < 0 || one.n > 8)
         throw TokenizerException("n must be from 0 to 8", std::to_string(one.n));
-      const int i = atom->map(one.node[0]);
+      const int i = nodes.local(one.node[0]);
       if (i < 0 || i >= atom->nlocal) continue;
       next.push_back(first_of(i));
       head[i] = elements.size();

@@ -43,7 +43,8 @@ struct Element {
   double step, L[9];                 // step that has led to those forces, velocity gradient in it
   SolidState s;
 
-  static constexpr int SIZE = IDS + 1 + 13 + 6 * CORNERS + 12 + 10 + sizeof(SolidState) / sizeof(double);
+  static constexpr int SIZE =
+      IDS + 1 + 13 + 6 * CORNERS + 12 + 10 + sizeof(SolidState) / sizeof(double);
   int particles() const { return n * n * n; }
 };
 
