@@ -84,9 +84,9 @@ def test_what_it_needs(attempt):
         ("atom_modify map yes sort 0 0\n", "atom_modify sort 0 0\n", "atom_modify map yes"),
         ("fix prop all", FIX + "\nfix prop all", "before simulation box is defined"),
         (FIX, "group ball type 1\nfix wall ball hvi/fem nodes 3 ", "must be of group all, not ball"),
-        ("fix solid all hvi/johnson-cook damage no spall none\n", "", "needs pair style hvi/sph, for materials, and fix hvi/johnson-cook"),
+        ("fix solid all hvi/johnson-cook damage no spall none\n", "", "needs fix hvi/johnson-cook"),
         ("cubic dissipation riemann", "cubic gradient law", "gradient corrected"),
-        ("fix move all hvi/sph\n", "", "must come after fix hvi/sph"),
+        ("fix move all hvi/sph\n", "", "needs fix hvi/sph"),
         ("fix move all hvi/sph\nfix solid all hvi/johnson-cook damage no spall none\n" + FIX + "\n",
          "fix solid all hvi/johnson-cook damage no spall none\n" + FIX + "\nfix move all hvi/sph\n", "must come after fix hvi/sph"),
         (FIX + "\n", FIX + "\nfix more all hvi/fem nodes 3\n", "More than one fix hvi/fem"),
@@ -98,13 +98,14 @@ def test_what_it_needs(attempt):
         (run_line, "run 1\ngroup one id 1\ndelete_atoms group one compress no\nrun 1\n", "node 1 of element 1 is not there"),
         (run_line, "run 1\ngroup one id 14\ndelete_atoms group one compress no\nrun 1\n", "not there"),
         (run_line, "run 1\ngroup one id 100\ndelete_atoms group one compress no\nrun 1\n", "particle 100 is not there"),
-        (run_line, "run 1\ngroup one id 100\ndelete_atoms group one\nrun 1\n", "had another ID"),
-        (run_line, "run 1\ngroup one id 1\ndelete_atoms group one\nrun 1\n", "had another ID"),
-        (run_line, "run 1\ngroup wall_embedded clear\nrun 1\n", "had another ID, or was in another group"),
+        (run_line, "run 1\ngroup one id 100\ndelete_atoms group one\nrun 1\n", "have IDs changed? Use delete_atoms with compress no"),
+        (run_line, "run 1\ngroup one id 1\ndelete_atoms group one\nrun 1\n", "is not there"),
+        (run_line, "run 1\ngroup one id 100\ngroup wall_embedded clear\ngroup wall_embedded union one\nrun 1\n", "was in another group"),
+        (run_line, "run 1\ngroup some id 100\nreset_atoms id sort yes\nrun 1\n", "Fix hvi/fem"),
         (run_line, "run 1\ngroup one id 100\nset group one type 1\nrun 1\n", "has type 1"),
         (run_line, "run 1\ngroup one id 14\nset group one mass 1e-6\nrun 1\n", "node 14 has mass"),
         (run_line, "run 1\ngroup one id 100\nset group one mass 1e-6\nrun 1\n", "particle 100 has mass"),
-        (run_line, "create_atoms 3 single 0 0 0.003 units box\nrun 1\n", "1 nodes belong to no element"),
+        (run_line, "create_atoms 3 single 0 0 -0.0015 units box\nrun 1\n", "1 nodes belong to no element"),
     ])
 
 
@@ -148,12 +149,13 @@ def test_on_ranks(attempt):
     run_line = "run 2\n"
     attempt([
         (run_line, "run 1\ngroup one id 14\ndelete_atoms group one compress no\nrun 1\n", "not there"),
-        (run_line, "run 1\ngroup one id 100\ndelete_atoms group one\nrun 1\n", "had another ID"),
+        (run_line, "run 1\ngroup one id 100\ndelete_atoms group one\nrun 1\n", "compress no"),
         (run_line, "run 1\ngroup one id 100\nset group one mass 1e-6\nrun 1\n", "particle 100 has mass"),
         (lines[0], lines[0].replace(" 2 ", " 4 ", 1), "there is no such type"),
     ], nranks=3)
 
 
 def test_unfix(lmp, good):
-    """without elements their particles are free, and pairs of them act"""
-    lmp(good + "unfix wall\nthermo_style custom step\ngroup nodes type 3\ndelete_atoms group nodes\nrun 1\n")
+    """nodes without the fix are particles without a material"""
+    r = lmp(good + "thermo_style custom step\nunfix wall\nrun 1\n", expect_fail=True)
+    assert "type 3 has no material" in r.error
