@@ -32,9 +32,12 @@ FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
     users(nullptr), nodes(lmp), particles(lmp), near(lmp), dt_last(0.0), shortest(HVI::NO_BOUND),
     going_on(false), wraps(false), count()
 {
-  read_options(narg, arg);
   if (igroup != 0)
-    error->all(FLERR, "Fix hvi/fem must be of group all: its elements say which particles it has");
+    error->all(FLERR,
+               "Fix hvi/fem must be of group all, not {}: elements say which particles are "
+               "theirs",
+               group->names[igroup]);
+  read_options(narg, arg);
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR, "Fix hvi/fem needs atom_style sph");
   if (atom->map_style == Atom::MAP_NONE)
