@@ -204,6 +204,7 @@ class FixHVIFEM :
   void gather_forces();
   void element_forces(std::size_t first, int n, double dt);
   void bring_forces();
+  int shared(std::size_t) const;
   Reason reason(std::size_t) const;
   void release(std::vector<char> &freed);
   void let_go(const std::vector<char> &freed);
