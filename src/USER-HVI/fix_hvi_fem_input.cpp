@@ -29,7 +29,8 @@ using namespace FixConst;
 FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), announced(-1), total(-1), held(0), store(nullptr), integrator(nullptr),
     strength(nullptr), ledger(nullptr), head(nullptr), users(nullptr), nodes(lmp), particles(lmp),
-    near(lmp), dt_last(0.0), shortest(HVI::NO_BOUND), going_on(false), wraps(false), count()
+    near(lmp), dt_last(0.0), shortest(HVI::NO_BOUND), going_on(false), wraps(false), nearby(0.0),
+    count()
 {
   read_options(narg, arg);
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)

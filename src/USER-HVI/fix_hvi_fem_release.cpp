@@ -312,6 +312,15 @@ void FixHVIFEM::post_neighbor()
         if (b[1] > 0.0) listed[e] = 0;
       });
 
+  // others have none of what comes from pairs, until they are active
+
+  now.assign(elements.size(), Now());
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (active[e]) continue;
+    elements[e].power = 0.0;
+    std::fill_n(elements[e].pair_force, 3 * CORNERS, 0.0);
+  }
+
   members.clear();
   std::vector<tagint> wanted;
   for (std::size_t e = 0; e < elements.size(); e++) {
