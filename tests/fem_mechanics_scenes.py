@@ -267,7 +267,7 @@ def taylor(lmp, folder, edge, laws, V=227.0, L=32.4e-3, R=3.2e-3, t_end=80e-6, f
     x, t = r.frames[-1]["x"], r.thermo
     rad = np.hypot(x[:, 0], x[:, 1])
     internal = t["f_wall[10]"]
-    return dict(edge=1e3 * edge, elements=len(m.elements), steps=int(t["Step"][-1]), length=1e3 * np.ptp(x[:, 2]), foot=1e3 * rad[x[:, 2] < 1e-9].max(),
+    return dict(over=(t["Dt"] / t["f_wall[11]"]).max(), edge=1e3 * edge, elements=len(m.elements), steps=int(t["Step"][-1]), length=1e3 * np.ptp(x[:, 2]), foot=1e3 * rad[x[:, 2] < 1e-9].max(),
                 widest=1e3 * rad.max(), drift=np.abs(t["c_book[9]"] - 1).max(), hourglass=t["f_wall[8]"][-1] / internal[-1],
                 kinetic=t["c_book[1]"][-1] / t["c_book[1]"][0], plastic=t["c_book[29]"][-1] / internal[-1])
 
@@ -348,4 +348,5 @@ def collision(lmp, folder, kind, speed, steps, n=2, edge=1e-3, share=0.0, fem=""
     unit = RHO * np.abs(v[:, 0]).max() * volumes(m.corners).sum() / 2
     return dict(kind=kind, speed=speed, steps=int(t["Step"][-1]), drift=np.abs(t["c_book[9]"] - 1).max(),
                 momentum=max(np.abs(t[f"c_book[{k}]"] - t[f"c_book[{k}]"][0]).max() for k in (10, 11, 12)) / unit, hourglass=t["f_wall[8]"][-1] / t["f_wall[10]"].max(),
-                kinetic=t["c_book[1]"][-1] / t["c_book[1]"][0], left=t["f_wall"][-1] / len(m.elements), dt=t["Dt"].min() / stable(edge, 1.0), thermo=t)
+                kinetic=t["c_book[1]"][-1] / t["c_book[1]"][0], left=t["f_wall"][-1] / len(m.elements), dt=t["Dt"].min() / stable(edge, 1.0),
+                over=(t["Dt"] / t["f_wall[11]"]).max(), thermo=t)

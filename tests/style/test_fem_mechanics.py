@@ -80,6 +80,7 @@ def test_taylor(lmp, tmp_path):
     """with the material of the benchmark (Y 400 MPa, hardening 100 MPa) codes have 21.4 to 21.7 mm and a foot of 6.97 to 7.24"""
     o = taylor(lmp, tmp_path, 0.8e-3, BENCHMARK)
     print(o)
+    assert 0.9 < o["over"] <= 1.0  # of the elements' own step
     assert 21.4 < o["length"] < 21.7 and 6.97 < o["foot"] < 7.24
     assert o["kinetic"] < 1e-2 and o["drift"] < ROUND and o["hourglass"] < 0.03
 
@@ -107,7 +108,7 @@ def test_crash(lmp, tmp_path, kind, speed, n, share):
     o = collision(lmp, tmp_path, kind, speed, 300, n=n, share=share)
     print({k: v for k, v in o.items() if k != "thermo"})
     t = o["thermo"]
-    assert o["drift"] < ROUND and o["momentum"] < ROUND
+    assert o["drift"] < ROUND and o["momentum"] < ROUND and o["over"] <= 1.0
     assert (np.diff(t["f_wall[10]"]) > -0.02 * t["c_book[8]"][0]).all() and t["f_wall[10]"].min() >= 0.0
     assert t["c_book[1]"].max() <= t["c_book[1]"][0] * (1 + ROUND)
     assert 0.02 < o["kinetic"] < 0.6 if kind == "shock" else o["kinetic"] < 0.6
