@@ -242,6 +242,33 @@ def standing(lmp, folder, kind, waves=1.0, nt=1, length=40, edge=1e-3, amp=0.1, 
                 drift=np.abs(total / total[0] - 1).max(), momentum=np.abs(r.thermo["c_book[10]"]).max())
 
 
+def yielding(lmp, folder, nt, over=4.0, Y=3e8, length=20, edge=1e-3, factor=0.5, fem="", thickness=None):
+    """A plate that starts to bend as in standing(), at a velocity with which it would yield at its faces over times if it stayed elastic
+
+    Deflection at its largest and what stays of it, over the largest of an elastic plate; plastic work and hourglass energy over the total
+    """
+    if thickness:
+        edge = thickness / nt
+    m = block(length * nt, 3, nt, n=0, map=lambda p: edge * (p - [0, 0, nt / 2]), periodic=(True, True, False))
+    h = nt * edge
+    m.box[:, 2] = -5 * h, 5 * h
+    k = 2 * np.pi / (length * h)
+    omega = mindlin(k, h)
+    amp = over * 2 * Y * omega / (PLATE * h * k * k)
+    v = np.zeros_like(m.nodes)
+    v[:, 2] = amp * np.cos(k * m.nodes[:, 0])
+    dt = stable(edge, factor)
+    steps = int(2 * np.pi / omega / dt)
+    more = f"variable w atom mass*cos({k:.17g}*x)*vz\ncompute w nodes reduce sum v_w\n"
+    r = run(lmp, folder, m, v, steps, laws=(EOS, f"strength perfect G {G} Y {Y}"), fem=fem, dt=dt, every=max(1, steps // 200), more=more, columns="c_w")
+    t = r.thermo
+    a = t["c_w"] / t["c_w"][0]
+    w = np.concatenate([[0.0], np.cumsum(0.5 * (a[1:] + a[:-1]) * np.diff(t["Time"]))]) * omega
+    total = t["c_book[8]"][0]
+    return dict(layers=nt, speed=amp, steps=steps, largest=w.max(), mean_late=w[len(w) // 3:].mean(), plastic=t["c_book[29]"][-1] / total,
+                hourglass=t["f_wall[8]"][-1] / total, drift=np.abs(t["c_book[9]"] - 1).max())
+
+
 def mindlin(k, h, shear=0.86):
     """frequency of bending waves of a plate of thickness h: Mindlin, J. Appl. Mech. 18 (1951) 31, the lower branch, with his factor of shear"""
     D, inertia, mass, S = PLATE * h**3 / 12, RHO * h**3 / 12, RHO * h, shear * G * h
