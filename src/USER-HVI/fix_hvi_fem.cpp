@@ -89,7 +89,13 @@ void FixHVIFEM::init()
                "property/atom rmass ghost yes before read_data");
   ledger = FixHVILedger::instance(lmp);
   store->embedded = held;
-  wraps = domain->periodicity[0] || domain->periodicity[1] || domain->periodicity[2];
+  wraps = false;
+  nearby = HUGE_VAL;
+  for (int k = 0; k < 3; k++)
+    if (domain->periodicity[k]) {
+      wraps = true;
+      nearby = std::min(nearby, 0.25 * domain->prd[k]);
+    }
 
   const bigint here = elements.size();
   bigint all;
@@ -192,7 +198,6 @@ void FixHVIFEM::post_integrate()
 {
   gather_nodes();
   half_energy(update->dt);
-  for (Element &one : elements) one.ahead = one.e + one.change;
   std::vector<char> freed;
   if (options.fails) release(freed);
   place_particles(freed);
@@ -215,20 +220,29 @@ void FixHVIFEM::half_energy(double dt)
     double work = 0.0, kick = 0.0;
     for (int a = 0; a < CORNERS; a++) {
       const double *const n = at(e, a);
-      for (int k = 0; k < 3; k++)
-        work += (one.force[3 * a + k] + one.pair_force[3 * a + k]) * n[V + k];
+      for (int k = 0; k < 3; k++) work += one.force[3 * a + k] * n[V + k];
       kick += n[KICK];
     }
+    if (active[e])
+      for (int a = 0; a < CORNERS; a++)
+        for (int k = 0; k < 3; k++) work += one.pair_force[3 * a + k] * at(e, a)[V + k];
     one.change = 0.5 * dt * (one.power - work) / one.mass;
     one.e += one.change + kick / CORNERS;
+    one.ahead = one.e + one.change;
   }
 }
 
+// the second half: forces have worked on velocities that have not changed since they were made
+
 void FixHVIFEM::final_integrate()
 {
-  for (std::size_t k = 0; k < node.size(); k += NODE) node[k + KICK] = 0.0;
   dt_last = update->dt;
-  half_energy(dt_last);
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (!alive(e)) continue;
+    Element &one = elements[e];
+    one.change = 0.5 * dt_last * (one.power - now[e].work) / one.mass;
+    one.e += one.change;
+  }
 }
 
 /* ----------------------------------------------------------------------

@@ -169,6 +169,7 @@ class FixHVIFEM :
   enum { STAYS, IS_FREE, IS_NO_MORE };           // FLAG
   struct Now {
     double p, c, kick;
+    double work;    // power of the last forces on the velocity before them
     double L[9], K[9];
     double sums[SUMS];
   };
@@ -180,6 +181,7 @@ class FixHVIFEM :
   double shortest;    // stable step
   bool going_on;      // all elements are as the last run has left them
   bool wraps;         // they may lie across periodic faces
+  double nearby;      // as far as there is no other image
 
   // of this rank, from the start on
 
@@ -210,6 +212,8 @@ class FixHVIFEM :
   void gather_sums();
   void advance(std::size_t first, int n, double dt, bool due);
   void show_states(bool all);
+  double with_pairs(const Now &, double felt[9]) const;
+  bool waits(std::size_t first, int n) const;
   void make_forces(double dt);
   void gather_forces();
   void element_forces(std::size_t first, int n, double dt);

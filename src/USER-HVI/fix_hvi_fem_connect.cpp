@@ -313,6 +313,15 @@ void FixHVIFEM::check_masses()
 
 void FixHVIFEM::check_state()
 {
+  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++)
+      if (is_node(atom->type[i]) && mirror.has(k) && atom->x[i][k] == mirror.at[k] &&
+          atom->v[i][k] != 0.0)
+        error->one(FLERR,
+                   "Fix hvi/fem: node {} is on the mirror plane {} and moves across it: set its "
+                   "velocity there to 0",
+                   atom->tag[i], "xyz"[k]);
   int here = 1, all;
   for (std::size_t e = 0; e < elements.size(); e++) {
     Element &one = elements[e];

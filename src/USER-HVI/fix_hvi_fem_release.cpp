@@ -32,6 +32,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using HVI::CORNERS;
@@ -74,6 +75,15 @@ void FixHVIFEM::post_neighbor()
         if (b[0] > 0.0) active[inside[k].e] = 1;
       });
 
+  // others have none of what comes from pairs, until they are active
+
+  now.assign(elements.size(), Now());
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (active[e]) continue;
+    elements[e].power = 0.0;
+    std::fill_n(elements[e].pair_force, 3 * CORNERS, 0.0);
+  }
+
   members.clear();
   std::vector<tagint> wanted;
   for (std::size_t e = 0; e < elements.size(); e++) {
@@ -112,15 +122,20 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
   for (std::size_t e = 0; e < elements.size(); e++) {
     if (place[e] < 0) continue;
     const Element &one = elements[e];
-    double y[3][CORNERS][3];
-    for (const int what : {X, V, W}) corners(e, what, y[what / 3]);
+    double y[CORNERS][RHO];    // x, v, w
+    for (int a = 0; a < CORNERS; a++) memcpy(y[a], at(e, a), RHO * sizeof(double));
+    if (wraps) {
+      double x[CORNERS][3];
+      corners(e, X, x);
+      for (int a = 0; a < CORNERS; a++) std::copy_n(x[a], 3, y[a]);
+    }
     const auto &weights = subcells[one.n];
     for (std::size_t p = 0; p < weights.size(); p++) {
       double *const row = &rows[PLACE * (place[e] + p)];
-      std::fill_n(row, 9, 0.0);
+      double sum[RHO] = {};
       for (int a = 0; a < CORNERS; a++)
-        for (int what = 0; what < 3; what++)
-          for (int k = 0; k < 3; k++) row[3 * what + k] += weights[p][a] * y[what][a][k];
+        for (int k = 0; k < RHO; k++) sum[k] += weights[p][a] * y[a][k];
+      memcpy(row, sum, sizeof(sum));
       row[RHO] = one.rho;
       row[FLAG] = !freed.empty() && freed[e] ? IS_FREE : (alive(e) ? STAYS : IS_NO_MORE);
       row[ESPH] = one.ahead * one.mass / one.particles();
@@ -131,7 +146,7 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
   particles.scatter(
       PLACE,
       [this](int k, double *b) {
-        std::copy_n(&rows[PLACE * k], +PLACE, b);
+        memcpy(b, &rows[PLACE * k], PLACE * sizeof(double));
       },
       [this, tell](int i, const double *b) {
         if (b[FLAG] == IS_NO_MORE) return;
