@@ -144,7 +144,10 @@ void FixHVIFEM::mark_particles()
       [this](int i, const double *b) {
         const int itype = b[0];
         if (atom->type[i] != itype)
-          error->one(FLERR, "Fix hvi/fem: particle {} in an element of type {} has type {}",
+          error->one(FLERR,
+                     "Fix hvi/fem: particle {} in an element of type {} has type {}: have IDs "
+                     "changed? Use "
+                     "delete_atoms with compress no",
                      atom->tag[i], itype, atom->type[i]);
         atom->mask[i] |= held | inner[itype];
       });
@@ -211,14 +214,15 @@ void FixHVIFEM::start_elements()
   // on mirror planes to the last digit
 
   const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
+  double here = HUGE_VAL, smallest;
+  for (const Element &one : elements) here = std::min(here, std::cbrt(one.V0));
+  MPI_Allreduce(&here, &smallest, 1, MPI_DOUBLE, MPI_MIN, world);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_node(atom->type[i])) continue;
-    const double size =
-        1.0e-6 * std::cbrt(rmass[i]);    // of nothing in particular: far below an element
     for (int k = 0; k < 3; k++) {
       if (!mirror.has(k)) continue;
       const double depth = mirror.depth(k, atom->x[i]);
-      if (std::fabs(depth) <= size)
+      if (std::fabs(depth) <= 1.0e-6 * smallest)
         atom->x[i][k] = mirror.at[k];
       else if (depth < 0.0)
         error->one(FLERR, "Fix hvi/fem: node {} is beyond the mirror plane {}", atom->tag[i],
@@ -356,6 +360,7 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
           for (int k = 0; k < 3; k++) row[3 * what + k] += weights[p][a] * y[what][a][k];
       row[RHO] = one.rho;
       row[ESPH] = one.ahead * one.mass / one.particles();
+      row[AHEAD] = one.change * one.mass / one.particles();
       row[FLAG] = !freed.empty() && freed[e] ? IS_FREE : (alive(e) ? STAYS : IS_NO_MORE);
     }
   }
@@ -379,10 +384,19 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         integrator->carry(i, b + W);
         if (tell && b[FLAG] == IS_FREE) {
           atom->mask[i] &= ~(held | inner[atom->type[i]]);
-          integrator->let_go(i);
+          integrator->let_go(i, b[AHEAD]);
           if (i < (int) store->fields.embedded.size()) store->fields.embedded[i] = 0;
         }
       });
+}
+
+// how many corners other elements have, too
+
+int FixHVIFEM::shared(std::size_t e) const
+{
+  int n = 0;
+  for (int a = 0; a < CORNERS; a++) n += at(e, a)[USERS] > 1.0;
+  return n;
 }
 
 /* ----------------------------------------------------------------------
@@ -396,9 +410,8 @@ FixHVIFEM::Reason FixHVIFEM::reason(std::size_t e) const
   if (options.spall && one.s.spalled != 0.0) return SPALL;
   if (options.strain > 0.0 && one.s.eps > options.strain) return STRAIN;
   if (one.stable < options.shrink * one.at_start) return STEP;
-  int shared = 0;
-  for (int a = 0; a < CORNERS; a++) shared += at(e, a)[USERS] > 1.0;
-  if (shared < 4) return ORPHAN;    // a face has four
+  const int others = shared(e);
+  if (others < 4 && others < one.shared) return ORPHAN;    // a face has four
   if (one.s.eps > 0.0 || one.s.failed()) {
     double x[CORNERS][3];
     corners(e, X, x);
@@ -440,6 +453,7 @@ void FixHVIFEM::release(std::vector<char> &freed)
     const double heat = 0.5 * (of_nodes - of_particles);
     one.e += heat;
     one.ahead += heat;
+    model(one).present(one.s, input(one));    // what forces see of it in this step
     count[why] += 1.0;
     count[HEAT] += one.mass * heat;
     count[HOURGLASS] += one.hourglass;
@@ -450,7 +464,7 @@ void FixHVIFEM::release(std::vector<char> &freed)
     return;
   }
   total -= all[FREED];
-  if (all[REBUILD]) next_reneighbor = update->ntimestep;
+  if (all[FREED]) next_reneighbor = update->ntimestep;
   if (all[STATES]) show_states(true);
   let_go(freed);
 }
