@@ -81,18 +81,15 @@ class Run:
                           walls=tuple(walls), spacings_mm=(float(s["dx"]),), shifts=(float(s["shift"]),), not_modelled=(outside,) if outside else ())
 
     def outside(self):
-        """what the shield has and the model has not, None: nothing; a run by hand says it in its reasons only"""
-        if self.job.get("variables"):
-            return self.job["variables"].get("outside")
-        found = (re.match(r"the shield has (.*), which is not modelled ", text, re.S) for text in texts(self.result, "reasons"))
-        return next((one[1] for one in found if one), None)
+        """what the shield has and the model has not, "": nothing"""
+        return str(self.settings["outside"]).strip()
 
     def words(self):
         """variables as they are typed after lmp -in in.whipple, by name: those that the run was given, or all that the plan knows"""
         given = self.job.get("variables")
         if given:
             return {name: runs.words(value) for name, value in given.items()}
-        found = {name: [str(value)] for name, value in self.settings.items() if name not in ("quarter", "probes", "keep", "film")}
+        found = {name: [str(value)] for name, value in self.settings.items() if name not in ("quarter", "probes", "keep", "film", "plate", "outside")}
         number = range(1, self.walls + 1)
         found["material_p"] = [self.materials[0]]
         found["material"] = self.materials[1:]
@@ -100,6 +97,8 @@ class Run:
             found[name] = [f"{self.of_wall(k, what):g}" for k in number]
         found["gap"] = ["0"] + [f"{self.faces(k)[0] - self.faces(k - 1)[1]:g}" for k in number if k > 1]
         found.update({name: [str(self.settings[name])] for name in ("quarter", "probes")})
+        if self.settings["plate"]:
+            found["plate"] = str(self.settings["plate"]).split()
         return {**found, "outside": [self.outside()]} if self.outside() else found
 
     def dumps(self):

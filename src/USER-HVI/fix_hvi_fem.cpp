@@ -46,6 +46,7 @@ FixHVIFEM::~FixHVIFEM()
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(head);
   memory->destroy(users);
+  memory->destroy(array_local);
   if (FixHVIStore *const now = FixHVIStore::find(lmp)) now->embedded = 0;
 }
 
@@ -162,6 +163,7 @@ void FixHVIFEM::setup(int /*vflag*/)
 {
   find_probes();
   show_particles();
+  if (every > 0) list_elements();
   going_on = false;    // from now on forces are made anew
 }
 
@@ -226,7 +228,9 @@ void FixHVIFEM::final_integrate()
 
 void FixHVIFEM::end_of_step()
 {
-  if (update->ntimestep == output->next || update->ntimestep == update->laststep) show_particles();
+  const bool due = update->ntimestep == output->next || update->ntimestep == update->laststep;
+  if (due) show_particles();
+  if (every > 0 && (due || update->ntimestep % every == 0)) list_elements();
 }
 
 void FixHVIFEM::show_particles()
@@ -358,8 +362,11 @@ double FixHVIFEM::compute_vector(int k)
   return sum;
 }
 
+// all ranks ask for it; what a run has left is of its last step
+
 double FixHVIFEM::compute_array(int i, int k)
 {
+  if (update->whichflag && probed != update->ntimestep) read_probes();
   return probes[i].value[k];
 }
 
@@ -397,7 +404,17 @@ void FixHVIFEM::find_probes()
 
 void FixHVIFEM::read_probes()
 {
-  if (probes.empty()) return;
+  if (probes.empty() || now.size() != elements.size()) return;
+  probed = update->ntimestep;
+  std::vector<double> v(3 * nodes.size());    // in pairs' and forces' table is another until output
+  nodes.gather(
+      3,
+      [this](int i, double *b) {
+        std::copy_n(atom->v[i], 3, b);
+      },
+      [&v](int k, const double *b) {
+        std::copy_n(b, 3, &v[3 * k]);
+      });
   std::vector<double> here(Probe::NVALUE * probes.size(), 0.0), all(here.size());
   for (std::size_t e = 0; e < elements.size(); e++) {
     if (!alive(e)) continue;
@@ -411,10 +428,40 @@ void FixHVIFEM::read_probes()
       std::copy_n(stress, 7, value);
       value[7] = HVI::von_mises(S);
       for (int a = 0; a < CORNERS; a++)
-        for (int k = 0; k < 3; k++) value[8 + k] += at(e, a)[W + k] / CORNERS;
+        for (int k = 0; k < 3; k++) value[8 + k] += v[3 * corner[CORNERS * e + a] + k] / CORNERS;
     }
   }
   MPI_Allreduce(here.data(), all.data(), here.size(), MPI_DOUBLE, MPI_SUM, world);
   for (std::size_t n = 0; n < probes.size(); n++)
     std::copy_n(&all[Probe::NVALUE * n], +Probe::NVALUE, probes[n].value);
+}
+
+/* ----------------------------------------------------------------------
+   Elements of this rank for dump local and compute reduce: ID, type, center, pressure, stress, von Mises
+   stress, plastic strain, damage, energy per mass, particles per edge
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::list_elements()
+{
+  size_local_rows = std::count_if(elements.begin(), elements.end(), [](const Element &one) {
+    return one.type > 0;
+  });
+  memory->destroy(array_local);
+  memory->create(array_local, size_local_rows, NCOLUMN, "hvi/fem:local");
+  int row = 0;
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (!alive(e)) continue;
+    const Element &one = elements[e];
+    const HVI::Deviator &S = one.s.S;
+    double x[CORNERS][3], center[3] = {};
+    corners(e, X, x);
+    for (const auto &corner_x : x)
+      for (int k = 0; k < 3; k++) center[k] += corner_x[k] / CORNERS;
+    const double p = now[e].p;
+    const double list[NCOLUMN] = {
+        (double) one.id,   (double) one.type, center[0],    center[1], center[2],     p,
+        S.xx - p,          S.yy - p,          S.zz - p,     S.xy,      S.xz,          S.yz,
+        HVI::von_mises(S), one.s.eps,         one.s.damage, one.e,     (double) one.n};
+    std::copy_n(list, +NCOLUMN, array_local[row++]);
+  }
 }

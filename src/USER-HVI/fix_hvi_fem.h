@@ -122,9 +122,13 @@ class FixHVIFEM :
 
   std::vector<char> nodal;    // by type
   std::vector<Probe> probes;
-  bigint announced;          // number of elements in the header of a data file
-  bigint total;              // of elements of all ranks; -1: to be counted
-  int held;                  // bit of the group of particles in elements
+  bigint announced;                     // number of elements in the header of a data file
+  std::int64_t id_before;               // largest ID of elements of others that were read before it
+  bigint probed;                        // step that values of probes are of
+  int every;                            // steps between lists of elements for local output; 0: none
+  static constexpr int NCOLUMN = 17;    // of those
+  bigint total;                         // of elements of all ranks; -1: to be counted
+  int held;                             // bit of the group of particles in elements
   std::vector<int> inner;    // by type: that of those left out of lists; 0: there are none
 
   class FixHVIStore *store;
@@ -204,11 +208,13 @@ class FixHVIFEM :
   void gather_forces();
   void element_forces(std::size_t first, int n, double dt);
   void bring_forces();
+  int shared(std::size_t) const;
   Reason reason(std::size_t) const;
   void release(std::vector<char> &freed);
   void let_go(const std::vector<char> &freed);
   void find_probes();
   void read_probes();
+  void list_elements();
   bool alive(std::size_t e) const { return elements[e].type > 0; }
   const HVI::SolidModel &model(const Element &) const;
   HVI::SolidInput input(const Element &) const;

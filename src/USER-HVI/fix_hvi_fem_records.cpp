@@ -159,12 +159,16 @@ void FixHVIFEM::restart(char *buf)
 /* ----------------------------------------------------------------------
    Data files: "N elements" in the header; the section Elements, of those that are left; and as many more
    sections as their state needs, with what restart files have, too.  Their titles end with numbers.
+   IDs of elements of a further file come after those that are there.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::read_data_header(char *line)
 {
   announced = utils::bnumeric(FLERR, utils::split_words(line)[0], false, lmp);
   if (announced < 1) error->all(FLERR, "Fix hvi/fem: no elements in the header of the data file");
+  std::int64_t here = 0;
+  for (const Element &one : elements) here = std::max(here, one.id);
+  MPI_Allreduce(&here, &id_before, 1, MPI_INT64_T, MPI_MAX, world);
 }
 
 void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset)
@@ -185,7 +189,7 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
       if ((int) values.count() != ncolumn + 1)
         throw TokenizerException("it has another number of columns", "");
       Element one = {};
-      one.id = values.next_bigint();
+      one.id = values.next_bigint() + id_before;
       if (state) {
         const auto found = where.find(one.id);
         if (found == where.end()) continue;    // of another rank

@@ -211,14 +211,15 @@ void FixHVIFEM::start_elements()
   // on mirror planes to the last digit
 
   const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
+  double here = HUGE_VAL, smallest;
+  for (const Element &one : elements) here = std::min(here, std::cbrt(one.V0));
+  MPI_Allreduce(&here, &smallest, 1, MPI_DOUBLE, MPI_MIN, world);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_node(atom->type[i])) continue;
-    const double size =
-        1.0e-6 * std::cbrt(rmass[i]);    // of nothing in particular: far below an element
     for (int k = 0; k < 3; k++) {
       if (!mirror.has(k)) continue;
       const double depth = mirror.depth(k, atom->x[i]);
-      if (std::fabs(depth) <= size)
+      if (std::fabs(depth) <= 1.0e-6 * smallest)
         atom->x[i][k] = mirror.at[k];
       else if (depth < 0.0)
         error->one(FLERR, "Fix hvi/fem: node {} is beyond the mirror plane {}", atom->tag[i],
@@ -385,6 +386,15 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
       });
 }
 
+// how many corners other elements have, too
+
+int FixHVIFEM::shared(std::size_t e) const
+{
+  int n = 0;
+  for (int a = 0; a < CORNERS; a++) n += at(e, a)[USERS] > 1.0;
+  return n;
+}
+
 /* ----------------------------------------------------------------------
    Why an element becomes particles: the material has failed, or the element's shape
 ------------------------------------------------------------------------- */
@@ -396,9 +406,8 @@ FixHVIFEM::Reason FixHVIFEM::reason(std::size_t e) const
   if (options.spall && one.s.spalled != 0.0) return SPALL;
   if (options.strain > 0.0 && one.s.eps > options.strain) return STRAIN;
   if (one.stable < options.shrink * one.at_start) return STEP;
-  int shared = 0;
-  for (int a = 0; a < CORNERS; a++) shared += at(e, a)[USERS] > 1.0;
-  if (shared < 4) return ORPHAN;    // a face has four
+  const int others = shared(e);
+  if (others < 4 && others < one.shared) return ORPHAN;    // a face has four
   if (one.s.eps > 0.0 || one.s.failed()) {
     double x[CORNERS][3];
     corners(e, X, x);
@@ -440,6 +449,7 @@ void FixHVIFEM::release(std::vector<char> &freed)
     const double heat = 0.5 * (of_nodes - of_particles);
     one.e += heat;
     one.ahead += heat;
+    model(one).present(one.s, input(one));    // what forces see of it in this step
     count[why] += 1.0;
     count[HEAT] += one.mass * heat;
     count[HOURGLASS] += one.hourglass;

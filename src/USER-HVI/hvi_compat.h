@@ -9,10 +9,13 @@
 #ifndef LMP_HVI_COMPAT_H
 #define LMP_HVI_COMPAT_H
 
-// the only file that knows which LAMMPS version it is compiled against
+// this and hvi_compat.cpp are the only files that know which LAMMPS version they are compiled against
 
 #include "domain.h"
 #include "pointers.h"
+
+#include <string>
+#include <vector>
 
 namespace HVI {
 
@@ -31,6 +34,16 @@ auto minimum_image(D *domain, double &dx, double &dy, double &dz)
 {
   domain->minimum_image(dx, dy, dz);
 }
+
+// all variables of an input, in LAMMPS's order
+
+struct VariableText {
+  std::string name, style;
+  std::vector<std::string>
+      values;    // index: those not yet used up; string, equal: the text; else none
+};
+
+std::vector<VariableText> variable_list(LAMMPS_NS::LAMMPS *);
 
 }    // namespace HVI
 

@@ -34,6 +34,7 @@ struct Element {
   double e, ahead, change;    // energy per mass; of the end of a step, and half of the change in it
   double q;                   // bulk viscosity
   double hourglass;           // energy that has gone into hourglass forces
+  double shared;              // corners that others had, too, at the start
   double stable, at_start;    // step that it bears, now and at the start
   double power;    // of pairs of its particles: what they gain and what forces on them work
   double pair_force[3 * CORNERS];    // of those, on nodes
@@ -41,7 +42,7 @@ struct Element {
   double Q[12];                      // hourglass stiffness, see hex_hourglass()
   SolidState s;
 
-  static constexpr int SIZE = IDS + 1 + 12 + 6 * CORNERS + 12 + sizeof(SolidState) / sizeof(double);
+  static constexpr int SIZE = IDS + 1 + 13 + 6 * CORNERS + 12 + sizeof(SolidState) / sizeof(double);
   int particles() const { return n * n * n; }
 };
 

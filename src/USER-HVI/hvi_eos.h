@@ -57,7 +57,7 @@ class Eos {
 
 template <class Law> class EosModel final : public Eos {
  public:
-  explicit EosModel(const Law &law) : law(law), csq_min(std::max(1e-6 * law.c0 * law.c0, 1e-300)) {}
+  explicit EosModel(const Law &law) : law(law), csq_min(std::max(1e-6 * law.c0 * law.c0, 1e-200)) {}
 
   const char *name() const override { return law.name; }
   double rho0() const override { return law.rho0; }

@@ -14,7 +14,6 @@
 
 #include "comm.h"
 #include "error.h"
-#include "hvi_variable_list.h"
 #include "input.h"
 #include "variable.h"
 
@@ -77,46 +76,19 @@ HVI::VariableText HVIRecall::index_variable(const std::string &name) const
   return {};
 }
 
-/* ----------------------------------------------------------------------
-   LAMMPS tells values of a list one by one only: one of several is gone through,
-   which removes it, and made again, now the last of all variables.  Whoever keeps
-   places of variables from an init() is wrong then.
-------------------------------------------------------------------------- */
-
-std::vector<std::string> HVIRecall::values(const HVI::VariableText &variable) const
-{
-  const std::string &name = variable.name;
-  std::string copy = name;
-  char *arg = &copy[0];
-  std::vector<std::string> list = {input->variable->retrieve(arg)};
-  if (list[0] == variable.value) return list;
-  list.clear();
-  do list.emplace_back(input->variable->retrieve(arg));
-  while (input->variable->next(1, &arg) == 0);
-  define(name, list);
-  return list;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void HVIRecall::define(const std::string &name, const std::vector<std::string> &list) const
-{
-  std::vector<std::string> words = {name, "index"};
-  words.insert(words.end(), list.begin(), list.end());
-  std::vector<char *> arg;
-  for (auto &word : words) arg.push_back(&word[0]);
-  input->variable->set(static_cast<int>(arg.size()), arg.data());
-}
-
 /* ---------------------------------------------------------------------- */
 
 void HVIRecall::recall(const std::string &name, const std::vector<std::string> &was) const
 {
   if (input->variable->find(name.c_str()) < 0) {
-    define(name, was);
+    std::vector<std::string> words = {name, "index"};
+    words.insert(words.end(), was.begin(), was.end());
+    std::vector<char *> arg;
+    for (auto &word : words) arg.push_back(&word[0]);
+    input->variable->set(static_cast<int>(arg.size()), arg.data());
     return;
   }
-  const auto now = values(index_variable(name));
+  const auto now = index_variable(name).values;
   if (now != was)
     error->all(FLERR,
                "This run cannot be gone on with, for a variable has changed: {} was '{}', and is "
@@ -132,7 +104,7 @@ std::string HVIRecall::given(const std::vector<std::string> &except) const
   for (const auto &variable : HVI::variable_list(lmp)) {
     if (variable.style != "index" || is_in(except, variable.name)) continue;
     text += "hvi/recall variable " + variable.name;
-    for (const auto &value : values(variable)) text += " " + quoted(value);
+    for (const auto &value : variable.values) text += " " + quoted(value);
     text += "\n";
   }
   return text;
@@ -148,10 +120,10 @@ std::string HVIRecall::state(const std::vector<std::string> &except) const
     if (is_in(except, name)) continue;
     if (variable.style == "index") {
       text += "variable " + name + " delete\nvariable " + name + " index";
-      for (const auto &value : values(variable)) text += " " + quoted(value);
+      for (const auto &value : variable.values) text += " " + quoted(value);
       text += "\n";
     } else if (variable.style == "string" || variable.style == "equal") {
-      text += "variable " + name + " " + variable.style + " " + quoted(variable.value) + "\n";
+      text += "variable " + name + " " + variable.style + " " + quoted(variable.values[0]) + "\n";
     }
   }
   return text;

@@ -16,7 +16,7 @@ CommandStyle(hvi/recall,HVIRecall);
 #define LMP_HVI_RECALL_H
 
 #include "command.h"
-#include "hvi_variable_list.h"
+#include "hvi_compat.h"
 
 #include <string>
 #include <vector>
@@ -35,8 +35,6 @@ class HVIRecall : public Command {
 
  private:
   HVI::VariableText index_variable(const std::string &) const;
-  std::vector<std::string> values(const HVI::VariableText &) const;    // those not yet used up
-  void define(const std::string &, const std::vector<std::string> &) const;
   void recall(const std::string &, const std::vector<std::string> &) const;
   std::string given(const std::vector<std::string> &) const;
   std::string state(const std::vector<std::string> &) const;

@@ -13,7 +13,7 @@
 #include "hvi_variables.h"
 
 #include "error.h"
-#include "hvi_variable_list.h"
+#include "hvi_compat.h"
 #include "input.h"
 #include "variable.h"
 

@@ -33,14 +33,15 @@ def write_dump(path, step, time, rows):
     path.write_text(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{n}\nITEM: BOX BOUNDS ff ff ff\n-0.001 0.02\n-0.001 0.02\n-0.02 0.05\nITEM: ATOMS {COLUMNS}\n{body}\n")
 
 
-def make_run(folder, dx, shift=0.0, verdict="fails", material="Al6061-T6.hvi", film=False, reason="wall 2 is perforated by a hole of 3 mm"):
+def make_run(folder, dx, shift=0.0, verdict="fails", material="Al6061-T6.hvi", film=False, reason="wall 2 is perforated by a hole of 3 mm", outside=""):
     """what in.whipple leaves of two walls, 6 mm apart"""
     folder.mkdir(parents=True)
     plan = {"projectile_particles": 8, "projectile_across": 4.0}
     for k, front in ((1, 0.0), (2, 7.0)):
         plan.update({f"wall{k}_{what}": value for what, value in (("particles", 100), ("layers", 1), ("radius_mm", 8.0), ("middle_mm", 0.0), ("struck_at_mm", 0.0),
                                                                   ("front_mm", front), ("thickness_mm", 1.0), ("spacing_mm", dx))})
-    settings = {"dx": dx, "v0": 6000, "D": 3, "angle": 0, "walls": 2, "zones": 1, "quarter": "yes", "shift": shift, "solid": "damage no spall voids", "keep": 0, "film": 0, "probes": "no"}
+    settings = {"dx": dx, "v0": 6000, "D": 3, "angle": 0, "walls": 2, "zones": 1, "quarter": "yes", "shift": shift, "solid": "damage no spall voids", "keep": 0, "film": 0, "probes": "no",
+                "plate": "plain plate.data" if outside else "", "outside": outside}
     (folder / "plan.yaml").write_text(yaml.safe_dump({**plan, "materials": f"Al2017-T4.hvi; {material}; Al6061-T6.hvi", "settings": settings}))
     result = {"verdict": verdict, "reasons": [reason], "decided_by": "wall2", "margins": {"hole_mm": 3.0, "layers": 3}, "walls": 2, "walls_reached": 2, "zones": 1,
               "energy_ratio": 0.9999, "momentum_error": 1e-15, "ranks": 1, "core_s": 4.0, "particles": 99, "lammps_version": 20250204}
@@ -141,12 +142,12 @@ def test_report_of_one_run(tmp_path, capsys):
 
 
 def test_report_of_a_run_by_hand(tmp_path, capsys):
-    """what is not modelled is in its reasons only, and in the command to repeat it; equations say nothing of it"""
-    make_run(tmp_path / "one", 1.0, verdict="undecided", reason="the shield has MLI, of 20 layers, which is not modelled (as stuffing, MLI and honeycomb are not) -- test it")
+    """what is not modelled, and plates from files, are in the command to repeat it; equations say nothing of the former"""
+    make_run(tmp_path / "one", 1.0, verdict="undecided", outside="MLI, of 20 layers")
     (tmp_path / "one/job.yaml").unlink()
     assert cli.main(["report", str(tmp_path / "one"), "--out", "a.html"]) == 0
     words = "".join(Seen((tmp_path / "a.html").read_text()).text)
-    assert "-var outside 'MLI, of 20 layers'" in words and "It was run by hand" in words
+    assert "-var outside 'MLI, of 20 layers'" in words and "-var plate plain plate.data" in words and "It was run by hand" in words
     assert "do not have what one names in not_modelled: MLI, of 20 layers" in words and "JSC Whipple 2011" not in words
 
 

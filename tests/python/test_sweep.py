@@ -221,3 +221,21 @@ def test_debris_cloud_in_a_sweep(sweep, root, folder):
     assert 0.5 < float(row["axial_velocity_ratio_displacement"]) < 1.5
     assert float(row["displacement_from_us"]) == pytest.approx(1.125, abs=0.1)
     assert not list(folder.glob("runs/tiny/*/*.dump"))
+
+
+def test_plan_of_the_debris_cloud(lmp, root, tmp_path):
+    """what is planned is what is run; a dry run stops there; lines say what is still to go"""
+    path, case = root / "examples/debris-cloud/in.debris", {"N": 2000, "tstop": 4, "out": tmp_path}
+    r = lmp(path, vars={**case, "dry": "yes"})
+    plan = yaml.safe_load((tmp_path / "plan.yaml").read_text())
+    assert "This was the plan" in r.log and plan["seconds"] > 0 and [p.name for p in tmp_path.glob("*.yaml")] == ["plan.yaml"]
+    assert not list(tmp_path.glob("*.dump")) + list(tmp_path.glob("debris.*"))
+    r = lmp(path, vars=case)
+    result = yaml.safe_load((tmp_path / "result.yaml").read_text())
+    for key in ("particles", "plate_layers", "spacing_mm"):
+        assert result[key] == plan[key]
+    assert result["steps"] == pytest.approx(plan["steps"], rel=0.4) and plan["tstop_us"] == 4
+    assert sum(p.stat().st_size for p in (*tmp_path.glob("debris.*"), tmp_path / "bonds.dump")) == pytest.approx(1e6 * plan["disk_MB"], rel=0.3)
+    togo = r.runs[0]["v_togo"]
+    assert (togo[1:] > 0).all() and togo[-1] < 0.7 * togo[1:].max()
+    assert "dry must be yes or no, not perhaps" in lmp(path, vars={**case, "dry": "perhaps"}, expect_fail=True).stdout

@@ -71,3 +71,24 @@ def test_clamps_forgotten(lmp):
     text = scene(s, "s.data") + "group held id 1:9\n" + ledger("clamps held") + "uncompute book\n" + ledger()
     book = books(lmp(text + "fix nve all nve\nfix c held setforce 0 0 0\ntimestep 1e-3\nrun 50\n").thermo)
     assert np.all(book["clamps"] == 0) and np.all(book["jx"] == 0)
+
+
+def test_gas_without_energy(lmp):
+    """stays where it is: its speed of sound, not quite zero, has a square with an inverse on any scale of length"""
+    r = lmp("""units si
+atom_style sph
+lattice sc 1e-4
+region b block 0 6 0 6 0 6
+create_box 1 b
+create_atoms 1 box
+mass 1 1e-12
+set group all sph/rho 1
+pair_style hvi/sph cubic dissipation riemann
+pair_coeff 1 1 eos idealgas 1.4 h 1.2e-4
+fix move all hvi/sph
+fix step all hvi/dt 0.2 max 1e-3
+neighbor 1e-5 bin
+run 3
+write_dump all custom end vx vy vz modify format float %.17g
+""")
+    assert not np.loadtxt(r.cwd / "end", skiprows=9).any()

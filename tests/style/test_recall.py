@@ -44,6 +44,9 @@ variable lines string {Q}first
 variable sum equal "v_dx + 0.25*count(all)"
 variable number equal 0.1
 variable cost atom vx
+variable start timer
+variable gone equal 1
+variable gone delete
 variable k loop 3
 """
 TELL = f"print {Q}${{text}}; ${{quote}}; ${{sum}}; ${{number}}; $(v_number:%.17g); ${{frame}}{Q}\nprint {Q}${{lines}}{Q}\n"
@@ -57,8 +60,8 @@ def told(result):
 
 
 def test_in_the_middle_of_a_run(lmp):
-    """variables of one value stay in their places, which thermo output knows them by"""
-    r = lmp("variable z index 'one value'\nvariable a equal 5\nvariable b equal 7\n" + BOX + """mass 1 1
+    """variables stay in their places, which thermo output knows them by: lists too"""
+    r = lmp("variable z index 'one value' another\nvariable a equal 5\nvariable b equal 7\n" + BOX + """mass 1 1
 thermo_style custom step v_a v_b
 thermo 4
 run 0

@@ -123,6 +123,8 @@ def test_lists_of_walls(shield, root, tmp_path):
                tstop=2.7, edge="absorb", rim=1.2, probes="yes", probe_at=[3, 5], behind=10)
     assert r["walls_reached"] == 3
     assert abs(r["energy_ratio"] - 1) < 1e-3 and r["momentum_error"] < 1e-10 and abs(r["mass_error"]) < 1e-10
+    settings = yaml.safe_load((tmp_path / "run" / "plan.yaml").read_text())["settings"]
+    assert settings["plate"].split() == ["plain", str(tmp_path / "turned.data"), "plain"] and settings["outside"] == ""
     table = np.loadtxt(tmp_path / "run" / "probe2_3.dat")
     assert table.shape[1] == 4 and table[-1, 1] > table[0, 1] and table[:, 2].max() > 1e6
 
@@ -236,10 +238,11 @@ def test_still_pushed(shield):
 
 
 @pytest.mark.parametrize("text", ["MLI", "a 'blanket': 20 layers # of \"MLI\", - {1}: [2"])
-def test_outside_the_model(shield, text):
-    """any text is one in YAML, too"""
+def test_outside_the_model(shield, tmp_path, text):
+    """any text is one in YAML, too: in the result and in the plan"""
     r = shield(**COARSE, walls=1, v0=1500, t1=8, radius1=8, tstop=7, outside=text)
     undecided(r, f"the shield has {text}, which is not modelled")
+    assert yaml.safe_load((tmp_path / "run" / "plan.yaml").read_text())["settings"]["outside"].strip() == text
 
 
 @pytest.mark.parametrize("tstop, least, most", [(9, 0.03, 0.05), (11, 0.01, 0.03)])
