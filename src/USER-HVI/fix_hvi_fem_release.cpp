@@ -356,8 +356,9 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         for (int what = 0; what < 3; what++)
           for (int k = 0; k < 3; k++) row[3 * what + k] += weights[p][a] * y[what][a][k];
       row[RHO] = one.rho;
-      row[ESPH] = one.ahead * one.mass / one.particles();
       row[FLAG] = !freed.empty() && freed[e] ? IS_FREE : (alive(e) ? STAYS : IS_NO_MORE);
+      // who leaves gets its second half of the step from fix hvi/sph
+      row[ESPH] = (row[FLAG] == IS_FREE ? one.e : one.ahead) * one.mass / one.particles();
     }
   }
   const bool tell = !freed.empty();
