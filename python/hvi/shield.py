@@ -83,7 +83,8 @@ def lacking(solid, ball, walls):
 def as_key(text):
     """remedies of in.whipple, -var NAME VALUE, as keys of the case"""
     value = r"(\d+(?:\.\d+)?)"
-    for old, new in ((rf"-var dx {value}", r"spacings_mm of \1"), (r"-var dx\b", "spacings_mm"),
+    for old, new in ((r"a mesh that holds particles farther out \(hvi mesh --hold\)", "a larger hold_mm"), (r"core of particles \(hvi mesh --core\)", "core_mm"),
+                     (rf"-var dx {value}", r"spacings_mm of \1"), (r"-var dx\b", "spacings_mm"),
                      (rf"-var radius\d? {value}", r"radius_mm of \1"), (rf"-var (\w+) {value}", r"settings: {\1: \2}"), (r"-var (\w+)", r"settings: \1")):
         text = re.sub(old, new, text)
     return text

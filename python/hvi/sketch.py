@@ -47,7 +47,7 @@ def draw(case, plan):
         axes.plot([front, front], inside, color="#c8373a", lw=2, solid_capstyle="butt", label="struck" if k == 1 else None)
         axes.plot([0.5 * (front + rear)], [spot], "x", color="black", ms=5, label="struck by the shot itself" if k == 1 else None)
         axes.annotate(f"wall {k}: {wall.thickness_mm:g} mm\n{_name(wall.material)}" + ("\ncloud passes beside" if missed else ""),
-                      (0.5 * (front + rear), middle + r), (0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=7,
+                      (0.5 * (front + rear), middle + wide[k - 1]), (0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=7,
                       color="#c8373a" if missed else "black")
         if k > 1:
             before, y = places[k - 2][1], low - 0.06 * (high - low)
@@ -60,7 +60,7 @@ def draw(case, plan):
     axes.set(aspect="equal", xlim=(left, stop), ylim=(low - 0.14 * (high - low), high + 0.16 * (high - low)), xlabel="z (mm)", ylabel="x (mm)")
     axes.spines[["top", "right"]].set_visible(False)
     axes.set_title(f"{case.name}, to scale", fontsize=9)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=4, fontsize=7, frameon=False)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2 if case.method() else 4, fontsize=7, frameon=False)
     return figure
 
 
