@@ -47,6 +47,7 @@ FixHVIFEM::~FixHVIFEM()
   memory->destroy(head);
   memory->destroy(users);
   memory->destroy(array_local);
+  unmark_particles();
   if (FixHVIStore *const now = FixHVIStore::find(lmp)) now->embedded = 0;
 }
 
@@ -93,7 +94,7 @@ void FixHVIFEM::init()
   const bigint here = elements.size();
   bigint all;
   MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all == 0 && total <= 0)
+  if (all == 0 && total < 0)
     error->all(FLERR, "Fix hvi/fem has no elements: use read_data FILE fix {} elements Elements",
                id);
   if (total < 0) total = all;
@@ -101,8 +102,7 @@ void FixHVIFEM::init()
 }
 
 /* ----------------------------------------------------------------------
-   Lists leave out pairs of particles that are both inside of elements of one body, unless these are
-   about to fail
+   Lists leave out pairs of particles that are both inside of elements of one body
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::make_groups()
@@ -132,15 +132,24 @@ void FixHVIFEM::setup_pre_exchange()
   atom->map_set();
   mark_particles();
   start_elements();
+  gather_start();
+  check_state();
+  if (!going_on) place_particles({});
 }
 
 void FixHVIFEM::setup_pre_neighbor()
 {
   connect();
-  gather_nodes();
-  check_state();
-  if (!going_on) place_particles({});
+  gather_start();
   comm->forward_comm();
+}
+
+// there is no other velocity yet
+
+void FixHVIFEM::gather_start()
+{
+  gather_nodes();
+  for (std::size_t k = 0; k < node.size(); k += NODE) std::copy_n(&node[k + V], 3, &node[k + W]);
 }
 
 /* ----------------------------------------------------------------------

@@ -152,7 +152,6 @@ class FixHVIFEM :
   std::vector<Member> members;        // by slot of near
   std::vector<int> corner, place;     // by element: CORNERS nodes; first particle, -1: none
   std::vector<char> active;           // by element: particles act on some of its own
-  std::vector<char> listed;           // its particles are in lists with all that are near
   std::vector<int> flags;             // by particle, while lists are looked at
 
   // of a step
@@ -166,8 +165,8 @@ class FixHVIFEM :
     NODE
   };    // of a node: V of the middle of a step, W of its end
   enum { L = 0, M = 9, TRACE = 15, CONTACT = 16, SUMS = 22 };
-  enum { RHO = 9, ESPH, FLAG, PLACE };    // of a particle, after X, V, W
-  enum { STAYS, IS_FREE, IS_NO_MORE };    // FLAG
+  enum { RHO = 9, ESPH, AHEAD, FLAG, PLACE };    // of a particle, after X, V, W
+  enum { STAYS, IS_FREE, IS_NO_MORE };           // FLAG
   struct Now {
     double p, c, kick;
     double L[9], K[9];
@@ -193,8 +192,15 @@ class FixHVIFEM :
   void link();
   void connect();
   void start_elements();
+  void ids_have_changed(tagint) const;
   void mark_particles();
+  void unmark_particles();
+  void check_group(int) const;
+  void check_masses();
+  bool left_over(int) const;
+  void gather_start();
   void check_state();
+  bool strayed();
   std::uint64_t fingerprint(std::size_t) const;
   void gather_nodes();
   void half_energy(double dt);

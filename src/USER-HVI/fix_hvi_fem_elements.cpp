@@ -259,10 +259,10 @@ void FixHVIFEM::advance(std::size_t first, int n, double dt, bool due)
     if (!alive(first + lane)) continue;
     elements[first + lane].q = q[lane];
     elements[first + lane].stable = stable[lane];
+    if (!(stable[lane] >= shortest)) shortest = stable[lane];
     if (elements[first + lane].at_start > 0.0) continue;
     elements[first + lane].at_start = stable[lane];
     elements[first + lane].shared = shared(first + lane);
-    if (!(stable[lane] >= shortest)) shortest = stable[lane];
   }
 }
 
