@@ -235,6 +235,15 @@ void FixHVIFEM::start_elements()
 
 void FixHVIFEM::check_state()
 {
+  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++)
+      if (is_node(atom->type[i]) && mirror.has(k) && atom->x[i][k] == mirror.at[k] &&
+          atom->v[i][k] != 0.0)
+        error->one(FLERR,
+                   "Fix hvi/fem: node {} is on the mirror plane {} and moves across it: set its "
+                   "velocity there to 0",
+                   atom->tag[i], "xyz"[k]);
   int here = 1, all;
   for (std::size_t k = 0; k < node.size(); k += NODE)
     std::copy_n(&node[k + V], 3, &node[k + W]);    // there is no other velocity yet
