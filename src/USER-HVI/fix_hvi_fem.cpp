@@ -394,8 +394,8 @@ double FixHVIFEM::compute_array(int i, int k)
 }
 
 /* ----------------------------------------------------------------------
-   Probes: the element whose center was nearest at the start of the first run; when it has become
-   particles, nothing
+   Probes: the element whose center was nearest at the start of the first run: pressure, stress, von Mises
+   stress, velocity and center; when it has become particles, 0
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::find_probes()
@@ -429,7 +429,7 @@ void FixHVIFEM::read_probes()
 {
   if (probes.empty() || now.size() != elements.size()) return;
   probed = update->ntimestep;
-  std::vector<double> v(3 * nodes.size());    // in pairs' and forces' table is another until output
+  std::vector<double> v(3 * nodes.size());    // that of the table is extrapolated until output
   nodes.gather(
       3,
       [this](int i, double *b) {
@@ -450,8 +450,13 @@ void FixHVIFEM::read_probes()
       const double stress[7] = {p, S.xx - p, S.yy - p, S.zz - p, S.xy, S.xz, S.yz};
       std::copy_n(stress, 7, value);
       value[7] = HVI::von_mises(S);
+      double x[CORNERS][3];
+      corners(e, X, x);
       for (int a = 0; a < CORNERS; a++)
-        for (int k = 0; k < 3; k++) value[8 + k] += v[3 * corner[CORNERS * e + a] + k] / CORNERS;
+        for (int k = 0; k < 3; k++) {
+          value[8 + k] += v[3 * corner[CORNERS * e + a] + k] / CORNERS;
+          value[11 + k] += x[a][k] / CORNERS;
+        }
     }
   }
   MPI_Allreduce(here.data(), all.data(), here.size(), MPI_DOUBLE, MPI_SUM, world);

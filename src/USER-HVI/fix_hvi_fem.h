@@ -115,7 +115,7 @@ class FixHVIFEM :
 
   struct Probe {
     double x[3];
-    static constexpr int NVALUE = 11;
+    static constexpr int NVALUE = 14;
     double value[NVALUE];
     std::int64_t id;    // of the element; 0: not known yet
   };
