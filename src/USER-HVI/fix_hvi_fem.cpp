@@ -101,8 +101,7 @@ void FixHVIFEM::init()
 }
 
 /* ----------------------------------------------------------------------
-   Lists leave out pairs of particles that are both inside of elements of one body, unless these are
-   about to fail
+   Lists leave out pairs of particles that are both inside of elements of one body
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::make_groups()

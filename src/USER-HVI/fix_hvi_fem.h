@@ -152,7 +152,6 @@ class FixHVIFEM :
   std::vector<Member> members;        // by slot of near
   std::vector<int> corner, place;     // by element: CORNERS nodes; first particle, -1: none
   std::vector<char> active;           // by element: particles act on some of its own
-  std::vector<char> listed;           // its particles are in lists with all that are near
   std::vector<int> flags;             // by particle, while lists are looked at
 
   // of a step

@@ -263,8 +263,7 @@ void FixHVIFEM::check_state()
 
 /* ----------------------------------------------------------------------
    After lists have been made: an element is active if something in them acts on its particles, that is,
-   what is free, or of another body; only then its particles have sums and forces.  Those which may
-   fail soon are in the next lists with all that is near, so that they need no new ones when they do.
+   what is free, or of another body; only then its particles have sums and forces.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::post_neighbor()
@@ -293,17 +292,13 @@ void FixHVIFEM::post_neighbor()
   if (force->newton_pair) comm->reverse_comm(this);
 
   active.assign(elements.size(), 0);
-  listed.assign(elements.size(), 1);
   particles.gather(
-      2,
-      [&](int i, double *b) {
+      1,
+      [this](int i, double *b) {
         b[0] = flags[i];
-        b[1] = atom->mask[i] & inner[atom->type[i]] ? 1.0 : 0.0;
       },
       [this](int k, const double *b) {
-        const int e = inside[k].e;
-        if (b[0] > 0.0) active[e] = 1;
-        if (b[1] > 0.0) listed[e] = 0;
+        if (b[0] > 0.0) active[inside[k].e] = 1;
       });
 
   members.clear();
@@ -321,18 +316,12 @@ void FixHVIFEM::post_neighbor()
 
   flags.assign(nall, 0);
   particles.scatter(
-      2,
+      1,
       [this](int k, double *b) {
-        const Element &one = elements[inside[k].e];
         b[0] = active[inside[k].e];
-        b[1] = options.fails &&
-            (b[0] > 0.0 || one.s.damage > 0.2 || one.s.voids.D > 0.05 ||
-             (options.strain > 0.0 && one.s.eps > 0.3 * options.strain));
       },
       [this](int i, const double *b) {
         flags[i] = b[0] == 0.0;
-        const int bit = inner[atom->type[i]];
-        atom->mask[i] = b[1] > 0.0 ? atom->mask[i] & ~bit : atom->mask[i] | bit;
       });
   comm->forward_comm(this);
   fields.idle.assign(flags.begin(), flags.end());
@@ -429,8 +418,8 @@ FixHVIFEM::Reason FixHVIFEM::reason(std::size_t e) const
 
 void FixHVIFEM::release(std::vector<char> &freed)
 {
-  enum { FREED, REBUILD, STATES, N };
-  int here[N] = {0, 0, 0}, all[N];
+  enum { FREED, STATES, N };
+  int here[N] = {0, 0}, all[N];
   freed.assign(elements.size(), 0);
   for (std::size_t e = 0; e < elements.size(); e++) {
     Element &one = elements[e];
@@ -439,7 +428,6 @@ void FixHVIFEM::release(std::vector<char> &freed)
     if (why == NONE) continue;
     freed[e] = 1;
     here[FREED]++;
-    if (!listed[e]) here[REBUILD] = 1;
     if (!active[e]) here[STATES] = 1;
     double of_nodes = 0.0, of_particles = 0.0;
     for (int a = 0; a < CORNERS; a++)
@@ -464,7 +452,8 @@ void FixHVIFEM::release(std::vector<char> &freed)
     return;
   }
   total -= all[FREED];
-  if (all[FREED]) next_reneighbor = update->ntimestep;
+  next_reneighbor =
+      update->ntimestep;    // elements beside these may have been far from all that is free
   if (all[STATES]) show_states(true);
   let_go(freed);
 }
@@ -498,21 +487,6 @@ void FixHVIFEM::let_go(const std::vector<char> &freed)
             1.0e-30;    // until it is taken out with the next lists: not 0, for others divide by it
         for (int k = 0; k < 3; k++) atom->v[i][k] = atom->vest[i][k] = 0.0;
       });
-
-  // ghosts of the particles are free, too; with new lists that comes of itself
-
-  if (next_reneighbor == update->ntimestep) return;
-  flags.assign(atom->nlocal + atom->nghost, 0);
-  particles.scatter(
-      1,
-      [&](int k, double *b) {
-        b[0] = elements[inside[k].e].type > 0 ? elements[inside[k].e].type : 0.0;
-      },
-      [this](int i, const double *b) {
-        flags[i] = b[0];
-      });
-  comm->forward_comm(this);
-  for (std::size_t i = atom->nlocal; i < flags.size(); i++) store->fields.embedded[i] = flags[i];
 }
 
 /* ----------------------------------------------------------------------
