@@ -258,7 +258,7 @@ PLATE = ("thickness", "element", "layers", "core", "hold", "circle", "growth", "
 
 
 def mesh(args):
-    from . import mesh_import, mesh_plate, plates
+    from . import mesh_import, mesh_plate
 
     given = {name: getattr(args, name) for name in PLATE if getattr(args, name) is not None}
     common = {"n": args.particles, "type": args.type, "node_type": args.node_type}
@@ -276,7 +276,7 @@ def mesh(args):
                 raise HVIError(f"--{name} is of imported meshes, not of plates")
         side = None if args.side is None else args.side if len(args.side) > 1 else args.side[0]
         made = mesh_plate.plate(side=side, radius=args.radius, **given, **common)
-    density, units = (args.density, None) if args.material is None else plates.density_of(args.material)
+    density, units = _density(args)
     made.write(args.file, density, " ".join(os.path.basename(args.file).split()))
     found = made.quality()
     _print({**found, "mass": density * found["volume"]})
