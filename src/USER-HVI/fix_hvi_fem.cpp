@@ -90,7 +90,9 @@ void FixHVIFEM::init()
   store->embedded = held;
   wraps = domain->periodicity[0] || domain->periodicity[1] || domain->periodicity[2];
 
-  const bigint here = elements.size();
+  const bigint here = std::count_if(elements.begin(), elements.end(), [](const Element &one) {
+    return one.type > 0;    // others went with their nodes when these were read
+  });
   bigint all;
   MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all == 0 && total <= 0)
