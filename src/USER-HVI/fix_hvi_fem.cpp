@@ -273,6 +273,8 @@ void FixHVIFEM::show_particles()
   for (std::size_t e = 0; e < elements.size(); e++) {
     if (!alive(e)) continue;
     elements[e].mark = fingerprint(e);
+    elements[e].step = dt_last;
+    std::copy_n(now[e].L, 9, elements[e].L);
     now[e].kick = 0.0;
     for (int a = 0; a < CORNERS; a++) now[e].kick += at(e, a)[KICK] / CORNERS;
   }
@@ -306,7 +308,7 @@ double FixHVIFEM::half_kick(int i) const
 
 // of its nodes: an element that goes on has forces of its own at the start of a run
 
-std::uint64_t FixHVIFEM::fingerprint(std::size_t e) const
+double FixHVIFEM::fingerprint(std::size_t e) const
 {
   std::uint64_t mark = 0x9E3779B97F4A7C15ull;
   for (int a = 0; a < CORNERS; a++)
@@ -316,7 +318,7 @@ std::uint64_t FixHVIFEM::fingerprint(std::size_t e) const
       mark = (mark ^ bits) * 0xFF51AFD7ED558CCDull;
       mark ^= mark >> 32;
     }
-  return mark | 1;
+  return (double) (mark >> 12) + 1.0;    // with all digits in data files
 }
 
 /* ---------------------------------------------------------------------- */

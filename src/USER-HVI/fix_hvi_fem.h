@@ -204,13 +204,14 @@ class FixHVIFEM :
   void gather_start();
   void check_state();
   bool strayed();
-  std::uint64_t fingerprint(std::size_t) const;
+  double fingerprint(std::size_t) const;
   void gather_nodes();
   void half_energy(double dt);
   double half_kick(int i) const;
   void place_particles(const std::vector<char> &freed);
   void show_particles();
   void gather_sums();
+  void resume(std::size_t);
   void advance(std::size_t first, int n, double dt, bool due);
   void show_states(bool all);
   double with_pairs(const Now &, double felt[9]) const;

@@ -152,15 +152,17 @@ void FixHVIFEM::mark_particles()
 {
   connect();
   flags.assign(atom->nlocal, 0);
-  for (int i = 0; i < atom->nlocal; i++) flags[i] = atom->mask[i] & held;
+  int here = 0, known;    // a data file has no groups
+  for (int i = 0; i < atom->nlocal; i++) here |= flags[i] = atom->mask[i] & held;
+  MPI_Allreduce(&here, &known, 1, MPI_INT, MPI_MAX, world);
   unmark_particles();
   particles.scatter(
       2,
       [this](int k, double *b) {
         b[0] = elements[inside[k].e].type;
-        b[1] = elements[inside[k].e].mark ? 1.0 : 0.0;
+        b[1] = elements[inside[k].e].mark;
       },
-      [this](int i, const double *b) {
+      [this, known](int i, const double *b) {
         const int itype = b[0];
         if (atom->type[i] != itype)
           error->one(FLERR,
@@ -169,7 +171,7 @@ void FixHVIFEM::mark_particles()
                      atom->tag[i], itype, atom->type[i]);
         if (atom->mask[i] & held)
           error->one(FLERR, "Fix hvi/fem: particle {} is in two elements", atom->tag[i]);
-        if (b[1] > 0.0 && !flags[i]) ids_have_changed(atom->tag[i]);
+        if (b[1] > 0.0 && known && !flags[i]) ids_have_changed(atom->tag[i]);
         check_group(i);
         atom->mask[i] |= held | inner[itype];
       });
@@ -338,14 +340,17 @@ void FixHVIFEM::check_state()
       one.rho *= one.V / volume;
       one.V = volume;
     }
-    one.ahead = one.e;
   }
-  if (here && strayed()) here = 0;
+  if (strayed()) here = 0;    // all ranks ask
   MPI_Allreduce(&here, &all, 1, MPI_INT, MPI_MIN, world);
   going_on = all;
+  double step = 0.0;
+  if (going_on)
+    for (const Element &one : elements) step = std::max(step, one.step);
+  MPI_Allreduce(&step, &dt_last, 1, MPI_DOUBLE, MPI_MAX, world);
   if (going_on) return;
-  dt_last = 0.0;
   for (Element &one : elements) {
+    one.ahead = one.e;
     one.power = one.q = 0.0;
     std::fill_n(one.force, 3 * CORNERS, 0.0);
     std::fill_n(one.pair_force, 3 * CORNERS, 0.0);

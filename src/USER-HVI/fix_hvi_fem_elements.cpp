@@ -135,10 +135,25 @@ void FixHVIFEM::settle()
   push.assign(3 * nodes.size(), 0.0);
   for (std::size_t e = 0; e < elements.size(); e += LANES) {
     const int n = std::min<std::size_t>(LANES, elements.size() - e);
-    advance(e, n, dt, due);
+    if (going_on)
+      for (std::size_t k = e; k < e + n; k++) resume(k);
+    else
+      advance(e, n, dt, due);
     if (!waits(e, n)) element_forces(e, n, due ? dt : 0.0);
   }
   show_states(false);
+}
+
+// as the last run has left it: what advance() told others
+
+void FixHVIFEM::resume(std::size_t e)
+{
+  const Element &one = elements[e];
+  double csq;
+  store->materials.of(one.type)->eos->evaluate(one.rho, one.ahead, now[e].p, csq);
+  now[e].p = HVI::clip_tension(now[e].p, one.s.failed() ? 0.0 : one.s.least);
+  std::copy_n(one.L, 9, now[e].L);
+  if (!(one.stable >= shortest)) shortest = one.stable;
 }
 
 // for what pairs do to particles of n elements from first on

@@ -213,7 +213,6 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
         for (int c = 0; c < ncolumn; c++) number[c] = values.next_double();
         memcpy((double *) &elements[found->second] + IDS + COLUMNS * k, number,
                ncolumn * sizeof(double));
-        elements[found->second].mark = 0;
         continue;
       }
       one.type = values.next_int();

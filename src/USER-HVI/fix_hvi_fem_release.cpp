@@ -112,8 +112,7 @@ void FixHVIFEM::post_neighbor()
 
 /* ----------------------------------------------------------------------
    To their places, with velocity and what pairs and lists see of density and energy.  Who leaves an element
-   keeps all that, but for the energy: its own is that of the middle of the step, to which fix hvi/sph adds what
-   the second half brings.
+   keeps all that.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::place_particles(const std::vector<char> &freed)
