@@ -110,6 +110,12 @@ void FixHVIFEM::link()
                                   return one.type <= 0;
                                 }),
                  elements.end());
+
+  // in an order that does not depend on how they came here: sums are the same after a restart
+
+  std::sort(elements.begin(), elements.end(), [](const Element &one, const Element &two) {
+    return one.id < two.id;
+  });
   next.assign(elements.size(), -1);
   read_head.clear();
   std::fill_n(head, atom->nlocal, -1);

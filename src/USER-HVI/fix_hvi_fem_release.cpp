@@ -158,7 +158,7 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         atom->rho[i] = b[RHO];
         atom->esph[i] = b[ESPH];
         integrator->carry(i, b + W);
-        if (b[FLAG] == IS_FREE) {
+        if (b[FLAG] == IS_FREE) {    // this rank may have no element itself
           atom->mask[i] &= ~(held | inner[atom->type[i]]);
           integrator->let_go(i, b[AHEAD]);
           ledger->hand_over(i, atom->rmass[i]);

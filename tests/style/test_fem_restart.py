@@ -6,18 +6,17 @@ from fem_scenes import STATE, read_state, start, strike_plate
 
 FAILS = "strain 0.1 probe 2e-3 2e-3 -1e-3"  # the first elements become particles at step 27, and 8 more soon after
 MIDDLE, END = 30, 45
-SECTIONS = 40  # more than there are
 
 
 def whole(rest, **more):
     mesh, strike_it = strike_plate()
-    return start(mesh, fem=FAILS, every=5, more="f_wall[1][*]", **more) + strike_it + rest
+    return start(mesh, fem=FAILS, every=5, more="f_wall[1][1] f_wall[1][7] f_wall[1][11]", **more) + strike_it + rest
 
 
 def continued(read="read_restart half", fem=FAILS, newton="on", **more):
     """the same words without the box and what is in it"""
     mesh, _ = strike_plate()
-    text = start(mesh, fem=fem, every=5, more="f_wall[1][*]", newton=newton, data="again.data", **more)
+    text = start(mesh, fem=fem, every=5, more="f_wall[1][1] f_wall[1][7] f_wall[1][11]", newton=newton, data="again.data", **more)
     first, last = text.index("fix prop"), text.index("pair_style")
     head = f"newton {newton}\n" + ("atom_modify sort 0 0\n" if read.startswith("read_restart") else "")
     if read.startswith("read_restart"):
@@ -39,7 +38,8 @@ def same(a, b, tolerance=0.0):
 def books(a, b, tolerance=0.0):
     later = a["Step"] >= b["Step"][0]
     for name in a:
-        assert np.abs(a[name][later] - b[name]).max() <= tolerance * np.abs(a[name]).max(), name
+        size = np.abs(a["c_book[12]" if name in ("c_book[10]", "c_book[11]") else name]).max()
+        assert np.abs(a[name][later] - b[name]).max() <= tolerance * size, name
 
 
 @pytest.mark.parametrize("middle", [20, MIDDLE])
@@ -84,19 +84,12 @@ def test_wrong_fixes_after_a_restart(lmp):
 
 def test_all_elements_gone(lmp):
     """a run, and a restart file, in which nothing is left of the mesh but its particles"""
-    rest = "run 0\nwrite_restart half\n"
-    lmp(whole("run 20\n" + rest).replace("strain 0.1", "strain 1e-6 step 0.5"))
     text = whole("run 60\nrun 5\nwrite_restart half\n").replace("strain 0.1", "strain 1e-12")
     r = lmp(text)
     assert r.runs[1]["f_wall"][-1] == 0
     assert (r.runs[1]["Atoms"][-1] == len(strike_plate()[0].free) + 8 * 64).all()
     r = lmp(continued(fem=FAILS.replace("strain 0.1", "strain 1e-12")) + "run 5\n")
     assert r.thermo["f_wall"][-1] == 0
-
-
-def sections(path):
-    names = [line for line in open(path).read().split("\n") if line.startswith(("wall_", "solid", "move", "rmass")) or "(" not in line and line[:1].isalpha()]
-    return names
 
 
 @pytest.mark.parametrize("nranks", [1, 2])
@@ -110,8 +103,8 @@ def test_data_file(lmp, nranks, middle):
         owner = {"wall": "wall", "move": "move", "soli": "solid"}.get(name[:4])
         if name == "Elements":
             words.append("fix wall elements Elements")
-        elif name == "rmass":
-            words.append("fix prop NULL rmass")
+        elif name == "prop":
+            words.append("fix prop NULL prop")
         elif owner:
             words.append(f"fix {owner} NULL {name}")
     assert sum(w.startswith("fix wall NULL wall_state_") for w in words) > 10
@@ -122,6 +115,6 @@ def test_data_file(lmp, nranks, middle):
     same(whole_, part, 1e-8)
     # what is not asked for is not lost without a word
     for k, w in enumerate(words):
-        if k in (0, 3) or "rmass" in w:
+        if k in (0, 3) or "prop" in w:
             r = lmp(text.replace(w, ""), expect_fail=True)
             assert "Unknown identifier in data file" in r.error or "Unknown" in r.error, w
