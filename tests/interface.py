@@ -27,9 +27,10 @@ ROWS = {
     "particles along an edge": [dict(n=n, kernel=k) for k in (CUBIC, WENDLAND) for n in (1, 2, 3)],
     "kernels, forces": [dict(kernel="cubic 1.5"), dict(kernel="quartic 1.2"), dict(pair=MONAGHAN),
                         dict(kernel=WENDLAND, pair=MONAGHAN)],
-    "from particles into elements": [dict(side=1, n=n, kernel=k) for k in (CUBIC, WENDLAND) for n in (1, 2, 3)],
-    "ragged": [dict(ragged=True, kernel=k, side=side, n=n) for side, k, n in ((-1, CUBIC, 2), (-1, WENDLAND, 2), (1, CUBIC, 2), (1, WENDLAND, 2), (-1, CUBIC, 1))],
-    "layers of elements that hold particles": [dict(n=n, hold=hold, kernel=k) for k in (CUBIC, WENDLAND) for n, hold in ((1, 1), (1, 2), (2, 1), (3, 1))],
+    "from particles into elements": [dict(side=1, n=n) for n in (1, 2, 3)] + [dict(side=1, kernel=WENDLAND)],
+    "ragged": [dict(ragged=True), dict(ragged=True, kernel=WENDLAND), dict(ragged=True, side=1)],
+    "layers of elements that hold particles": [dict(n=n, hold=hold, kernel=k) for k, n, hold in
+                                               ((CUBIC, 1, 1), (CUBIC, 1, 2), (CUBIC, 2, 1), (CUBIC, 3, 1), (WENDLAND, 1, 2), (WENDLAND, 2, 1))],
     "tied": [dict(fem="convert no")],
 }
 OBLIQUE = [(CUBIC, 0, False), (WENDLAND, 0, False), (CUBIC, 30, False), (CUBIC, 45, False), (WENDLAND, 45, False), (CUBIC, 45, True)]
@@ -41,9 +42,11 @@ class Study:
 
     def run(self, free, **words):
         """of a bar without an interface once only"""
-        words = dict(pair=RIEMANN, hold=4 if words.get("n") == 1 else 2) | words
+        words = dict(n=2, kernel=CUBIC, side=-1, pair=RIEMANN, hold=4 if words.get("n") == 1 else 2) | words
         if free == "right":
             return bar(self.lmp, self.folder, free, **words)
+        if free == "all" and words.get("n") == 1:  # the same particles
+            words["n"] = 2
         key = free, *sorted((k, v) for k, v in words.items() if k in ("n", "pulse", "angle", "side", "far") or (free == "all" and k in ("kernel", "pair")))
         if key not in self.known:
             self.known[key] = bar(self.lmp, self.folder, free, **{k: v for k, v in words.items() if k not in ("hold", "ragged", "fem")})
