@@ -3,6 +3,7 @@
 More kernels, n, angles and layers: tests/interface.py, Howto_fem_interface.
 """
 
+import numpy as np
 import pytest
 from interface_scenes import bar, reflection, spun, squeezed
 
@@ -39,6 +40,14 @@ def test_other_kernel(lmp, tmp_path, known, pulse):
     one, found = reflects(lmp, tmp_path, known, pulse, kernel="wendland2 1.6")
     assert one["sideways"] < 1e-10
     assert 0.0 < found < BOUNDS[pulse]
+
+
+def test_tied(lmp, tmp_path):
+    """is hybrid as long as nothing fails: the same bits"""
+    words = dict(pair=PAIR, far=30, ragged=True)
+    hybrid, tied = (bar(lmp, tmp_path, "right", fem=fem, **words) for fem in ("", "convert no"))
+    assert np.abs(hybrid["end"]).max() > 0.4
+    assert np.array_equal(hybrid["end"], tied["end"])
 
 
 def test_nothing_held(lmp, tmp_path, known):
