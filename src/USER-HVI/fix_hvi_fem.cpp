@@ -46,6 +46,8 @@ FixHVIFEM::~FixHVIFEM()
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(head);
   memory->destroy(users);
+  memory->destroy(array_local);
+  unmark_particles();
   if (FixHVIStore *const now = FixHVIStore::find(lmp)) now->embedded = 0;
 }
 
@@ -95,10 +97,12 @@ void FixHVIFEM::init()
       nearby = std::min(nearby, 0.25 * domain->prd[k]);
     }
 
-  const bigint here = elements.size();
+  const bigint here = std::count_if(elements.begin(), elements.end(), [](const Element &one) {
+    return one.type > 0;    // others went with their nodes when these were read
+  });
   bigint all;
   MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all == 0 && total <= 0)
+  if (all == 0 && total < 0)
     error->all(FLERR, "Fix hvi/fem has no elements: use read_data FILE fix {} elements Elements",
                id);
   if (total < 0) total = all;
@@ -106,8 +110,7 @@ void FixHVIFEM::init()
 }
 
 /* ----------------------------------------------------------------------
-   Lists leave out pairs of particles that are both inside of elements of one body, unless these are
-   about to fail
+   Lists leave out pairs of particles that are both inside of elements of one body
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::make_groups()
@@ -137,15 +140,24 @@ void FixHVIFEM::setup_pre_exchange()
   atom->map_set();
   mark_particles();
   start_elements();
+  gather_start();
+  check_state();
+  if (!going_on) place_particles({});
 }
 
 void FixHVIFEM::setup_pre_neighbor()
 {
   connect();
-  gather_nodes();
-  check_state();
-  if (!going_on) place_particles({});
+  gather_start();
   comm->forward_comm();
+}
+
+// there is no other velocity yet
+
+void FixHVIFEM::gather_start()
+{
+  gather_nodes();
+  for (std::size_t k = 0; k < node.size(); k += NODE) std::copy_n(&node[k + V], 3, &node[k + W]);
 }
 
 /* ----------------------------------------------------------------------
@@ -168,6 +180,7 @@ void FixHVIFEM::setup(int /*vflag*/)
 {
   find_probes();
   show_particles();
+  if (every > 0) list_elements();
   going_on = false;    // from now on forces are made anew
 }
 
@@ -240,7 +253,9 @@ void FixHVIFEM::final_integrate()
 
 void FixHVIFEM::end_of_step()
 {
-  if (update->ntimestep == output->next || update->ntimestep == update->laststep) show_particles();
+  const bool due = update->ntimestep == output->next || update->ntimestep == update->laststep;
+  if (due) show_particles();
+  if (every > 0 && (due || update->ntimestep % every == 0)) list_elements();
 }
 
 void FixHVIFEM::show_particles()
@@ -372,14 +387,17 @@ double FixHVIFEM::compute_vector(int k)
   return sum;
 }
 
+// all ranks ask for it; what a run has left is of its last step
+
 double FixHVIFEM::compute_array(int i, int k)
 {
+  if (update->whichflag && probed != update->ntimestep) read_probes();
   return probes[i].value[k];
 }
 
 /* ----------------------------------------------------------------------
-   Probes: the element whose center was nearest at the start of the first run; when it has become
-   particles, nothing
+   Probes: the element whose center was nearest at the start of the first run: pressure, stress, von Mises
+   stress, velocity and center; when it has become particles, 0
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::find_probes()
@@ -411,7 +429,17 @@ void FixHVIFEM::find_probes()
 
 void FixHVIFEM::read_probes()
 {
-  if (probes.empty()) return;
+  if (probes.empty() || now.size() != elements.size()) return;
+  probed = update->ntimestep;
+  std::vector<double> v(3 * nodes.size());    // that of the table is extrapolated until output
+  nodes.gather(
+      3,
+      [this](int i, double *b) {
+        std::copy_n(atom->v[i], 3, b);
+      },
+      [&v](int k, const double *b) {
+        std::copy_n(b, 3, &v[3 * k]);
+      });
   std::vector<double> here(Probe::NVALUE * probes.size(), 0.0), all(here.size());
   for (std::size_t e = 0; e < elements.size(); e++) {
     if (!alive(e)) continue;
@@ -424,11 +452,46 @@ void FixHVIFEM::read_probes()
       const double stress[7] = {p, S.xx - p, S.yy - p, S.zz - p, S.xy, S.xz, S.yz};
       std::copy_n(stress, 7, value);
       value[7] = HVI::von_mises(S);
+      double x[CORNERS][3];
+      corners(e, X, x);
       for (int a = 0; a < CORNERS; a++)
-        for (int k = 0; k < 3; k++) value[8 + k] += at(e, a)[W + k] / CORNERS;
+        for (int k = 0; k < 3; k++) {
+          value[8 + k] += v[3 * corner[CORNERS * e + a] + k] / CORNERS;
+          value[11 + k] += x[a][k] / CORNERS;
+        }
     }
   }
   MPI_Allreduce(here.data(), all.data(), here.size(), MPI_DOUBLE, MPI_SUM, world);
   for (std::size_t n = 0; n < probes.size(); n++)
     std::copy_n(&all[Probe::NVALUE * n], +Probe::NVALUE, probes[n].value);
+}
+
+/* ----------------------------------------------------------------------
+   Elements of this rank for dump local and compute reduce: ID, type, center, pressure, stress, von Mises
+   stress, plastic strain, damage, energy per mass, particles per edge
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::list_elements()
+{
+  size_local_rows = std::count_if(elements.begin(), elements.end(), [](const Element &one) {
+    return one.type > 0;
+  });
+  memory->destroy(array_local);
+  memory->create(array_local, size_local_rows, NCOLUMN, "hvi/fem:local");
+  int row = 0;
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (!alive(e)) continue;
+    const Element &one = elements[e];
+    const HVI::Deviator &S = one.s.S;
+    double x[CORNERS][3], center[3] = {};
+    corners(e, X, x);
+    for (const auto &corner_x : x)
+      for (int k = 0; k < 3; k++) center[k] += corner_x[k] / CORNERS;
+    const double p = now[e].p;
+    const double list[NCOLUMN] = {
+        (double) one.id,   (double) one.type, center[0],    center[1], center[2],     p,
+        S.xx - p,          S.yy - p,          S.zz - p,     S.xy,      S.xz,          S.yz,
+        HVI::von_mises(S), one.s.eps,         one.s.damage, one.e,     (double) one.n};
+    std::copy_n(list, +NCOLUMN, array_local[row++]);
+  }
 }

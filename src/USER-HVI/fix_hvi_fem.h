@@ -115,16 +115,20 @@ class FixHVIFEM :
 
   struct Probe {
     double x[3];
-    static constexpr int NVALUE = 11;
+    static constexpr int NVALUE = 14;
     double value[NVALUE];
     std::int64_t id;    // of the element; 0: not known yet
   };
 
   std::vector<char> nodal;    // by type
   std::vector<Probe> probes;
-  bigint announced;          // number of elements in the header of a data file
-  bigint total;              // of elements of all ranks; -1: to be counted
-  int held;                  // bit of the group of particles in elements
+  bigint announced;                     // number of elements in the header of a data file
+  std::int64_t id_before;               // largest ID of elements of others that were read before it
+  bigint probed;                        // step that values of probes are of
+  int every;                            // steps between lists of elements for local output; 0: none
+  static constexpr int NCOLUMN = 17;    // of those
+  bigint total;                         // of elements of all ranks; -1: to be counted
+  int held;                             // bit of the group of particles in elements
   std::vector<int> inner;    // by type: that of those left out of lists; 0: there are none
 
   class FixHVIStore *store;
@@ -136,6 +140,7 @@ class FixHVIFEM :
   int *head;                        // of owned particles: its first element, -1: none
   int *users;                       // of owned particles: number of elements that have it as a node
   std::vector<int> next;            // by element: of the same particle, -1: none
+  std::vector<int> read_head;    // head of particles of a data file, until LAMMPS sets their arrays
 
   // from one exchange of particles to the next
 
@@ -148,7 +153,6 @@ class FixHVIFEM :
   std::vector<Member> members;        // by slot of near
   std::vector<int> corner, place;     // by element: CORNERS nodes; first particle, -1: none
   std::vector<char> active;           // by element: particles act on some of its own
-  std::vector<char> listed;           // its particles are in lists with all that are near
   std::vector<int> flags;             // by particle, while lists are looked at
 
   // of a step
@@ -162,8 +166,8 @@ class FixHVIFEM :
     NODE
   };    // of a node: V of the middle of a step, W of its end
   enum { L = 0, M = 9, TRACE = 15, CONTACT = 16, SUMS = 22 };
-  enum { RHO = 9, ESPH, FLAG, PLACE };    // of a particle, after X, V, W
-  enum { STAYS, IS_FREE, IS_NO_MORE };    // FLAG
+  enum { RHO = 9, ESPH, AHEAD, FLAG, PLACE };    // of a particle, after X, V, W
+  enum { STAYS, IS_FREE, IS_NO_MORE };           // FLAG
   struct Now {
     double p, c, kick;
     double work;    // power of the last forces on the velocity before them
@@ -191,8 +195,15 @@ class FixHVIFEM :
   void link();
   void connect();
   void start_elements();
+  void ids_have_changed(tagint) const;
   void mark_particles();
+  void unmark_particles();
+  void check_group(int) const;
+  void check_masses();
+  bool left_over(int) const;
+  void gather_start();
   void check_state();
+  bool strayed();
   std::uint64_t fingerprint(std::size_t) const;
   void gather_nodes();
   void half_energy(double dt);
@@ -214,6 +225,7 @@ class FixHVIFEM :
   void let_go(const std::vector<char> &freed);
   void find_probes();
   void read_probes();
+  void list_elements();
   bool alive(std::size_t e) const { return elements[e].type > 0; }
   const HVI::SolidModel &model(const Element &) const;
   HVI::SolidInput input(const Element &) const;

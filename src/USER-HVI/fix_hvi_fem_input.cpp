@@ -27,11 +27,16 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), announced(-1), total(-1), held(0), store(nullptr), integrator(nullptr),
-    strength(nullptr), ledger(nullptr), head(nullptr), users(nullptr), nodes(lmp), particles(lmp),
-    near(lmp), dt_last(0.0), shortest(HVI::NO_BOUND), going_on(false), wraps(false), nearby(0.0),
-    count()
+    Fix(lmp, narg, arg), announced(-1), id_before(0), probed(-1), every(0), total(-1), held(0),
+    store(nullptr), integrator(nullptr), strength(nullptr), ledger(nullptr), head(nullptr),
+    users(nullptr), nodes(lmp), particles(lmp), near(lmp), dt_last(0.0), shortest(HVI::NO_BOUND),
+    going_on(false), wraps(false), nearby(0.0), count()
 {
+  if (igroup != 0)
+    error->all(FLERR,
+               "Fix hvi/fem must be of group all, not {}: elements say which particles are "
+               "theirs",
+               group->names[igroup]);
   read_options(narg, arg);
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR, "Fix hvi/fem needs atom_style sph");
@@ -41,7 +46,7 @@ FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
 
   scalar_flag = vector_flag = 1;
   size_vector = NCOUNT + 2;
-  extscalar = 1;
+  extscalar = 0;    // a number, never per particle
   extvector = 0;
   global_freq = 1;
   if (!probes.empty()) {
@@ -49,6 +54,12 @@ FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
     size_array_rows = probes.size();
     size_array_cols = Probe::NVALUE;
     extarray = 0;
+  }
+  if (every > 0) {
+    local_flag = 1;
+    local_freq = every;
+    size_local_rows = 0;
+    size_local_cols = NCOLUMN;
   }
   restart_global = restart_peratom = 1;
   create_attribute = 1;
@@ -101,6 +112,11 @@ void FixHVIFEM::read_options(int narg, char **arg)
       for (int k = 0; k < 3; k++) probe.x[k] = utils::numeric(FLERR, arg[iarg + 1 + k], false, lmp);
       probes.push_back(probe);
       iarg += 4;
+    } else if (key == "local") {
+      needs(1);
+      every = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+      if (every < 1) error->all(FLERR, "Fix hvi/fem local must be above 0, not {}", every);
+      iarg += 2;
     } else if (key == "viscosity") {
       needs(2);
       options.q1 = utils::numeric(FLERR, arg[iarg + 1], false, lmp);

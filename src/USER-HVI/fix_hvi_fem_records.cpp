@@ -47,9 +47,12 @@ void FixHVIFEM::copy_arrays(int i, int j, int /*delflag*/)
   users[j] = users[i];
 }
 
+// LAMMPS sets the arrays of new particles after it has read all sections, and may then send them to other ranks
+
 void FixHVIFEM::set_arrays(int i)
 {
   head[i] = -1;
+  if (i < (int) read_head.size()) std::swap(head[i], read_head[i]);
   users[i] = 0;
 }
 
@@ -131,40 +134,54 @@ void FixHVIFEM::unpack_restart(int i, int nth)
 }
 
 /* ----------------------------------------------------------------------
-   what is of all: the last step, numbers of elements and what has become of others
+   what is of all: the last step, numbers of elements and what has become of others, and which of them probes
+   have, for the nearest now may be another
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::write_restart(FILE *fp)
 {
-  double list[3 + NCOUNT];
-  list[0] = SIZE;
-  list[1] = dt_last;
-  list[2] = total;
-  MPI_Reduce(count, list + 3, NCOUNT, MPI_DOUBLE, MPI_SUM, 0, world);
+  double sum[NCOUNT];
+  MPI_Reduce(count, sum, NCOUNT, MPI_DOUBLE, MPI_SUM, 0, world);
   if (comm->me) return;
-  const int size = sizeof(list);
+  std::vector<double> list = {(double) SIZE, dt_last, (double) total};
+  list.insert(list.end(), sum, sum + NCOUNT);
+  list.push_back(probes.size());
+  for (const Probe &probe : probes) {
+    list.insert(list.end(), probe.x, probe.x + 3);
+    list.push_back(probe.id);
+  }
+  const int size = list.size() * sizeof(double);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(list, size, 1, fp);
+  fwrite(list.data(), size, 1, fp);
 }
 
 void FixHVIFEM::restart(char *buf)
 {
-  const double *const list = (const double *) buf;
+  const double *list = (const double *) buf;
   if (list[0] != SIZE) error->all(FLERR, "Fix hvi/fem: the restart file is of another version");
   dt_last = list[1];
   total = list[2];
   if (comm->me == 0) std::copy_n(list + 3, +NCOUNT, count);
+  list += 3 + NCOUNT;
+  const double *const end = list + 1 + 4 * (int) list[0];
+  for (++list; list < end; list += 4)
+    for (Probe &probe : probes)
+      if (std::equal(probe.x, probe.x + 3, list)) probe.id = list[3];
 }
 
 /* ----------------------------------------------------------------------
    Data files: "N elements" in the header; the section Elements, of those that are left; and as many more
    sections as their state needs, with what restart files have, too.  Their titles end with numbers.
+   IDs of elements of a further file come after those that are there.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::read_data_header(char *line)
 {
   announced = utils::bnumeric(FLERR, utils::split_words(line)[0], false, lmp);
   if (announced < 1) error->all(FLERR, "Fix hvi/fem: no elements in the header of the data file");
+  std::int64_t here = 0;
+  for (const Element &one : elements) here = std::max(here, one.id);
+  MPI_Allreduce(&here, &id_before, 1, MPI_INT64_T, MPI_MAX, world);
 }
 
 void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset)
@@ -186,6 +203,9 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
         throw TokenizerException("it has another number of columns", "");
       Element one = {};
       one.id = values.next_bigint();
+      if (one.id < 1)
+        throw TokenizerException("IDs of elements must be positive", std::to_string(one.id));
+      one.id += id_before;
       if (state) {
         const auto found = where.find(one.id);
         if (found == where.end()) continue;    // of another rank
@@ -206,8 +226,9 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
         throw TokenizerException("n must be from 0 to 8", std::to_string(one.n));
       const int i = atom->map(one.node[0]);
       if (i < 0 || i >= atom->nlocal) continue;
-      next.push_back(head[i]);
-      head[i] = elements.size();
+      if (i >= (int) read_head.size()) read_head.resize(i + 1, -1);
+      next.push_back(read_head[i]);
+      read_head[i] = elements.size();
       elements.push_back(one);
     } catch (TokenizerException &wrong) {
       error->all(FLERR, "Fix hvi/fem: wrong row of section {} of the data file: {}", keyword,

@@ -10,8 +10,8 @@
    Contributing authors: the lammps-hvi developers
 ------------------------------------------------------------------------- */
 
-// particles in elements: which of them, where they are, and elements that become particles; the rest of the
-// class is in fix_hvi_fem.cpp
+// particles in elements: which of them pairs see, where they are, and elements that become particles; the rest of
+// the class is in fix_hvi_fem.cpp
 
 #include "fix_hvi_fem.h"
 
@@ -21,6 +21,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
+#include "fix_hvi_ledger.h"
 #include "fix_hvi_sph.h"
 #include "fix_hvi_store.h"
 #include "force.h"
@@ -37,254 +38,19 @@ using namespace LAMMPS_NS;
 using HVI::CORNERS;
 
 /* ----------------------------------------------------------------------
-   who is where, after particles have been exchanged
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::connect()
-{
-  link();
-  std::vector<tagint> wanted, held_ids;
-  inside.clear();
-  corner.resize(CORNERS * elements.size());
-  place.assign(elements.size(), -1);
-  for (std::size_t e = 0; e < elements.size(); e++) {
-    const Element &one = elements[e];
-    wanted.insert(wanted.end(), one.node, one.node + CORNERS);
-    if (one.n > 0) place[e] = inside.size();
-    for (int p = 0; p < one.particles(); p++) {
-      inside.push_back({(int) e, p});
-      held_ids.push_back(one.first + p);
-    }
-    if (one.n >= (int) subcells.size()) subcells.resize(one.n + 1);
-    if (one.n > 0 && subcells[one.n].empty()) subcells[one.n] = HVI::hex_subcells(one.n);
-  }
-
-  // each node once
-
-  std::vector<tagint> unique = wanted;
-  std::sort(unique.begin(), unique.end());
-  unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
-  for (std::size_t k = 0; k < wanted.size(); k++)
-    corner[k] = std::lower_bound(unique.begin(), unique.end(), wanted[k]) - unique.begin();
-
-  const bigint here = elements.size();
-  bigint all;
-  MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  const tagint lost_node = nodes.connect(unique, [this](int i) {
-    return is_node(atom->type[i]);
-  });
-  const tagint lost = particles.connect(held_ids, [this](int i) {
-    return !is_node(atom->type[i]);
-  });
-  if (lost_node || lost || all != total)
-    error->all(FLERR,
-               "Fix hvi/fem: {} is not there at step {}: elements, their nodes and particles must "
-               "not leave the box, nor be deleted",
-               lost_node ? fmt::format("node {}", lost_node)
-                         : (lost ? fmt::format("particle {}", lost) : "an element"),
-               update->ntimestep);
-
-  std::vector<double> uses(unique.size(), 0.0);
-  for (const int k : corner) uses[k] += 1.0;
-  std::fill_n(users, atom->nlocal, 0);
-  nodes.scatter(
-      1,
-      [&](int k, double *b) {
-        b[0] = uses[k];
-      },
-      [this](int i, const double *b) {
-        users[i] += b[0];
-      });
-}
-
-/* ----------------------------------------------------------------------
-   elements by their first nodes, without those that are no more
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::link()
-{
-  elements.erase(std::remove_if(elements.begin(), elements.end(),
-                                [](const Element &one) {
-                                  return one.type <= 0;
-                                }),
-                 elements.end());
-  next.assign(elements.size(), -1);
-  std::fill_n(head, atom->nlocal, -1);
-  std::vector<int> number(atom->nlocal, 0);
-  int most = 0;
-  for (int e = elements.size() - 1; e >= 0; e--) {
-    const int i = atom->map(elements[e].node[0]);
-    if (i < 0 || i >= atom->nlocal)
-      error->one(FLERR,
-                 "Fix hvi/fem: node {} of element {} is not there at step {}: elements must not "
-                 "leave the box",
-                 elements[e].node[0], elements[e].id, update->ntimestep);
-    next[e] = head[i];
-    head[i] = e;
-    most = std::max(most, ++number[i]);
-  }
-  maxexchange = 2 + std::max(most, 1) * Element::SIZE;
-}
-
-/* ----------------------------------------------------------------------
-   Groups say which particles are in elements, and which of those lists leave out.  Not in restarts of
-   other fixes, nor in data files.
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::mark_particles()
-{
-  int inner_all = 0;
-  for (const int bit : inner) inner_all |= bit;
-  for (int i = 0; i < atom->nlocal; i++) atom->mask[i] &= ~(held | inner_all);
-  connect();
-  particles.scatter(
-      1,
-      [this](int k, double *b) {
-        b[0] = elements[inside[k].e].type;
-      },
-      [this](int i, const double *b) {
-        const int itype = b[0];
-        if (atom->type[i] != itype)
-          error->one(FLERR, "Fix hvi/fem: particle {} in an element of type {} has type {}",
-                     atom->tag[i], itype, atom->type[i]);
-        atom->mask[i] |= held | inner[itype];
-      });
-}
-
-/* ----------------------------------------------------------------------
-   Elements without a mass are new: at rest in their material.  So is a particle without one of its own.
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::start_elements()
-{
-  gather_nodes();
-  double *const rmass = atom->rmass;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (rmass[i] == 0.0 && !is_node(atom->type[i]) && !(atom->mask[i] & held))
-      rmass[i] = atom->mass[atom->type[i]];
-
-  std::vector<double> added(nodes.size(), 0.0), given(inside.size(), 0.0);
-  for (std::size_t e = 0; e < elements.size(); e++) {
-    Element &one = elements[e];
-    if (one.mass > 0.0) continue;
-    const HVI::Material *const material = store->materials.of(one.type);
-    if (!material || is_node(one.type))
-      error->one(FLERR, "Fix hvi/fem: type {} of element {} has no material", one.type, one.id);
-    HVI::HexNodes x, B;
-    load(e, 1, X, x);
-    one.V = one.V0 = HVI::hex_gradient(x, B)[0];
-    double places[CORNERS][3];
-    corners(e, X, places);
-    if (!(one.V > 0.0) || !(HVI::hex_shape(places).jacobian > 0.0))
-      error->one(FLERR,
-                 "Fix hvi/fem: element {} is turned inside out or has no volume: its nodes must be "
-                 "numbered around the bottom and then above it, seen from inside against the clock",
-                 one.id);
-    one.rho = material->eos->rho0();
-    one.mass = one.rho * one.V;
-    one.s = HVI::SolidModel::blank();
-    model(one).start(one.s, input(one), true);
-    for (int a = 0; a < CORNERS; a++) added[corner[CORNERS * e + a]] += one.mass / CORNERS;
-    for (int p = 0; p < one.particles(); p++) given[place[e] + p] = one.mass / one.particles();
-  }
-  nodes.scatter(
-      1,
-      [&](int k, double *b) {
-        b[0] = added[k];
-      },
-      [&](int i, const double *b) {
-        rmass[i] += b[0];
-      });
-  particles.scatter(
-      1,
-      [&](int k, double *b) {
-        b[0] = given[k];
-      },
-      [&](int i, const double *b) {
-        if (b[0] > 0.0) rmass[i] = b[0];
-      });
-  bigint without = 0, everywhere;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (is_node(atom->type[i]) && !(rmass[i] > 0.0)) without++;
-  MPI_Allreduce(&without, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (everywhere) error->all(FLERR, "Fix hvi/fem: {} nodes belong to no element", everywhere);
-
-  // on mirror planes to the last digit
-
-  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
-  double here = HUGE_VAL, smallest;
-  for (const Element &one : elements) here = std::min(here, std::cbrt(one.V0));
-  MPI_Allreduce(&here, &smallest, 1, MPI_DOUBLE, MPI_MIN, world);
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_node(atom->type[i])) continue;
-    for (int k = 0; k < 3; k++) {
-      if (!mirror.has(k)) continue;
-      const double depth = mirror.depth(k, atom->x[i]);
-      if (std::fabs(depth) <= 1.0e-6 * smallest)
-        atom->x[i][k] = mirror.at[k];
-      else if (depth < 0.0)
-        error->one(FLERR, "Fix hvi/fem: node {} is beyond the mirror plane {}", atom->tag[i],
-                   "xyz"[k]);
-    }
-  }
-}
-
-/* ----------------------------------------------------------------------
-   Elements of a run that goes on where the last one ended have the forces of its end; if a command has changed
-   any node since, all are made anew
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::check_state()
-{
-  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
-  for (int i = 0; i < atom->nlocal; i++)
-    for (int k = 0; k < 3; k++)
-      if (is_node(atom->type[i]) && mirror.has(k) && atom->x[i][k] == mirror.at[k] &&
-          atom->v[i][k] != 0.0)
-        error->one(FLERR,
-                   "Fix hvi/fem: node {} is on the mirror plane {} and moves across it: set its "
-                   "velocity there to 0",
-                   atom->tag[i], "xyz"[k]);
-  int here = 1, all;
-  for (std::size_t k = 0; k < node.size(); k += NODE)
-    std::copy_n(&node[k + V], 3, &node[k + W]);    // there is no other velocity yet
-  for (std::size_t e = 0; e < elements.size(); e++) {
-    HVI::HexNodes x, B;
-    load(e, 1, X, x);
-    const double volume = HVI::hex_gradient(x, B)[0];
-    if (elements[e].mark != fingerprint(e) ||
-        std::fabs(volume - elements[e].V) > 1.0e-9 * elements[e].V)
-      here = 0;
-    elements[e].ahead = elements[e].e;
-  }
-  MPI_Allreduce(&here, &all, 1, MPI_INT, MPI_MIN, world);
-  going_on = all;
-  if (going_on) return;
-  dt_last = 0.0;
-  for (Element &one : elements) {
-    one.power = one.q = 0.0;
-    std::fill_n(one.force, 3 * CORNERS, 0.0);
-    std::fill_n(one.pair_force, 3 * CORNERS, 0.0);
-  }
-}
-
-/* ----------------------------------------------------------------------
    After lists have been made: an element is active if something in them acts on its particles, that is,
-   what is free, or of another body; only then its particles have sums and forces.  Those which may
-   fail soon are in the next lists with all that is near, so that they need no new ones when they do.
+   what is free, or of another body; only then its particles have sums and forces.  So
+   there are new lists whenever elements fail: those beside them are to become active.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::post_neighbor()
 {
   HVI::SphFields &fields = store->fields;
-  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  const int nall = atom->nlocal + atom->nghost;
   fields.embedded.assign(nall, 0);
   fields.idle.assign(nall, 0);
-  for (int i = 0; i < nlocal; i++)
+  for (int i = 0; i < nall; i++)
     if (atom->mask[i] & held) fields.embedded[i] = atom->type[i];
-  flags.assign(fields.embedded.begin(), fields.embedded.end());
-  comm->forward_comm(this);
-  for (int i = nlocal; i < nall; i++) fields.embedded[i] = flags[i];
 
   flags.assign(nall, 0);
   const NeighList *const list = force->pair_match("^hvi/sph$", 0)->list;
@@ -300,17 +66,13 @@ void FixHVIFEM::post_neighbor()
   if (force->newton_pair) comm->reverse_comm(this);
 
   active.assign(elements.size(), 0);
-  listed.assign(elements.size(), 1);
   particles.gather(
-      2,
+      1,
       [&](int i, double *b) {
         b[0] = flags[i];
-        b[1] = atom->mask[i] & inner[atom->type[i]] ? 1.0 : 0.0;
       },
       [this](int k, const double *b) {
-        const int e = inside[k].e;
-        if (b[0] > 0.0) active[e] = 1;
-        if (b[1] > 0.0) listed[e] = 0;
+        if (b[0] > 0.0) active[inside[k].e] = 1;
       });
 
   // others have none of what comes from pairs, until they are active
@@ -337,18 +99,12 @@ void FixHVIFEM::post_neighbor()
 
   flags.assign(nall, 0);
   particles.scatter(
-      2,
+      1,
       [this](int k, double *b) {
-        const Element &one = elements[inside[k].e];
         b[0] = active[inside[k].e];
-        b[1] = options.fails &&
-            (b[0] > 0.0 || one.s.damage > 0.2 || one.s.voids.D > 0.05 ||
-             (options.strain > 0.0 && one.s.eps > 0.3 * options.strain));
       },
       [this](int i, const double *b) {
         flags[i] = b[0] == 0.0;
-        const int bit = inner[atom->type[i]];
-        atom->mask[i] = b[1] > 0.0 ? atom->mask[i] & ~bit : atom->mask[i] | bit;
       });
   comm->forward_comm(this);
   fields.idle.assign(flags.begin(), flags.end());
@@ -356,7 +112,8 @@ void FixHVIFEM::post_neighbor()
 
 /* ----------------------------------------------------------------------
    To their places, with velocity and what pairs and lists see of density and energy.  Who leaves an element
-   keeps all that.
+   keeps all that, but for the energy: its own is that of the middle of the step, to which fix hvi/sph adds what
+   the second half brings.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::place_particles(const std::vector<char> &freed)
@@ -380,17 +137,17 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         for (int k = 0; k < RHO; k++) sum[k] += weights[p][a] * y[a][k];
       memcpy(row, sum, sizeof(sum));
       row[RHO] = one.rho;
-      row[ESPH] = one.ahead * one.mass / one.particles();
       row[FLAG] = !freed.empty() && freed[e] ? IS_FREE : (alive(e) ? STAYS : IS_NO_MORE);
+      row[ESPH] = one.ahead * one.mass / one.particles();
+      row[AHEAD] = one.change * one.mass / one.particles();
     }
   }
-  const bool tell = !freed.empty();
   particles.scatter(
       PLACE,
       [this](int k, double *b) {
         memcpy(b, &rows[PLACE * k], PLACE * sizeof(double));
       },
-      [this, tell](int i, const double *b) {
+      [this](int i, const double *b) {
         if (b[FLAG] == IS_NO_MORE) return;
         double *const x = atom->x[i];
         double way[3] = {b[X] - x[0], b[X + 1] - x[1], b[X + 2] - x[2]};
@@ -402,9 +159,10 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         atom->rho[i] = b[RHO];
         atom->esph[i] = b[ESPH];
         integrator->carry(i, b + W);
-        if (tell && b[FLAG] == IS_FREE) {
+        if (b[FLAG] == IS_FREE) {
           atom->mask[i] &= ~(held | inner[atom->type[i]]);
-          integrator->let_go(i);
+          integrator->let_go(i, b[AHEAD]);
+          ledger->hand_over(i, atom->rmass[i]);
           if (i < (int) store->fields.embedded.size()) store->fields.embedded[i] = 0;
         }
       });
@@ -449,8 +207,8 @@ FixHVIFEM::Reason FixHVIFEM::reason(std::size_t e) const
 
 void FixHVIFEM::release(std::vector<char> &freed)
 {
-  enum { FREED, REBUILD, STATES, N };
-  int here[N] = {0, 0, 0}, all[N];
+  enum { FREED, STATES, N };
+  int here[N] = {0, 0}, all[N];
   freed.assign(elements.size(), 0);
   for (std::size_t e = 0; e < elements.size(); e++) {
     Element &one = elements[e];
@@ -459,7 +217,6 @@ void FixHVIFEM::release(std::vector<char> &freed)
     if (why == NONE) continue;
     freed[e] = 1;
     here[FREED]++;
-    if (!listed[e]) here[REBUILD] = 1;
     if (!active[e]) here[STATES] = 1;
     double of_nodes = 0.0, of_particles = 0.0;
     for (int a = 0; a < CORNERS; a++)
@@ -484,7 +241,7 @@ void FixHVIFEM::release(std::vector<char> &freed)
     return;
   }
   total -= all[FREED];
-  if (all[REBUILD]) next_reneighbor = update->ntimestep;
+  next_reneighbor = update->ntimestep;
   if (all[STATES]) show_states(true);
   let_go(freed);
 }
@@ -510,6 +267,7 @@ void FixHVIFEM::let_go(const std::vector<char> &freed)
       [this](int i, const double *b) {
         if (b[1] == 0.0) return;
         users[i] -= b[1];
+        ledger->hand_over(i, -b[0]);
         if (users[i] > 0) {
           atom->rmass[i] -= b[0];
           return;
@@ -518,21 +276,6 @@ void FixHVIFEM::let_go(const std::vector<char> &freed)
             1.0e-30;    // until it is taken out with the next lists: not 0, for others divide by it
         for (int k = 0; k < 3; k++) atom->v[i][k] = atom->vest[i][k] = 0.0;
       });
-
-  // ghosts of the particles are free, too; with new lists that comes of itself
-
-  if (next_reneighbor == update->ntimestep) return;
-  flags.assign(atom->nlocal + atom->nghost, 0);
-  particles.scatter(
-      1,
-      [&](int k, double *b) {
-        b[0] = elements[inside[k].e].type > 0 ? elements[inside[k].e].type : 0.0;
-      },
-      [this](int i, const double *b) {
-        flags[i] = b[0];
-      });
-  comm->forward_comm(this);
-  for (std::size_t i = atom->nlocal; i < flags.size(); i++) store->fields.embedded[i] = flags[i];
 }
 
 /* ----------------------------------------------------------------------
