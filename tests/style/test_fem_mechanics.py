@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from fem_mechanics_scenes import BENCHMARK, ELASTIC, EOS, RHO, G, block, collision, gap, patch, run, spin, standing, stress_of, taylor, verney
+from fem_mechanics_scenes import COPPER, ELASTIC, EOS, RHO, STEEL, G, block, collision, gap, patch, run, spin, standing, stress_of, taylor, verney
 
 ROUND = 1e-12
 GRADIENT = np.array([[0.02, 0.1, 0.03], [-0.05, 0.01, 0.07], [0.04, -0.06, -0.025]]) * 1e6
@@ -77,12 +77,21 @@ def test_verney(lmp, tmp_path):
 
 
 def test_taylor(lmp, tmp_path):
-    """with the material of the benchmark (Y 400 MPa, hardening 100 MPa) codes have 21.4 to 21.7 mm and a foot of 6.97 to 7.24"""
-    o = taylor(lmp, tmp_path, 0.8e-3, BENCHMARK)
+    """42CrMo4 at 287 m/s, beside two codes: 26.52 and 26.55 mm, a foot of 11.18 and 11.22 mm"""
+    o = taylor(lmp, tmp_path, 0.8e-3, STEEL, V=287.0)
     print(o)
     assert 0.9 < o["over"] <= 1.0  # of the elements' own step
+    assert o["length"] == pytest.approx(26.54, abs=0.05) and 2 * o["foot"] == pytest.approx(11.2, abs=0.1)
+    assert o["kinetic"] < 1e-2 and o["drift"] < ROUND and o["hourglass"] < 0.02
+
+
+@pytest.mark.long
+def test_taylor_copper(lmp, tmp_path):
+    """as commonly quoted, codes have 21.4 to 21.7 mm and a foot of 6.97 to 7.24"""
+    o = taylor(lmp, tmp_path, 0.64e-3, COPPER)
+    print(o)
     assert 21.4 < o["length"] < 21.7 and 6.97 < o["foot"] < 7.24
-    assert o["kinetic"] < 1e-2 and o["drift"] < ROUND and o["hourglass"] < 0.03
+    assert o["kinetic"] < 1e-2 and o["drift"] < ROUND and o["hourglass"] < 0.02
 
 
 @pytest.mark.parametrize("kernel,eta,nodes,free", [("cubic", 1.2, 0.02, 0.01), ("wendland2", 1.6, 1e-3, 1e-4)])
