@@ -91,8 +91,8 @@ void FixHVIFEM::init()
   store->embedded = held;
   wraps = domain->periodicity[0] || domain->periodicity[1] || domain->periodicity[2];
 
-  const bigint here = elements.size();
-  bigint all;
+  bigint here = 0, all;    // others have gone, with particles or as such
+  for (const Element &one : elements) here += one.type > 0;
   MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all == 0 && total < 0)
     error->all(FLERR, "Fix hvi/fem has no elements: use read_data FILE fix {} elements Elements",
