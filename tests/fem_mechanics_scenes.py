@@ -50,7 +50,7 @@ thermo_modify format float %.17g lost {lost} norm no
 
 
 def run(lmp, folder, mesh, v, steps, *, laws=(EOS, ELASTIC), fem="", pair="", kernel="cubic", dt=None, courant=None, every=None, columns="",
-        more="", probes=False, dump=None, convert="no", lost="error", t_end=None, skin=0.2, name="f", units="si", **how):
+        more="", probes=False, dump=None, convert="no", lost="error", t_end=None, eta=1.2, skin=0.2, name="f", units="si", **how):
     """v: of nodes, (N, 3), from their places; dt, or else the step is that of fix hvi/dt; probes: of all elements
 
     Of the result: nodes, ID to place in the dump of nodes at the end; elements, the table PROBE at the end
@@ -63,26 +63,28 @@ def run(lmp, folder, mesh, v, steps, *, laws=(EOS, ELASTIC), fem="", pair="", ke
     box = mesh.box if mesh.box is not None else mesh._box()
     spacing = np.linalg.norm(mesh.corners[:, 0] - mesh.corners[:, 1], axis=-1).min() / max(mesh.per_edge, 2)
     materials = range(1, mesh.node_type)
-    velocity = np.asarray(v)
     x = mesh.nodes
+    velocity = v(x) if callable(v) else np.asarray(v)
     where = []
     if probes:
         where = mesh.corners.mean(axis=1)
         fem += "".join(" probe {:.17g} {:.17g} {:.17g}".format(*c) for c in where)
         more += (f"\nfix see all ave/time {probes} 1 {probes} {' '.join(f'f_wall[{k + 1}]' for k in range(len(PROBE)))} "
                  f"mode vector file {name}.probes format ' %.17g'\n")
-    n = len(x)
-    set_v = "\n".join(f"variable v{a} atomfile {name}.v{a}" for a in "xyz") + "\nvelocity nodes set v_vx v_vy v_vz units box"
+    others = np.concatenate([mesh.embedded.reshape(-1, 3), mesh.free])  # the former are moved by nodes
+    velocity = np.concatenate([velocity, v(others) if callable(v) else np.zeros_like(others)])
+    n = len(velocity)
+    set_v = "\n".join(f"variable v{a} atomfile {name}.v{a}" for a in "xyz") + "\nvelocity all set v_vx v_vy v_vz units box"
     for k, a in enumerate("xyz"):
         with open(folder / f"{name}.v{a}", "w", encoding="ascii") as out:
             out.write(f"{n}\n")
             np.savetxt(out, np.column_stack([np.arange(1, n + 1), velocity[:, k]]), fmt="%d %.17g")
     text = SCENE.format(
         boundary=" ".join("p" if p else "f" for p in mesh.periodic), box=" ".join(f"{a:.16g}" for a in box.T.ravel()), types=mesh.node_type,
-        masses="mass * 1", kernel=kernel, pair=pair, coeffs="\n".join(f"pair_coeff {t} {t} file {path} h {1.2 * spacing:.17g}" for t in materials),
+        masses="mass * 1", kernel=kernel, pair=pair, coeffs="\n".join(f"pair_coeff {t} {t} file {path} h {eta * spacing:.17g}" for t in materials),
         convert=convert, fem=fem, name=name, strength=strength, units=units, skin=skin * spacing, velocity=set_v, step=f"timestep {dt:.17g}" if dt else f"fix step all hvi/dt {courant or 0.2}",
         every=every or max(1, steps // 20), columns=columns, lost=lost,
-        more=more + (f"\ndump d nodes custom {dump} {name}.dump id x y z vx vy vz fx fy fz\ndump_modify d format float %.17g sort id\n" if dump else "")
+        more=more + (f"\ndump d all custom {dump} {name}.dump id type mass x y z vx vy vz fx fy fz\ndump_modify d format float %.17g sort id\n" if dump else "")
         + (f"\nvariable t equal time\nfix stop all halt 1 v_t > {t_end} error continue\n" if t_end else ""), run=f"run {steps}" if steps else "")
     r = lmp(text, **how)
     if probes:
@@ -99,7 +101,7 @@ def frames(path):
     while k < len(lines):
         n = int(lines[k + 3])
         a = np.array([line.split() for line in lines[k + 9:k + 9 + n]], dtype=float)
-        out.append(dict(step=int(lines[k + 1]), id=a[:, 0].astype(int), x=a[:, 1:4], v=a[:, 4:7], f=a[:, 7:10]))
+        out.append(dict(step=int(lines[k + 1]), id=a[:, 0].astype(int), type=a[:, 1].astype(int), mass=a[:, 2], x=a[:, 3:6], v=a[:, 6:9], f=a[:, 9:12]))
         k += 9 + n
     return out
 
@@ -129,7 +131,37 @@ def patch(lmp, folder, gradient, steps, dt=None, n=5, edge=1e-3, laws=(EOS, ELAS
     inner = ~outer[final["id"] - 1]
     size = np.abs(stress).max()
     return dict(stress=stress.mean(axis=0), size=size, spread=np.ptp(stress, axis=0).max() / size,
-                force=np.abs(final["f"][inner]).max() / (size * edge**2), thermo=r.thermo, x=final["x"], x0=m.nodes, dt=dt or stable(edge, 0.1))
+                volume=volumes(m.corners).sum(), force=np.abs(final["f"][inner]).max() / (size * edge**2), thermo=r.thermo, x=final["x"], x0=m.nodes, dt=dt or stable(edge, 0.1))
+
+
+def stress_of(gradient, t_end):
+    """stress xx yy zz xy xz yz, energy per mass, and the volume over that of the start, of a body in which dv/dx of the start is that, and no velocity changes
+
+    F = 1 + t gradient, L = gradient F^-1; S' = 2 G dev D + W S - S W; e' = (sigma:D)/rho; p by Gruneisen's law with a linear shock velocity
+    """
+    from scipy.integrate import solve_ivp
+
+    S1, g0 = 1.4, 1.97
+
+    def pressure(J, e):
+        eta = 1 - J
+        return RHO * C**2 * eta * (1 - 0.5 * g0 * eta) / (1 - S1 * eta) ** 2 + g0 * RHO * e if eta > 0 else C**2 * RHO * (1 / J - 1) + g0 * RHO * e
+
+    def state(t, y):
+        F = np.eye(3) + t * gradient
+        return y[:9].reshape(3, 3), y[9], np.linalg.det(F), gradient @ np.linalg.inv(F)
+
+    def rate(t, y):
+        S, e, J, L = state(t, y)
+        D, W = 0.5 * (L + L.T), 0.5 * (L - L.T)
+        sigma = S - pressure(J, e) * np.eye(3)
+        dS = 2 * G * (D - np.trace(D) / 3 * np.eye(3)) + W @ S - S @ W
+        return np.append(dS.ravel(), (sigma * D).sum() * J / RHO)
+
+    y = solve_ivp(rate, (0, t_end), np.zeros(10), rtol=1e-11, atol=1e-3).y[:, -1]
+    S, e, J, _ = state(t_end, y)
+    sigma = S - pressure(J, e) * np.eye(3)
+    return sigma[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]], e, J
 
 
 def spin(lmp, folder, turns, speed=100.0, n=4, edge=1e-3, share=0.2, hourglass=0.0, factor=0.5, fem="viscosity 0 0 hourglass/viscous 0", **how):
@@ -154,6 +186,28 @@ def spin(lmp, folder, turns, speed=100.0, n=4, edge=1e-3, share=0.2, hourglass=0
     total = t["c_book[8]"]
     return dict(steps=steps, turns=turns, momentum=np.abs(L - L[0]).max() / np.linalg.norm(L[0]), drift=np.abs(total / total[0] - 1).max(),
                 spring=t["f_wall[8]"] / total[0], kinetic=t["c_book[1]"] / total[0], vm=r.elements[-1]["vm"].max() / (RHO * speed**2), time=t["Time"])
+
+
+def gap(lmp, folder, n=2, kernel="cubic", eta=1.2, ragged=False, spacing=1e-3, rate=1e3, pair="", shear=0.0, cells=(12, 4, 4)):
+    """Elements and free particles side by side, periodic along the interface, in the same uniform velocity gradient: after a step their stress is uniform
+
+    What is left of forces, of nodes over stress times the face of an element, of free particles over stress times that of their cell
+    """
+    edge = n * spacing
+    grid = np.zeros(cells, bool)
+    grid[cells[0] // 2:] = True
+    if ragged:
+        grid[cells[0] // 2 - 1:cells[0] // 2 + 1] = np.random.default_rng(4).random((2, *cells[1:])) < 0.5
+    m = block(*cells, map=lambda p: edge * (p - [cells[0] / 2, 0, 0]), n=n, free=grid, periodic=(False, True, True), node_type=2)
+    dt = 0.02 * stable(spacing, 1.0)
+    r = run(lmp, folder, m, lambda x: rate * x[:, :1] * [1.0, shear, 0.0], 1, pair=pair, kernel=kernel, eta=eta, dt=dt, fem="viscosity 0 0", dump=1, every=1)
+    f = r.frames[-1]
+    sigma = M * rate * dt
+    near = np.abs(f["x"][:, 0]) < edge * cells[0] / 2 - 2 * eta * spacing - 1.1 * edge
+    size = np.linalg.norm(f["f"], axis=1) / sigma / np.where(f["type"] == 2, edge, spacing) ** 2
+    nodes, free = near & (f["type"] == 2), near & (f["type"] == 1)
+    return dict(kernel=kernel, ragged=ragged, nodes=int(nodes.sum()), node_force=size[nodes].max(), free_force=size[free].max(),
+                momentum=np.abs(f["f"].sum(axis=0)).max() / (sigma * edge**2))
 
 
 def standing(lmp, folder, kind, waves=1.0, nt=1, length=40, edge=1e-3, amp=0.1, factor=0.5, periods=2.0, fem="", across=None):
@@ -188,6 +242,33 @@ def standing(lmp, folder, kind, waves=1.0, nt=1, length=40, edge=1e-3, amp=0.1, 
                 drift=np.abs(total / total[0] - 1).max(), momentum=np.abs(r.thermo["c_book[10]"]).max())
 
 
+def yielding(lmp, folder, nt, over=4.0, Y=3e8, length=20, edge=1e-3, factor=0.5, fem="", thickness=None):
+    """A plate that starts to bend as in standing(), at a velocity with which it would yield at its faces over times if it stayed elastic
+
+    Deflection at its largest and what stays of it, over the largest of an elastic plate; plastic work and hourglass energy over the total
+    """
+    if thickness:
+        edge = thickness / nt
+    m = block(length * nt, 3, nt, n=0, map=lambda p: edge * (p - [0, 0, nt / 2]), periodic=(True, True, False))
+    h = nt * edge
+    m.box[:, 2] = -5 * h, 5 * h
+    k = 2 * np.pi / (length * h)
+    omega = mindlin(k, h)
+    amp = over * 2 * Y * omega / (PLATE * h * k * k)
+    v = np.zeros_like(m.nodes)
+    v[:, 2] = amp * np.cos(k * m.nodes[:, 0])
+    dt = stable(edge, factor)
+    steps = int(2 * np.pi / omega / dt)
+    more = f"variable w atom mass*cos({k:.17g}*x)*vz\ncompute w nodes reduce sum v_w\n"
+    r = run(lmp, folder, m, v, steps, laws=(EOS, f"strength perfect G {G} Y {Y}"), fem=fem, dt=dt, every=max(1, steps // 200), more=more, columns="c_w")
+    t = r.thermo
+    a = t["c_w"] / t["c_w"][0]
+    w = np.concatenate([[0.0], np.cumsum(0.5 * (a[1:] + a[:-1]) * np.diff(t["Time"]))]) * omega
+    total = t["c_book[8]"][0]
+    return dict(layers=nt, speed=amp, steps=steps, largest=w.max(), mean_late=w[len(w) // 3:].mean(), plastic=t["c_book[29]"][-1] / total,
+                hourglass=t["f_wall[8]"][-1] / total, drift=np.abs(t["c_book[9]"] - 1).max())
+
+
 def mindlin(k, h, shear=0.86):
     """frequency of bending waves of a plate of thickness h: Mindlin, J. Appl. Mech. 18 (1951) 31, the lower branch, with his factor of shear"""
     D, inertia, mass, S = PLATE * h**3 / 12, RHO * h**3 / 12, RHO * h, shear * G * h
@@ -202,20 +283,26 @@ def damped_cosine(t, a, omega):
     return w, d
 
 
-def taylor(lmp, folder, edge, root, V=227.0, L=32.4e-3, R=3.2e-3, t_end=80e-6, fem="", **how):
+def taylor(lmp, folder, edge, laws, V=227.0, L=32.4e-3, R=3.2e-3, t_end=80e-6, fem="", **how):
     """A quarter of Taylor's cylinder of copper, with its foot on a mirror plane: the rigid wall without friction (m, kg, s)"""
     m = plate(L, edge, radius=R, n=0, quarter=True)
     m.box = np.array([[0, 0, 0], [4 * R, 4 * R, 1.1 * L]])
     v = np.zeros_like(m.nodes)
     v[:, 2] = np.where(m.nodes[:, 2] > 0.0, -V, 0.0)
-    r = run(lmp, folder, m, v, 200000, laws=root / "potentials" / "Cu-OFHC.hvi", pair="mirror x 0 lo mirror y 0 lo mirror z 0 lo", fem=fem,
+    r = run(lmp, folder, m, v, 200000, laws=laws, pair="mirror x 0 lo mirror y 0 lo mirror z 0 lo", fem=fem,
             t_end=t_end, every=200, dump=200, **how)
     x, t = r.frames[-1]["x"], r.thermo
     rad = np.hypot(x[:, 0], x[:, 1])
     internal = t["f_wall[10]"]
-    return dict(edge=1e3 * edge, elements=len(m.elements), steps=int(t["Step"][-1]), length=1e3 * np.ptp(x[:, 2]), foot=1e3 * rad[x[:, 2] < 1e-9].max(),
+    return dict(over=(t["Dt"] / t["f_wall[11]"]).max(), edge=1e3 * edge, elements=len(m.elements), steps=int(t["Step"][-1]), length=1e3 * np.ptp(x[:, 2]), foot=1e3 * rad[x[:, 2] < 1e-9].max(),
                 widest=1e3 * rad.max(), drift=np.abs(t["c_book[9]"] - 1).max(), hourglass=t["f_wall[8]"][-1] / internal[-1],
                 kinetic=t["c_book[1]"][-1] / t["c_book[1]"][0], plastic=t["c_book[29]"][-1] / internal[-1])
+
+
+# commonly quoted for this benchmark: E 117 GPa, nu 0.35, yield stress 400 MPa, hardening 100 MPa, no effect of rate and temperature
+
+BENCHMARK = ("eos gruneisen rho0 8930 C 3815.4 S1 1.49 g0 2.0 cp 383 T0 300",
+             "strength johnson-cook G 43.333e9 A 400e6 B 100e6 n 1 C 0 m 1 epsdot0 1 Tref 300 Tm 1e9")
 
 
 def octant(radial, across, inner=8.0, outer=10.0):
@@ -256,3 +343,37 @@ def verney(lmp, folder, radial, across=None, t_end=150.0, fem="", viscosity="1.5
     return dict(radial=radial, elements=len(m.elements), steps=int(t["Step"][-1]), inner=mean[k], spread=np.ptp(size[k, low]), outer=size[k, high].mean(),
                 stops_at=t["Time"][min(k, len(t["Time"]) - 1)], kinetic=t["c_book[1]"].min() / t["c_book[1]"][0], drift=np.abs(t["c_book[9]"] - 1).max(),
                 hourglass=t["f_wall[8]"][-1] / t["f_wall[10]"][-1])
+
+
+def collision(lmp, folder, kind, speed, steps, n=2, edge=1e-3, share=0.0, fem="", factor=None, laws=(EOS, "strength perfect G 27.6e9 Y 3e8"), **how):
+    """Two bodies of elements meet face to face, with the particles they hold between them, or one that is pressed together
+
+    kind: blocks; thin (single elements side by side); distorted; shock (one block, half of it at each speed)
+    """
+    half = {"blocks": (3, 4, 4), "thin": (1, 5, 5), "distorted": (4, 4, 4), "shock": (12, 3, 3)}[kind]
+    nx, ny, nz = half
+    apart = 0 if kind == "shock" else 1
+    grid = np.ones((2 * nx + apart, ny, nz), int)
+    grid[nx:] = 1 if kind == "shock" else 2
+    empty = np.zeros(grid.shape, bool)
+    if apart:
+        empty[nx] = True
+    m = block(*grid.shape, map=lambda p: edge * (p - [(2 * nx + apart) / 2, ny / 2, nz / 2]), n=n, type=grid, empty=empty, node_type=3)
+    if kind == "shock":
+        m.node_type = 2
+    shift = np.random.default_rng(2).uniform(-share, share, m.nodes.shape) * edge
+    m.nodes = m.nodes + shift
+    if apart:  # to one spacing of particles from face to face
+        m.nodes[:, 0] += np.where(m.nodes[:, 0] < 0, 1, -1) * 0.5 * edge * (1 - 0.5 / max(n, 1) - share)
+    m.box = np.array([-1.0, 1.0])[:, None] * np.full(3, 4 * edge * max(2 * nx, ny, nz))
+    v = np.zeros_like(m.nodes)
+    v[:, 0] = np.where(m.nodes[:, 0] < 0, speed, -speed)
+    r = run(lmp, folder, m, v, steps, laws=laws, fem=fem, every=max(1, steps // 50), convert=how.pop("convert", "no"), dt=factor and stable(edge, factor), **how)
+    if r.returncode:
+        return r
+    t = r.thermo
+    unit = RHO * np.abs(v[:, 0]).max() * volumes(m.corners).sum() / 2
+    return dict(kind=kind, speed=speed, steps=int(t["Step"][-1]), drift=np.abs(t["c_book[9]"] - 1).max(),
+                momentum=max(np.abs(t[f"c_book[{k}]"] - t[f"c_book[{k}]"][0]).max() for k in (10, 11, 12)) / unit, hourglass=t["f_wall[8]"][-1] / t["f_wall[10]"].max(),
+                kinetic=t["c_book[1]"][-1] / t["c_book[1]"][0], left=t["f_wall"][-1] / len(m.elements), dt=t["Dt"].min() / stable(edge, 1.0),
+                over=(t["Dt"] / t["f_wall[11]"]).max(), thermo=t)

@@ -5,7 +5,7 @@
 
 prints errors in percent: of sigma_x = p - Sxx, rho and e on the plateau, of u in units of the jump, of the speeds of the fronts; on both
 sides of the contact. Columns of m x m particles, periodic across: without jitter the numbers do not depend on m, so m is 1. The plates are
-free behind and have a gap of one spacing at the start.
+free behind and have a gap of one spacing at the start. With --fill glass layers are of one spacing before the impact.
 
 Windows are the same for all cases: the plateau is 25 to 75 % of the layers that the plastic shock has passed, counted from the contact;
 the contact is the 3 layers nearest to it, near the 16 after these. Fronts are fits of error functions to u at two times, the last and half of
@@ -26,8 +26,9 @@ from scipy.optimize import least_squares
 from scipy.special import erf
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
 from reference.elastic_plastic import METALS, Solid, impact  # noqa: E402
+from hvi import bodies  # noqa: E402
 from shock_runs import read_log  # noqa: E402
 from solid_runs import STATE, material, read_frames  # noqa: E402
 from solids import runner  # noqa: E402
@@ -50,7 +51,7 @@ def sections(s):
 
 
 def flyer(lmp, folder, flying, target, speed, n=LAYERS, across=ACROSS, dim=3, kernel="wendland2", h=1.6, words="viscosity 1 2", variable=False,
-          gap=1.0, jitter=0.0):
+          gap=1.0, jitter=0.0, fill="lattice"):
     """runs it; lmp(text) runs LAMMPS in the folder. Returns what measure() does, with cost and books; lengths in spacings"""
     joined = flying is PISTON
     units, dx, gap = ("lj", 2.5e-3, 0.0) if joined else ("si", SPACING, gap)
@@ -59,7 +60,14 @@ def flyer(lmp, folder, flying, target, speed, n=LAYERS, across=ACROSS, dim=3, ke
     end = 0.9 * n * dx / max(w[0].m / s.rho0 for w, s in zip(exact, (flying, target))) + gap * dx / speed
     m = across if dim == 3 else 1
     grid = np.stack(np.meshgrid(np.arange(2 * n), np.arange(m), np.arange(m), indexing="ij"), -1).reshape(-1, 3)
-    x, left = dx * (grid + 0.5), grid[:, 0] < n
+    if fill == "glass":
+        plates = [bodies.make(bodies.box(dx * np.array([n, m, m]), periodic=(1, 2)), dx, seed=k).x for k in (1, 2)]
+        grid = np.concatenate(plates) / dx + 0.5 * np.array([n, m, m])
+        grid[n * m * m:, 0] += n
+        x, left = dx * grid, grid[:, 0] < n
+        grid = np.floor(grid).astype(int)
+    else:
+        x, left = dx * (grid + 0.5), grid[:, 0] < n
     x[:, 0] += np.where(left, 0.0, gap * dx) + 0.2 * n * dx
     k, wide = len(x), m * dx if dim == 3 else 20 * dx
     box = np.array([(2 * n + gap + 0.4 * n) * dx + 1.2 * speed * end, wide, wide])
@@ -192,6 +200,7 @@ if __name__ == "__main__":
     a.add_argument("--dim", default=3, type=int, choices=(1, 3))
     a.add_argument("--gap", default=1.0, type=float, help="in spacings")
     a.add_argument("--jitter", default=0.0, type=float, help="largest shift of particles in each direction, in spacings")
+    a.add_argument("--fill", default="lattice", choices=("lattice", "glass"), help="of the plates; glass with at least 3 columns in each direction")
     a.add_argument("--liquid", action="store_true", help="without strength")
     a.add_argument("--profile", action="store_true", help="prints the means of the layers, from the contact, in units of the exact state")
     o = vars(a.parse_args())

@@ -60,11 +60,16 @@ EXAMPLES = {
     "plate": """  python3 -m hvi plate wall.data --radius 20e-3 --thickness 0.8e-3 --spacing 0.2e-3 --layers 8 --angles 0 45 \\
       --material potentials/Al2024-T3.hvi
   python3 -m hvi plate far.data --radius 140e-3 --thickness 0.8e-3 --spacing 0.2e-3 --zones 20e-3 40e-3 80e-3 \\
-      --density 2785 --quarter""",
+      --density 2785 --quarter
+  python3 -m hvi plate thin.data --radius 20e-3 --thickness 0.8e-3 --spacing 0.2e-3 --fill glass --density 2785""",
     "mesh": """  python3 -m hvi mesh wall.data --side 300e-3 --thickness 1e-3 --element 0.5e-3 --core 8e-3 --hold 12e-3 --circle \\
       --growth 1.2 --largest 5e-3 --quarter --material potentials/Al2024-T3.hvi
   python3 -m hvi mesh plate.data --radius 20e-3 --thickness 1e-3 --element 0.5e-3 --particles 2 --density 2785
   python3 -m hvi mesh part.data --import part.inp --scale 1e-3 --particles 2 --set STRUCK --density 2785""",
+    "body": """  python3 -m hvi body ball.data --shape sphere --radius 5e-3 --spacing 0.5e-3 --material potentials/Al6061-T6.hvi
+  python3 -m hvi body shell.data --shape sphere --radius 5e-3 --inner 3e-3 --spacing 0.5e-3 --density 2785 --quarter
+  python3 -m hvi body rod.data --shape cylinder --radius 2e-3 --length 10e-3 --spacing 0.4e-3 --density 2785 --seed 7
+  python3 -m hvi body block.data --shape box --size 4e-3 4e-3 8e-3 --spacing 0.4e-3 --fill lattice --density 2785""",
     "impacts": """  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --figure witness
   python3 -m hvi impacts old.dump --axis z --plane 60.8e-3 --quarter --after 0 --bins 60 --figure witness.png
   python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --after 0.8e-3 --distance 0.6e-3 --sound \\
@@ -137,6 +142,14 @@ def _cloud(parser, needed, plane=True):
     if plane:
         group.add_argument("--plane", type=float, metavar="X", required=needed,
                            help="coordinate of the plane" + ("" if needed else " (default: all particles)"))
+
+
+def _filling(parser, default, text):
+    parser.add_argument("--fill", choices=("glass", "lattice"), default=default, help=f"{text} (default: {default})")
+    parser.add_argument("--seed", type=int, default=1, metavar="N", help="of glass: another one, another glass (default: 1)")
+    group = parser.add_mutually_exclusive_group(required=True)
+    group.add_argument("--density", type=positive, metavar="RHO", help="of the material, in units of the run")
+    group.add_argument("--material", metavar="FILE.hvi", help="material file; the run must have its units")
 
 
 def _rules(parser, several=False):
@@ -365,9 +378,19 @@ def options():
     sub.add_argument("--zones", type=positive, nargs="+", default=[], metavar="R",
                      help="beyond each of these radii the spacing doubles and the type is the next")
     sub.add_argument("--quarter", action="store_true", help="only x > 0, y > 0, for mirrors")
-    group = sub.add_mutually_exclusive_group(required=True)
-    group.add_argument("--density", type=positive, metavar="RHO", help="of the material, in units of the run")
-    group.add_argument("--material", metavar="FILE.hvi", help="material file; the run must have its units")
+    _filling(sub, "lattice", "lattice in layers, or glass: without layers, angles and zones")
+
+    sub = command("body", "a sphere, cylinder or box for SPH, hollow or not, with particles like in a glass or on a lattice, as a LAMMPS data file")
+    sub.add_argument("file", metavar="FILE", help="data file to write (atom_style sph; read_data FILE add append); the center is at 0 0 0")
+    sub.add_argument("--shape", choices=("sphere", "cylinder", "box"), required=True, help="a cylinder is along z")
+    sub.add_argument("--radius", type=positive, metavar="R", help="of a sphere or cylinder")
+    sub.add_argument("--inner", type=positive, metavar="R", help="radius inside, of a hollow one")
+    sub.add_argument("--length", type=positive, metavar="L", help="of a cylinder")
+    sub.add_argument("--size", type=positive, nargs=3, metavar=("X", "Y", "Z"), help="of a box")
+    sub.add_argument("--periodic", nargs="+", choices="xyz", default=[], metavar="D", help="directions of a box in which it goes on periodically")
+    sub.add_argument("--spacing", type=positive, required=True, metavar="S", help="of particles: as many as cubes of it have the volume of the body")
+    sub.add_argument("--quarter", action="store_true", help="only x > 0, y > 0, for mirrors")
+    _filling(sub, "glass", "even, without rows, or a cubic lattice about the center")
 
     sub = command("mesh", "hexahedra for fix hvi/fem, with particles in them and beside them, as a LAMMPS data file: plates, or the mesh of a file")
     sub.add_argument("file", metavar="FILE", help="data file to write (atom_style sph; read_data FILE fix ID elements Elements)")

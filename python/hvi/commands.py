@@ -236,10 +236,14 @@ def map(args):
 
 
 def plate(args):
-    from . import plates
+    from . import bodies, plates
 
+    if args.fill == "glass":
+        if args.layers is not None or args.angles != [0.0] or args.zones:
+            raise HVIError("a plate of glass has no --layers, --angles and --zones: those are of lattices")
+        return _fill(args, bodies.cylinder(args.radius, args.thickness, quarter=args.quarter, middle=0.5 * args.thickness), "plate")
     made = plates.make(args.radius, args.thickness, args.spacing, args.layers, args.angles, args.zones, args.quarter)
-    density, units = (args.density, None) if args.material is None else plates.density_of(args.material)
+    density, units = _density(args)
     plates.write(args.file, made, density, " ".join(os.path.basename(args.file).split()))
     count = np.bincount(made.type, minlength=len(made.volume) + 1)[1:]
     print(f"particles: {len(made.x)}")
@@ -254,7 +258,7 @@ PLATE = ("thickness", "element", "layers", "core", "hold", "circle", "growth", "
 
 
 def mesh(args):
-    from . import mesh_import, mesh_plate, plates
+    from . import mesh_import, mesh_plate
 
     given = {name: getattr(args, name) for name in PLATE if getattr(args, name) is not None}
     common = {"n": args.particles, "type": args.type, "node_type": args.node_type}
@@ -272,7 +276,7 @@ def mesh(args):
                 raise HVIError(f"--{name} is of imported meshes, not of plates")
         side = None if args.side is None else args.side if len(args.side) > 1 else args.side[0]
         made = mesh_plate.plate(side=side, radius=args.radius, **given, **common)
-    density, units = (args.density, None) if args.material is None else plates.density_of(args.material)
+    density, units = _density(args)
     made.write(args.file, density, " ".join(os.path.basename(args.file).split()))
     found = made.quality()
     _print({**found, "mass": density * found["volume"]})
@@ -280,6 +284,46 @@ def mesh(args):
         print(f"elements that were inside out: {inverted}")
     print(f"density: {density:.10g}" + (f" (units {units})" if units else ""))
     print(tables.text(("type", "mass", "of"), [(k, m, "nodes" if k == made.node_type else "material") for k, m in made.masses(density).items()]))
+
+
+def body(args):
+    from . import bodies
+
+    needed = {"sphere": {"radius"}, "cylinder": {"radius", "length"}, "box": {"size"}}[args.shape]
+    given = {name for name in ("radius", "inner", "length", "size") if getattr(args, name) is not None}
+    allowed = needed | ({"inner"} if "radius" in needed else set())
+    if not needed <= given <= allowed:
+        words = " and ".join("--" + name for name in sorted(needed, reverse=True))
+        raise HVIError(f"a {args.shape} has {words}{' and may have --inner' if 'inner' in allowed else ''}, nothing else, not "
+                       f"{' '.join('--' + name for name in sorted(given)) or 'none of these'}")
+    if args.periodic and args.shape != "box":
+        raise HVIError(f"--periodic is for boxes, not for a {args.shape}")
+    sizes = {name: getattr(args, name) for name in given}
+    if args.periodic:
+        sizes["periodic"] = ["xyz".index(c) for c in args.periodic]
+    _fill(args, getattr(bodies, args.shape)(**sizes, quarter=args.quarter), "body")
+
+
+def _density(args):
+    """(density, units or None)"""
+    from . import plates
+
+    return (args.density, None) if args.material is None else plates.density_of(args.material)
+
+
+def _fill(args, shape, what):
+    """fills a shape, writes it, and says how even it is"""
+    from . import bodies
+
+    density, units = _density(args)
+    made = bodies.make(shape, args.spacing, args.fill, args.seed)
+    bodies.write(args.file, made, density, f"{what} {' '.join(os.path.basename(args.file).split())}, {args.fill}")
+    print(f"particles: {len(made.x)}")
+    print(f"spacing: {made.spacing:.10g}")
+    print(f"density: {density:.10g}" + (f" (units {units})" if units else ""))
+    print(f"mass: {density * shape.volume:.10g}")
+    print("center: " + " ".join(f"{c:.6g}" for c in shape.center))
+    _print(bodies.measure(made))
 
 
 def impacts(args):

@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 
+from . import bodies
 from .errors import HVIError
 
 
@@ -118,17 +119,8 @@ def density_of(path):
 def write(path, plate, density, title=""):
     """A data file of atom_style sph, at rest and without internal energy."""
     margin = plate.spacing[-1]
-    low = 0.0 if plate.quarter else -(plate.radius + margin)
-    mirror = "mirror x 0 lo mirror y 0 lo" if plate.quarter else "mirror none"
-    side = f"{low:.10g} {plate.radius + margin:.10g}"
-    n, types = len(plate.x), len(plate.volume)
-    try:
-        with open(path, "w", encoding="ascii") as out:
-            out.write(f"LAMMPS data file: plate {title}, {mirror}\n\n{n} atoms\n{types} atom types\n\n{side} xlo xhi\n{side} ylo yhi\n"
-                      f"0 {plate.step * len(plate.angles):.10g} zlo zhi\n\nMasses\n\n")
-            out.writelines(f"{k + 1} {density * v:.15g}\n" for k, v in enumerate(plate.volume))
-            out.write("\nAtoms # sph\n\n")
-            table = np.column_stack([np.arange(1, n + 1), plate.type, np.full(n, density), np.zeros((n, 2)), plate.x])
-            np.savetxt(out, table, fmt="%d %d %.10g %d %d %.12g %.12g %.12g")
-    except OSError as error:
-        raise HVIError(f"cannot write {path}: {error.strerror or error}") from None
+    low, high = np.full(3, -(plate.radius + margin)), np.full(3, plate.radius + margin)
+    planes = (0, 1) if plate.quarter else ()
+    low[list(planes)] = 0.0
+    low[2], high[2] = 0.0, plate.step * len(plate.angles)
+    bodies.write_data(path, plate.x, plate.type, density * plate.volume, density, low, high, planes, f"plate {title}")

@@ -16,6 +16,7 @@
 #include "error.h"
 #include "fix_hvi_store.h"
 #include "force.h"
+#include "hvi_mesh.h"
 #include "update.h"
 
 #include <algorithm>
@@ -96,8 +97,9 @@ void ComputeHVICloud::compute_vector()
   enum { SMASS, SMOMENTUM, SMVSQ, SCOUNT, SY, SVY = SY + 2, NSUM = SVY + 2 };
   double mine[NSUM] = {0.0}, sum[NSUM];
   cloud.clear();
+  const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
+    if (!(atom->mask[i] & groupbit) || (mesh && mesh->is_node(atom->type[i]))) continue;
     double x[3];
     domain->unmap(atom->x[i], atom->image[i], x);
     if (!(x[axis] > plane)) continue;

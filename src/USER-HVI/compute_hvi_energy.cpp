@@ -92,12 +92,14 @@ void ComputeHVIEnergy::init()
 }
 
 /* ----------------------------------------------------------------------
-   the first total of all is what later ones are compared with
+   the first total of all is what later ones are compared with.  Output gets others: fixes have not yet
+   set up what they keep.
 ------------------------------------------------------------------------- */
 
 void ComputeHVIEnergy::setup()
 {
   if (update->eflag_global == update->ntimestep) compute_vector();
+  invoked_vector = -1;
 }
 
 /* ---------------------------------------------------------------------- */

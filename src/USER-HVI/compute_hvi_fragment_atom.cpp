@@ -18,6 +18,7 @@
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
 #include "force.h"
+#include "hvi_mesh.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -183,8 +184,9 @@ void ComputeHVIFragmentAtom::find_fragments(Region *region)
 
   id.assign(nlocal, 0);
   if (region) region->prematch();
+  const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
   for (int i = 0; i < nlocal; i++) {
-    if (!(mask[i] & groupbit)) continue;
+    if (!(mask[i] & groupbit) || (mesh && mesh->is_node(atom->type[i]))) continue;
     if (region) {
       double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
       domain->remap(x);    // it may have left a periodic box since the last rebuild

@@ -15,6 +15,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "hvi_mesh.h"
 #include "update.h"
 
 #include <algorithm>
@@ -175,8 +176,9 @@ void ComputeHVIHole::find_layer()
   layer.clear();
   double mine[6] = {0.0, 0.0}, most[6];    // the last 4: minus the lowest, and the highest
   std::fill(mine + 2, mine + 6, -HUGE_VAL);
+  const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
+    if (!(atom->mask[i] & groupbit) || (mesh && mesh->is_node(atom->type[i]))) continue;
     double x[3];
     domain->unmap(atom->x[i], atom->image[i], x);
     const Particle p = {atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]],

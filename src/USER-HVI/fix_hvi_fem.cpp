@@ -47,6 +47,7 @@ FixHVIFEM::~FixHVIFEM()
   memory->destroy(head);
   memory->destroy(users);
   memory->destroy(array_local);
+  unmark_particles();
   if (FixHVIStore *const now = FixHVIStore::find(lmp)) now->embedded = 0;
 }
 
@@ -88,12 +89,18 @@ void FixHVIFEM::init()
                "property/atom rmass ghost yes before read_data");
   ledger = FixHVILedger::instance(lmp);
   store->embedded = held;
-  wraps = domain->periodicity[0] || domain->periodicity[1] || domain->periodicity[2];
+  wraps = false;
+  nearby = HUGE_VAL;
+  for (int k = 0; k < 3; k++)
+    if (domain->periodicity[k]) {
+      wraps = true;
+      nearby = std::min(nearby, 0.25 * domain->prd[k]);
+    }
 
   const bigint here = elements.size();
   bigint all;
   MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all == 0 && total <= 0)
+  if (all == 0 && total < 0)
     error->all(FLERR, "Fix hvi/fem has no elements: use read_data FILE fix {} elements Elements",
                id);
   if (total < 0) total = all;
@@ -101,8 +108,7 @@ void FixHVIFEM::init()
 }
 
 /* ----------------------------------------------------------------------
-   Lists leave out pairs of particles that are both inside of elements of one body, unless these are
-   about to fail
+   Lists leave out pairs of particles that are both inside of elements of one body
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::make_groups()
@@ -132,15 +138,24 @@ void FixHVIFEM::setup_pre_exchange()
   atom->map_set();
   mark_particles();
   start_elements();
+  gather_start();
+  check_state();
+  if (!going_on) place_particles({});
 }
 
 void FixHVIFEM::setup_pre_neighbor()
 {
   connect();
-  gather_nodes();
-  check_state();
-  if (!going_on) place_particles({});
+  gather_start();
   comm->forward_comm();
+}
+
+// there is no other velocity yet
+
+void FixHVIFEM::gather_start()
+{
+  gather_nodes();
+  for (std::size_t k = 0; k < node.size(); k += NODE) std::copy_n(&node[k + V], 3, &node[k + W]);
 }
 
 /* ----------------------------------------------------------------------
@@ -183,7 +198,6 @@ void FixHVIFEM::post_integrate()
 {
   gather_nodes();
   half_energy(update->dt);
-  for (Element &one : elements) one.ahead = one.e + one.change;
   std::vector<char> freed;
   if (options.fails) release(freed);
   place_particles(freed);
@@ -206,20 +220,29 @@ void FixHVIFEM::half_energy(double dt)
     double work = 0.0, kick = 0.0;
     for (int a = 0; a < CORNERS; a++) {
       const double *const n = at(e, a);
-      for (int k = 0; k < 3; k++)
-        work += (one.force[3 * a + k] + one.pair_force[3 * a + k]) * n[V + k];
+      for (int k = 0; k < 3; k++) work += one.force[3 * a + k] * n[V + k];
       kick += n[KICK];
     }
+    if (active[e])
+      for (int a = 0; a < CORNERS; a++)
+        for (int k = 0; k < 3; k++) work += one.pair_force[3 * a + k] * at(e, a)[V + k];
     one.change = 0.5 * dt * (one.power - work) / one.mass;
     one.e += one.change + kick / CORNERS;
+    one.ahead = one.e + one.change;
   }
 }
 
+// the second half: forces have worked on velocities that have not changed since they were made
+
 void FixHVIFEM::final_integrate()
 {
-  for (std::size_t k = 0; k < node.size(); k += NODE) node[k + KICK] = 0.0;
   dt_last = update->dt;
-  half_energy(dt_last);
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (!alive(e)) continue;
+    Element &one = elements[e];
+    one.change = 0.5 * dt_last * (one.power - now[e].work) / one.mass;
+    one.e += one.change;
+  }
 }
 
 /* ----------------------------------------------------------------------

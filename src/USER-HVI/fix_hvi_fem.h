@@ -152,7 +152,6 @@ class FixHVIFEM :
   std::vector<Member> members;        // by slot of near
   std::vector<int> corner, place;     // by element: CORNERS nodes; first particle, -1: none
   std::vector<char> active;           // by element: particles act on some of its own
-  std::vector<char> listed;           // its particles are in lists with all that are near
   std::vector<int> flags;             // by particle, while lists are looked at
 
   // of a step
@@ -166,10 +165,11 @@ class FixHVIFEM :
     NODE
   };    // of a node: V of the middle of a step, W of its end
   enum { L = 0, M = 9, TRACE = 15, CONTACT = 16, SUMS = 22 };
-  enum { RHO = 9, ESPH, FLAG, PLACE };    // of a particle, after X, V, W
-  enum { STAYS, IS_FREE, IS_NO_MORE };    // FLAG
+  enum { RHO = 9, ESPH, AHEAD, FLAG, PLACE };    // of a particle, after X, V, W
+  enum { STAYS, IS_FREE, IS_NO_MORE };           // FLAG
   struct Now {
     double p, c, kick;
+    double work;    // power of the last forces on the velocity before them
     double L[9], K[9];
     double sums[SUMS];
   };
@@ -181,6 +181,7 @@ class FixHVIFEM :
   double shortest;    // stable step
   bool going_on;      // all elements are as the last run has left them
   bool wraps;         // they may lie across periodic faces
+  double nearby;      // as far as there is no other image
 
   // of this rank, from the start on
 
@@ -193,8 +194,15 @@ class FixHVIFEM :
   void link();
   void connect();
   void start_elements();
+  void ids_have_changed(tagint) const;
   void mark_particles();
+  void unmark_particles();
+  void check_group(int) const;
+  void check_masses();
+  bool left_over(int) const;
+  void gather_start();
   void check_state();
+  bool strayed();
   std::uint64_t fingerprint(std::size_t) const;
   void gather_nodes();
   void half_energy(double dt);
@@ -204,6 +212,8 @@ class FixHVIFEM :
   void gather_sums();
   void advance(std::size_t first, int n, double dt, bool due);
   void show_states(bool all);
+  double with_pairs(const Now &, double felt[9]) const;
+  bool waits(std::size_t first, int n) const;
   void make_forces(double dt);
   void gather_forces();
   void element_forces(std::size_t first, int n, double dt);

@@ -30,8 +30,13 @@ FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), announced(-1), id_before(0), probed(-1), every(0), total(-1), held(0),
     store(nullptr), integrator(nullptr), strength(nullptr), ledger(nullptr), head(nullptr),
     users(nullptr), nodes(lmp), particles(lmp), near(lmp), dt_last(0.0), shortest(HVI::NO_BOUND),
-    going_on(false), wraps(false), count()
+    going_on(false), wraps(false), nearby(0.0), count()
 {
+  if (igroup != 0)
+    error->all(FLERR,
+               "Fix hvi/fem must be of group all, not {}: elements say which particles are "
+               "theirs",
+               group->names[igroup]);
   read_options(narg, arg);
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR, "Fix hvi/fem needs atom_style sph");
@@ -41,7 +46,7 @@ FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
 
   scalar_flag = vector_flag = 1;
   size_vector = NCOUNT + 2;
-  extscalar = 1;
+  extscalar = 0;    // a number, never per particle
   extvector = 0;
   global_freq = 1;
   if (!probes.empty()) {

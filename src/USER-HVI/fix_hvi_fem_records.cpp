@@ -131,29 +131,39 @@ void FixHVIFEM::unpack_restart(int i, int nth)
 }
 
 /* ----------------------------------------------------------------------
-   what is of all: the last step, numbers of elements and what has become of others
+   what is of all: the last step, numbers of elements and what has become of others, and which of them probes
+   have, for the nearest now may be another
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::write_restart(FILE *fp)
 {
-  double list[3 + NCOUNT];
-  list[0] = SIZE;
-  list[1] = dt_last;
-  list[2] = total;
-  MPI_Reduce(count, list + 3, NCOUNT, MPI_DOUBLE, MPI_SUM, 0, world);
+  double sum[NCOUNT];
+  MPI_Reduce(count, sum, NCOUNT, MPI_DOUBLE, MPI_SUM, 0, world);
   if (comm->me) return;
-  const int size = sizeof(list);
+  std::vector<double> list = {(double) SIZE, dt_last, (double) total};
+  list.insert(list.end(), sum, sum + NCOUNT);
+  list.push_back(probes.size());
+  for (const Probe &probe : probes) {
+    list.insert(list.end(), probe.x, probe.x + 3);
+    list.push_back(probe.id);
+  }
+  const int size = list.size() * sizeof(double);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(list, size, 1, fp);
+  fwrite(list.data(), size, 1, fp);
 }
 
 void FixHVIFEM::restart(char *buf)
 {
-  const double *const list = (const double *) buf;
+  const double *list = (const double *) buf;
   if (list[0] != SIZE) error->all(FLERR, "Fix hvi/fem: the restart file is of another version");
   dt_last = list[1];
   total = list[2];
   if (comm->me == 0) std::copy_n(list + 3, +NCOUNT, count);
+  list += 3 + NCOUNT;
+  const double *const end = list + 1 + 4 * (int) list[0];
+  for (++list; list < end; list += 4)
+    for (Probe &probe : probes)
+      if (std::equal(probe.x, probe.x + 3, list)) probe.id = list[3];
 }
 
 /* ----------------------------------------------------------------------
@@ -189,7 +199,10 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
       if ((int) values.count() != ncolumn + 1)
         throw TokenizerException("it has another number of columns", "");
       Element one = {};
-      one.id = values.next_bigint() + id_before;
+      one.id = values.next_bigint();
+      if (one.id < 1)
+        throw TokenizerException("IDs of elements must be positive", std::to_string(one.id));
+      one.id += id_before;
       if (state) {
         const auto found = where.find(one.id);
         if (found == where.end()) continue;    // of another rank

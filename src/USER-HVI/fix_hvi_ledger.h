@@ -84,6 +84,10 @@ class FixHVILedger : public Fix {
     for (int k = 0; k < 3; k++) entry[CLAMP_JX + k] += impulse[k];
   }
 
+  // for fix hvi/fem, in the middle of a step: elements give mass of clamped nodes to clamped particles
+
+  void hand_over(int i, double mass);
+
   // for compute hvi/energy
 
   void clamp(int groupbits);    // particles moved by more than pairs and bonds

@@ -15,6 +15,7 @@
 #include "fix_hvi_ledger.h"
 
 #include "atom.h"
+#include "fix_hvi_store.h"
 #include "force.h"
 #include "memory.h"
 #include "update.h"
@@ -136,10 +137,25 @@ void FixHVILedger::count_in(int i, ClampState &s) const
   for (int k = 0; k < 3; k++) s.momentum[k] += m * v[k];
 }
 
+// particles in elements have nothing of their own: what they are given when these fail is no work of clamps
+
 FixHVILedger::ClampState FixHVILedger::measure_clamps() const
 {
+  const FixHVIStore *const store = FixHVIStore::find(lmp);
+  const int embedded = store ? store->embedded : 0;
   ClampState s = {0.0, {0.0, 0.0, 0.0}};
   for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & clampbit) count_in(i, s);
+    if ((atom->mask[i] & clampbit) && !(atom->mask[i] & embedded)) count_in(i, s);
   return s;
+}
+
+void FixHVILedger::hand_over(int i, double mass)
+{
+  if (!(atom->mask[i] & clampbit)) return;
+  const double *const v = atom->v[i];
+  clamp_state.energy += 0.5 * force->mvv2e * mass * dot(v, v);
+  for (int k = 0; k < 3; k++) {
+    clamp_state.momentum[k] += mass * v[k];
+    if (mass > 0.0) dx[i][k] = update->dt * v[k];
+  }
 }

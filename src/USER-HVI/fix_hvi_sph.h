@@ -74,10 +74,11 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   double settle_density(int i, double div);
 
   // for fix hvi/fem: a particle in an element is moved by it, with this velocity at the end of the step;
-  // when it is free in the middle of a step, it goes on with density and energy as they are
+  // when it is free in the middle of a step, it goes on with density and energy as they are, the latter with de
+  // beyond the middle
 
   void carry(int i, const double *working);
-  void let_go(int i);
+  void let_go(int i, double de);
   void settle_solids();
 
   double sleep() const { return quiet; }    // differences that count as none; 0: nothing sleeps

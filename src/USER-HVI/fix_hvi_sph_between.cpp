@@ -39,10 +39,11 @@ void FixHVISPH::carry(int i, const double *working)
   for (int k = 0; k < 3; k++) extra[i].working[k] = working[k];
 }
 
-void FixHVISPH::let_go(int i)
+void FixHVISPH::let_go(int i, double de)
 {
   Extra &e = extra[i];
-  e.drho = e.de = e.stretch = 0.0;
+  e.drho = e.stretch = 0.0;
+  e.de = de;
   e.trend_rho = e.trend_e = 0.0;
   e.settled = e.rho = atom->rho[i];
   e.esph = atom->esph[i];

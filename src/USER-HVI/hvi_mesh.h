@@ -9,6 +9,8 @@
 #ifndef LMP_HVI_MESH_H
 #define LMP_HVI_MESH_H
 
+#include "hvi_interface.h"
+
 namespace HVI {
 
 /* ----------------------------------------------------------------------
@@ -26,6 +28,14 @@ class Mesh {
 
   virtual void settle() = 0;
 };
+
+// what has elements; null: there are none
+
+inline Mesh *find_mesh(const LAMMPS_NS::LAMMPS *lmp)
+{
+  const auto found = find_interface<Mesh>(lmp);
+  return found.empty() ? nullptr : found[0];
+}
 
 }    // namespace HVI
 

@@ -60,7 +60,7 @@ tagint HVITagExchange::connect(const std::vector<tagint> &wanted,
   std::vector<int> far;    // slots whose particles are elsewhere
   for (int k = 0; k < nslots; k++) {
     const int i = atom->map(wanted[k]);
-    if (i >= 0 && i < nlocal) {
+    if (i >= 0 && i < nlocal && may_be(i)) {
       owned.here.push_back(i);
       slots.here.push_back(k);
     } else

@@ -181,8 +181,7 @@ void PairHVISPH::init_style()
   integrator = integrators.empty() ? nullptr : dynamic_cast<FixHVISPH *>(integrators[0]);
   lists = FixHVILists::make(lmp, !integrator || integrator->relative_lists(), false);
   strength = FixHVIJohnsonCook::find(lmp);
-  const auto meshes = HVI::find_interface<HVI::Mesh>(lmp);
-  mesh = meshes.empty() ? nullptr : meshes[0];
+  mesh = HVI::find_mesh(lmp);
   if (!mesh) {
     store->fields.embedded.clear();
     store->fields.idle.clear();

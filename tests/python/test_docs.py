@@ -1,9 +1,11 @@
 """The documentation keeps up with the code: a page per style, links that lead somewhere, inputs that run."""
 
 import re
+import shlex
 import sys
 
 import pytest
+from hvi import cli
 
 
 @pytest.fixture(scope="module")
@@ -70,6 +72,22 @@ def test_sph_input_runs(lmp, root):
     thermo = lmp(text).thermo
     assert thermo["c_mean"][-1] == pytest.approx(2703 * (5240 + 1.4 * 1000) * 1000, rel=0.02)
     assert abs(thermo["c_book[9]"] - 1).max() < 1e-4
+
+
+def test_fem_input_runs(lmp, root):
+    """its mesh by its command; what the page says of it"""
+    (mesh,) = inputs(root / "doc/src/Howto_fem.rst", r"(?=   python3 -m hvi mesh wall)", r"\n(?=\S)")
+    (text,) = inputs(root / "doc/src/Howto_fem.rst", r"(?=   # a ball of 3 mm)", r"\n(?=\S)")
+    words = shlex.split(mesh.replace("\\\n", ""))
+    words[words.index("--material") + 1] = str(root / words[-1])
+    assert cli.main(words[3:]) in (0, None)
+    run = lmp(text)
+    assert run.warnings == []
+    thermo = run.thermo
+    assert thermo["f_wall"][0] == 1018 and 35 < thermo["f_wall[1]"][-1] < 55
+    assert thermo["c_hole[1]"][-1] == pytest.approx(6.2e-3, abs=0.1e-3)
+    assert thermo["f_wall[7]"][-1] < 2e-3 * thermo["c_book[1]"][0] and thermo["f_wall[9]"][-1] == 0
+    assert abs(thermo["c_book[9]"][-1] - 1) < 1e-6
 
 
 def test_version_is_the_same_everywhere(root):

@@ -56,7 +56,7 @@ WRONG = [
     (change("    gap_mm: 60\n", ""), 8, "wall 2: gap_mm: is missing"),
     (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, gap_mm: 5,"), 7, "wall 1: gap_mm: is the gap in front of a wall"),
     (change("{thickness_mm: 0.8,", "{thickness_mm: 0.3,"), 11, "spacings_mm: 0.4 mm is more than wall 1 is thick, 0.3 mm"),
-    (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, method: mli,"), 7, "wall 1: method: must be sph, not mli"),
+    (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, method: mli,"), 7, "wall 1: method: must be sph, hybrid or tied, not mli"),
     (change("gap_mm: 60", "gap_mm: 60\n    spacings_mm: [0.2]"), 11, "wall 2: spacings_mm: must be 2 values, one for each"),
     (change("gap_mm: 60", "gap_mm: 60\n    radius_mm: 2"), 11,
      "wall 2: radius_mm: with 2 mm a projectile of 5 mm at 0 degrees strikes its edge or beside it: at least 3.75 mm are needed; without the key it is what the cloud needs"),

@@ -1,8 +1,10 @@
 """examples/single-plate, coarse and short: a hole, a cloud and closed books; quarter models; other materials, angles, shapes."""
 
+import hvi
 import numpy as np
 import pytest
 import yaml
+from hvi import bodies
 
 KEYS = """particles steps time_us wall_s ranks particle_steps_per_s energy_ratio energy_missed_ratio momentum_error mass_error lammps_version package_version
     hole_diameter_mm front_velocity_m_s cloud_length_mm cloud_diameter_mm length_ratio axial_velocity_ratio fragments fragmentation
@@ -48,6 +50,23 @@ def test_runs_on_behind_the_last_frame(lmp, root, tmp_path):
 def test_variants(lmp, root, tmp_path, variables):
     r = plate(lmp, root, tmp_path, tstop=2, dx=1.25, Rplate=20, **variables)
     assert abs(r["energy_ratio"] - 1) < 1e-3 and r["momentum_error"] < 1e-10
+
+
+@pytest.mark.parametrize("quarter", ["no", "yes"])
+def test_bodies_of_glass(lmp, root, tmp_path, quarter):
+    """both from files: their masses, to the last digit, not those of sites; a wrong length is refused"""
+    sphere, wall = bodies.sphere(5e-3, quarter=quarter == "yes"), bodies.cylinder(20e-3, 2e-3, quarter=quarter == "yes", middle=1e-3)
+    for name, shape in (("ball.data", sphere), ("wall.data", wall)):
+        bodies.write(tmp_path / name, bodies.make(shape, 1e-3), 2703)
+    how = dict(dx=1, Rplate=20, shape="ball.data", plate="wall.data", quarter=quarter, tstop=2)
+    r = plate(lmp, root, tmp_path, **how)
+    assert abs(r["energy_ratio"] - 1) < 1e-3 and abs(r["mass_error"]) < 1e-12
+    assert 10 < r["hole_diameter_mm"] < 20 and r["cloud_mass_g"] > 0.5
+    frame = hvi.Dump(tmp_path / "frame.2.dump", mirror=["none"])[-1]
+    for k, shape in ((1, sphere), (2, wall)):
+        assert frame.m[frame["type"] == k].sum() == pytest.approx(2703 * shape.volume, rel=5e-6)  # six digits, as dumps have
+    stopped = plate(lmp, root, tmp_path, fails=True, **{**how, "D": 8})
+    assert "D = 8 mm is not the length of the body" in stopped.log + stopped.stdout
 
 
 @pytest.mark.parametrize("variables,message", [
