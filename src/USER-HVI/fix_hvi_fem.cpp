@@ -97,7 +97,9 @@ void FixHVIFEM::init()
       nearby = std::min(nearby, 0.25 * domain->prd[k]);
     }
 
-  const bigint here = elements.size();
+  const bigint here = std::count_if(elements.begin(), elements.end(), [](const Element &one) {
+    return one.type > 0;    // others went with their nodes when these were read
+  });
   bigint all;
   MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all == 0 && total < 0)

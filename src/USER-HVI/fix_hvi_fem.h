@@ -140,6 +140,7 @@ class FixHVIFEM :
   int *head;                        // of owned particles: its first element, -1: none
   int *users;                       // of owned particles: number of elements that have it as a node
   std::vector<int> next;            // by element: of the same particle, -1: none
+  std::vector<int> read_head;    // head of particles of a data file, until LAMMPS sets their arrays
 
   // from one exchange of particles to the next
 

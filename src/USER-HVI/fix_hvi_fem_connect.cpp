@@ -111,6 +111,7 @@ void FixHVIFEM::link()
                                 }),
                  elements.end());
   next.assign(elements.size(), -1);
+  read_head.clear();
   std::fill_n(head, atom->nlocal, -1);
   std::vector<int> number(atom->nlocal, 0);
   int most = 0;

@@ -142,13 +142,12 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
       row[AHEAD] = one.change * one.mass / one.particles();
     }
   }
-  const bool tell = !freed.empty();
   particles.scatter(
       PLACE,
       [this](int k, double *b) {
         memcpy(b, &rows[PLACE * k], PLACE * sizeof(double));
       },
-      [this, tell](int i, const double *b) {
+      [this](int i, const double *b) {
         if (b[FLAG] == IS_NO_MORE) return;
         double *const x = atom->x[i];
         double way[3] = {b[X] - x[0], b[X + 1] - x[1], b[X + 2] - x[2]};
@@ -160,7 +159,7 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         atom->rho[i] = b[RHO];
         atom->esph[i] = b[ESPH];
         integrator->carry(i, b + W);
-        if (tell && b[FLAG] == IS_FREE) {
+        if (b[FLAG] == IS_FREE) {
           atom->mask[i] &= ~(held | inner[atom->type[i]]);
           integrator->let_go(i, b[AHEAD]);
           ledger->hand_over(i, atom->rmass[i]);
