@@ -68,8 +68,9 @@ def test_elements_without_particles_are_listed(wall):
     dumps = sorted(wall[0].glob("elements.*.dump"), key=lambda path: int(path.name.split(".")[1]))
     assert len(dumps) == 2
     table = np.loadtxt(dumps[-1], skiprows=9)
-    assert len(table) == wall[1]["elements"] and len(np.unique(table[:, 0])) == len(table)
+    assert table.shape == (wall[1]["elements"], 17) and len(np.unique(table[:, 0])) == len(table)
     x, y, z, vm, eps = table[:, [2, 3, 4, 12, 13]].T
     assert np.allclose(z, 0.4e-3, atol=0.2e-3) and x.min() > 0 and x.max() < 60.1e-3
+    assert np.count_nonzero(table[:, 16] == 2) == 159 and set(table[:, 16]) == {0, 2}  # those that hold particles
     far = np.hypot(x, y) > 40e-3
     assert np.all(eps[far] == 0) and 5e7 < vm[far].max() < 3e8
