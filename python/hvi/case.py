@@ -10,7 +10,7 @@ import warnings
 
 import yaml
 
-from . import runs
+from . import runs, shield_mesh
 from .errors import HVIError, HVIWarning
 
 REQUIRED = object()
@@ -21,8 +21,9 @@ LAYERS = 3  # that in.whipple needs in the wall that decides
 
 # settings of in.whipple: what their values must be, beside numbers where its own are numbers
 ABOVE_0, FROM_0, WHOLE = {"eta", "C", "skin", "rim", "probe_size"}, {"tstop", "back", "behind", "probe_at", "film"}, {"zones", "layers"}
+METHODS = "sph", "hybrid", "tied"
 CHOICES = {"quarter": ("auto", "yes", "no"), "edge": ("free", "clamp", "absorb"), "probes": ("yes", "no")}
-SET_BY_CASE = {"t1", "t2", "spacing", "material_t", "radius1", "radius2", "radius", "spacings", "outside", "dry", "resume", "out"}
+SET_BY_CASE = {"t1", "t2", "spacing", "material_t", "radius1", "radius2", "radius", "spacings", "outside", "method", "dry", "resume", "out"}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -32,7 +33,9 @@ class Wall:
     gap_mm: float = None  # in front of it; wall 1 has none
     spacings_mm: tuple = None  # of its own, as many as the case has
     radius_mm: float = None
-    method: str = "sph"
+    method: str = "sph"  # or hybrid, tied: elements; None while it is read: that of the case
+    core_mm: float = None  # of elements: free particles instead up to there, None: what the shot needs
+    hold_mm: float = None  # and elements with particles up to there
     yield_ksi: float = None  # for ballistic-limit equations only
 
 
@@ -60,9 +63,16 @@ class Case:
             found["spacings"] = [(wall.spacings_mm or self.spacings_mm)[which] for wall in walls]
         if any(wall.radius_mm for wall in walls):
             found["radius"] = [wall.radius_mm or 0 for wall in walls]
+        if method := self.method():
+            found["method"] = method
+            found["plate"] = ["plain" if wall.method == "sph" else shield_mesh.file_of(k) for k, wall in enumerate(walls, 1)]
         if self.not_modelled:
             found["outside"] = ", ".join(self.not_modelled)
         return {**found, **self.settings}
+
+    def method(self):
+        """hybrid or tied if any wall has elements, else None"""
+        return next((wall.method for wall in self.walls if wall.method != "sph"), None)
 
     def faces(self):
         """(front, rear) of each wall in mm, the front of wall 1 at 0"""
@@ -97,9 +107,31 @@ class Case:
                   f"at least {least:.1f} are needed; 0 takes what is enough")
         if self.settings.get("quarter") == "yes" and self.angle_deg:
             wrong("settings: quarter", f"yes needs angle_deg of 0, not {self.angle_deg:g}")
+        self.check_elements(wrong)
         for dx in self.spacings_mm:
             if dx > 0.25 * self.diameter_mm:
                 wrong("spacings_mm", f"{dx:g} mm leaves fewer than 4 particles across the projectile of {self.diameter_mm:g} mm")
+
+
+    def check_elements(self, wrong):
+        """that walls which shall have elements can have them"""
+        method = self.method()
+        for k, wall in enumerate(self.walls, 1):
+            if wall.method == "sph":
+                for what in ("core_mm", "hold_mm"):
+                    if getattr(wall, what) is not None:
+                        wrong(f"wall {k}: {what}", "is of elements: method hybrid or tied")
+                continue
+            if wall.method != method:
+                wrong(f"wall {k}: method", f"{wall.method}, but another wall is {method}: walls with elements have one method")
+            for which in range(len(self.spacings_mm)):
+                try:
+                    shield_mesh.of_wall(self, k, which)
+                except HVIError as problem:
+                    wrong(f"wall {k}: method", f"{wall.method}: {problem}")
+        for name, able in (("zones", "1"), ("probes", "no")) if method else ():
+            if self.settings.get(name, able) != able:
+                wrong(f"settings: {name}", f"must be {able} with method {method}, not {self.settings[name]}")
 
 
 def has_strength(path):
@@ -218,9 +250,9 @@ class Reader:
         return str(own.resolve()) if own else path.name
 
     def method(self, node, key):
-        if node.value != "sph":
-            self.wrong(key, f"must be sph, not {node.value}: what this package has no model for belongs into not_modelled", node)
-        return "sph"
+        if node.value not in METHODS:
+            self.wrong(key, f"must be {METHODS[0]}, {METHODS[1]} or {METHODS[2]}, not {node.value}: what this package has no model for belongs into not_modelled", node)
+        return node.value
 
     def walls(self, node, key):
         if not isinstance(node, yaml.SequenceNode) or not node.value:
@@ -232,7 +264,8 @@ class Reader:
                 "thickness_mm": (self.number(above=0), REQUIRED), "material": (self.material, REQUIRED),
                 "gap_mm": (self.number(above=0), REQUIRED if k > 1 else None),
                 "spacings_mm": (self.several(self.number(above=0)), None),
-                "radius_mm": (self.number(above=0), None), "method": (self.method, "sph"), "yield_ksi": (self.number(above=0), None)}))
+                "radius_mm": (self.number(above=0), None), "core_mm": (self.number(least=0), None), "hold_mm": (self.number(above=0), None),
+                "method": (self.method, None), "yield_ksi": (self.number(above=0), None)}))
             if k == 1 and wall.gap_mm:
                 self.wrong("wall 1: gap_mm", "is the gap in front of a wall; there is nothing in front of wall 1")
             found.append(wall)
@@ -286,9 +319,12 @@ def read(path, source):
         "walls": (reader.walls, REQUIRED),
         "spacings_mm": (reader.several(positive, distinct=True), REQUIRED),
         "shifts": (reader.several(reader.number(least=0, below=1), distinct=True), (0.0, 0.25)),
+        "method": (reader.method, "sph"),
         "not_modelled": (reader.several(reader.text), ()),
         "settings": (reader.settings, {})})
     data.update(data.pop("projectile"))
+    method = data.pop("method")
+    data["walls"] = tuple(dataclasses.replace(wall, method=wall.method or method) for wall in data["walls"])
     case = Case(name=reader.path.stem, **data)
     order = sorted(range(len(case.spacings_mm)), key=lambda k: -case.spacings_mm[k])  # from coarse to fine
     for k, wall in enumerate(case.walls, 1):
@@ -297,6 +333,8 @@ def read(path, source):
     walls = tuple(dataclasses.replace(wall, spacings_mm=wall.spacings_mm and tuple(wall.spacings_mm[k] for k in order)) for wall in case.walls)
     case = dataclasses.replace(case, walls=walls, spacings_mm=tuple(case.spacings_mm[k] for k in order))
     reader.at.update({"diameter_mm": reader.at["projectile: diameter_mm"]})
+    for k in range(1, len(walls) + 1):
+        reader.at.setdefault(f"wall {k}: method", reader.at.get("method"))
     own = dataclasses.replace(case, settings={}).variables(0, 0.0)
     for name, value in case.settings.items():
         key = f"settings: {name}"

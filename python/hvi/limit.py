@@ -106,6 +106,8 @@ class Limit:
         self.values = [float(f"{low + (high - low) * k / n:.6g}") for k in range(n + 1)]
         for option, value in (("--from", self.values[0]), ("--to", self.values[-1])):
             with_value(case, self.key, self.wall, value).check(self._wrong(f"{option} {value:g} {self.unit}"))
+        for value in self.values:  # elements do not fit any thickness
+            with_value(case, self.key, self.wall, value).check_elements(self._wrong(f"{on} {value:g} {self.unit}"))
         self.searches, self.jobs = {}, {}
 
     @staticmethod

@@ -33,6 +33,8 @@ MARGINS = {"hole_mm": "diameter of the hole, mm", "apart_mass_mg": "mass that ha
            "deepest_failed_layer": "deepest layer with failed particles, from the front", "layers": "of so many layers", "rear_plastic_strain": "largest plastic strain of the rear layer",
            "push_percent_per_us": "change of the wall's momentum at the end, percent per us", "still_to_come": "energy still on its way, of that of the shot",
            "missed_fraction": "mass of the projectile that passed beside a wall"}
+ELEMENTS = (("conversion_heat_ratio", "energy that has become heat when elements became particles, of that of the shot", "below 1e-3"),
+            ("hourglass_energy_ratio", "energy in hourglass forces of elements, of that of the shot", "below 1e-3"))
 WALL = {"layers": "layers of particles", "hole_mm": "hole, mm (of the same area; least to most)", "spall_mass_mg": "detached spall, mg", "apart_mass_mg": "all that passed and is apart, mg",
         "bulge_over_thickness": "bulge over thickness", "deepest_failed_layer": "deepest failed layer", "largest_fragment_mm": "largest sound fragment behind it, mm",
         "largest_fragment_velocity_m_s": "its velocity, m/s", "momentum_ratio": "momentum given to it, of that of the shot", "energy_ratio": "energy given to it, of that of the shot",
@@ -83,6 +85,9 @@ class Report:
         for k, wall in enumerate(case.walls, 1):
             rows += [("gap", f"{wall.gap_mm:g} mm")] if wall.gap_mm else []
             rows.append((f"wall {k}", f"{wall.thickness_mm:g} mm {stem(wall.material)}, of radius {self.run.of_wall(k, 'radius_mm'):g} mm"))
+        method, result = str(self.run.result.get("method", "sph")), self.run.result
+        rows += [("method", f"{method}: {float(result['elements']):g} elements at the start, {float(result['elements_left']):g} at the end; those beyond what may fail "
+                  "hold no particles, and are in no picture")] if method != "sph" else []
         rows += [("energy of the shot", f"{float(self.run.result['energy_start_J']):.4g} J")] if "energy_start_J" in self.run.result else []
         rows += [("not modelled", ", ".join(case.not_modelled))] if case.not_modelled else []
         return table(("what", "value"), [*rows, ("time that was run", f"{float(self.run.result.get('time_us', 0)):.1f} us")])
@@ -162,7 +167,7 @@ class Report:
         rows += [(f"wall {k}", stem(run.materials[k]), f"{run.of_wall(k, 'thickness_mm'):g}", float(run.of_wall(k, "spacing_mm")), f"{run.of_wall(k, 'layers'):g} layers",
                   int(run.of_wall(k, "particles"))) for k in range(1, run.walls + 1)]
         model = "a quarter: mirror planes at x = 0 and y = 0; the pictures show the whole" if str(run.settings["quarter"]) == "yes" else "the whole"
-        ledger = [(text, str(run.result[key]), should) for key, text, should in LEDGER if key in run.result]
+        ledger = [(text, str(run.result[key]), should) for key, text, should in (*LEDGER, *(ELEMENTS if run.case().method() else ())) if key in run.result]
         several = [tag("h3", "All runs"), self.all_runs()] if len(self.runs) > 1 else []
         return section("Resolution and ledger", table(("body", "material", "thickness mm", "spacing mm", "particles through it", "particles"), rows, f"Modelled is {model}. "
                        "A wall that decides needs three layers."), tag("h3", "Ledger"), table(("what", "value", "should be"), ledger), *several)

@@ -108,11 +108,14 @@ class Job:
     """One run of an input in its own folder."""
 
     def __init__(self, source, name, variables, folder, restart=None, remove=(), weight=1.0,
-                 product="result.yaml", last=LAST):
+                 product="result.yaml", last=LAST, made=None):
         self.input, self.name, self.variables, self.folder = source, name, variables, pathlib.Path(folder)
         self.restart, self.remove, self.weight = restart, remove, weight  # weight: how much of all work this is
         self.product, self.last = product, last  # the file that it is run for, and the last key in it
         self.record = {"input": source.checksum(), "variables": variables}
+        self.make, meshes = made or (None, {})  # a function of path and words, {file: words}: what the run finds in its folder
+        if meshes:
+            self.record["made"] = meshes
         if files := self._files():
             self.record["files"] = files
         self.process, self.lock, self.start, self.problem, self.advice, self.asked = None, None, None, "", "", False
@@ -184,6 +187,8 @@ class Job:
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / self.product).unlink(missing_ok=True)
         self.input.copy_to(self.folder)
+        for name, said in self.record.get("made", {}).items():
+            self.make(self.folder / name, **said)
         (self.folder / "job.yaml").write_text(yaml.safe_dump(self.record, sort_keys=False))
         environment = {"LAMMPS_POTENTIALS": os.pathsep.join(map(str, potentials())), **os.environ}
         with open(self.folder / "output.txt", "w") as out:

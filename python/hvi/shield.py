@@ -10,7 +10,7 @@ import shlex
 import yaml
 
 from . import case as cases
-from . import ble, runs, tables
+from . import ble, runs, shield_mesh, tables
 from .errors import HVIError
 
 INPUT = runs.ROOT / "examples" / "whipple-shield" / "in.whipple"
@@ -36,7 +36,12 @@ def member_name(case, member):
 def job(case, source, member, folder, name=None, remove=()):
     weight = (case.spacings_mm[0] / case.spacings_mm[member[0]]) ** 4  # particles and steps
     return runs.Job(source, name or member_name(case, member), case.variables(*member), folder, weight=weight, remove=remove,
-                    restart="shield.state" if "resume" in source.known else None)
+                    restart="shield.state" if "resume" in source.known else None, made=meshes(case, member[0]))
+
+
+def meshes(case, which):
+    """what a run of spacing number which finds in its folder, as runs.Job takes it"""
+    return shield_mesh.write, shield_mesh.of_case(case, which)
 
 
 def verdict(job):
@@ -78,7 +83,8 @@ def lacking(solid, ball, walls):
 def as_key(text):
     """remedies of in.whipple, -var NAME VALUE, as keys of the case"""
     value = r"(\d+(?:\.\d+)?)"
-    for old, new in ((rf"-var dx {value}", r"spacings_mm of \1"), (r"-var dx\b", "spacings_mm"),
+    for old, new in ((r"a mesh that holds particles farther out \(hvi mesh --hold\)", "a larger hold_mm"), (r"core of particles \(hvi mesh --core\)", "core_mm"),
+                     (rf"-var dx {value}", r"spacings_mm of \1"), (r"-var dx\b", "spacings_mm"),
                      (rf"-var radius\d? {value}", r"radius_mm of \1"), (rf"-var (\w+) {value}", r"settings: {\1: \2}"), (r"-var (\w+)", r"settings: \1")):
         text = re.sub(old, new, text)
     return text
@@ -127,7 +133,8 @@ def finer(case, said, jobs):
     fine = (last.spacings_mm or case.spacings_mm)[-1]
     layers = math.ceil(last.thickness_mm / fine - 0.01)
     first = 1.0 if layers >= cases.LAYERS else last.thickness_mm / cases.LAYERS / fine
-    second = next(r for n in itertools.count(max(layers, cases.LAYERS) + 1) if (r := last.thickness_mm / n / fine) * cases.RATIO <= first)
+    steps = (last.thickness_mm / n / fine for n in itertools.count(max(layers, cases.LAYERS) + 1))
+    second = next(r for r in itertools.islice(steps, 100) if r * cases.RATIO <= first and fits(case, r))
     stay = first == 1.0 and all(said[which, shift][0] != "undecided" for shift in case.shifts)  # those of the finest need not be run again
 
     def spacings(own):
@@ -136,6 +143,12 @@ def finer(case, said, jobs):
     spent = sum(jobs[which, shift].result().get("core_s", 0) for shift in case.shifts)
     return {"spacings_mm": spacings(case.spacings_mm), **{f"wall {k}: spacings_mm": spacings(wall.spacings_mm) for k, wall in enumerate(case.walls, 1) if wall.spacings_mm},
             "runs": len(case.shifts) * (1 if stay else 2), "core_s": float(f"{spent * (second**-4 + (0 if stay else first**-4)):.2g}")}
+
+
+def fits(case, ratio):
+    """True if walls with elements can have them with the finest spacings of a case times ratio"""
+    return all(shield_mesh.per_edge(shield_mesh.layers(wall.thickness_mm, ratio * (wall.spacings_mm or case.spacings_mm)[-1]))
+               for wall in case.walls if wall.method != "sph")
 
 
 def said_of_finer(case, found):
@@ -209,14 +222,14 @@ def plan(case, source, runner, folder):
     from . import figures, sketch
 
     jobs = [runs.Job(source, f"dx-{dx:g}", {**case.variables(which, case.shifts[0]), "dry": "yes"},
-                     folder / "plan" / f"dx-{dx:g}", product="plan.yaml", last="disk_MB") for which, dx in enumerate(case.spacings_mm)]
+                     folder / "plan" / f"dx-{dx:g}", product="plan.yaml", last="disk_MB", made=meshes(case, which)) for which, dx in enumerate(case.spacings_mm)]
     source.check(jobs[0].variables, "--dry-run")
     for made in jobs:  # times are of this moment and these ranks
         (made.folder / made.product).unlink(missing_ok=True)
     failed = runner.run(jobs, "plan")
     if failed:
         raise HVIError(f"no plan: {', '.join(j.name for j in failed)} failed")
-    keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, len(case.walls) + 1) for what in ("particles", "layers")),
+    keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, len(case.walls) + 1) for what in ("particles", *(["elements"] if case.walls[k - 1].method != "sph" else []), "layers")),
             "tstop_us", "steps", "seconds", "memory_MB", "disk_MB"]
     print(tables.text(("each run", *(j.name for j in jobs)), [
         (key, *(f"about {tables.number(j.result().get(key, '-'))}" if key == "seconds" else j.result().get(key, "-") for j in jobs)) for key in keys]))

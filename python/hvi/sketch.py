@@ -7,7 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 
-OPEN = 0.75  # a cloud is that wide over its way and three diameters more, to all sides of the normal and of the shot, as in.whipple takes it
+from .shield_mesh import OPEN, radii
 
 
 def cloud(case, z):
@@ -20,10 +20,11 @@ def cloud(case, z):
 
 def draw(case, plan):
     """A Figure; plan: that of in.whipple, with wallK_radius_mm, wallK_middle_mm, wallK_struck_at_mm"""
-    radii, middles, spots = ([plan[f"wall{k}_{what}"] for k in range(1, len(case.walls) + 1)] for what in ("radius_mm", "middle_mm", "struck_at_mm"))
+    sizes, middles, spots = ([plan[f"wall{k}_{what}"] for k in range(1, len(case.walls) + 1)] for what in ("radius_mm", "middle_mm", "struck_at_mm"))
     places, R, slope = case.faces(), 0.5 * case.diameter_mm, math.tan(math.radians(case.angle_deg))
     end = places[-1][1]
-    low, high = (min(m - r for m, r in zip(middles, radii)), max(m + r for m, r in zip(middles, radii)))
+    wide = [r if wall.method == "sph" else radii(case, k, 0.0)[2] for k, (wall, r) in enumerate(zip(case.walls, sizes), 1)]
+    low, high = (min(m - r for m, r in zip(middles, wide)), max(m + r for m, r in zip(middles, wide)))
     begin, stop = -max(6 * R, 0.25 * end), 1.15 * end + 2 * R  # of what is drawn along z
     low = min(low, (begin + R) * slope - 2 * R - 0.06 * (high - low))
     width, height = stop - begin + 2 * R, 1.3 * (high - low)
@@ -38,15 +39,15 @@ def draw(case, plan):
         sides = [cloud(case, value) for value in z]
         axes.add_patch(Polygon([(z[0], sides[0][0]), (z[1], sides[1][0]), (z[1], sides[1][1]), (z[0], sides[0][1])], color="#f2b134", alpha=0.25, lw=0,
                                label="cloud of wall 1"))
-    for k, (wall, (front, rear), r, middle, spot) in enumerate(zip(case.walls, places, radii, middles, spots), 1):
-        axes.add_patch(Rectangle((front, middle - r), rear - front, 2 * r, color="#2f62a8", lw=0))
+    for k, (wall, (front, rear), r, middle, spot) in enumerate(zip(case.walls, places, sizes, middles, spots), 1):
+        _wall(axes, case, k, (front, rear), middle, r)
         sides = cloud(case, front)
         inside = max(sides[0], middle - r), min(sides[1], middle + r)
         missed = sides[0] < middle - r - 0.2 or sides[1] > middle + r + 0.2  # the plan has tenths of mm
         axes.plot([front, front], inside, color="#c8373a", lw=2, solid_capstyle="butt", label="struck" if k == 1 else None)
         axes.plot([0.5 * (front + rear)], [spot], "x", color="black", ms=5, label="struck by the shot itself" if k == 1 else None)
         axes.annotate(f"wall {k}: {wall.thickness_mm:g} mm\n{_name(wall.material)}" + ("\ncloud passes beside" if missed else ""),
-                      (0.5 * (front + rear), middle + r), (0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=7,
+                      (0.5 * (front + rear), middle + wide[k - 1]), (0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=7,
                       color="#c8373a" if missed else "black")
         if k > 1:
             before, y = places[k - 2][1], low - 0.06 * (high - low)
@@ -59,8 +60,19 @@ def draw(case, plan):
     axes.set(aspect="equal", xlim=(left, stop), ylim=(low - 0.14 * (high - low), high + 0.16 * (high - low)), xlabel="z (mm)", ylabel="x (mm)")
     axes.spines[["top", "right"]].set_visible(False)
     axes.set_title(f"{case.name}, to scale", fontsize=9)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=4, fontsize=7, frameon=False)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2 if case.method() else 4, fontsize=7, frameon=False)
     return figure
+
+
+def _wall(axes, case, k, faces, middle, r):
+    """particles dark, elements with particles lighter, those without beyond"""
+    bands = [(r, "#2f62a8", None)]
+    if case.walls[k - 1].method != "sph":
+        core, hold, half = radii(case, k, 0.0)
+        bands = [(half, "#c9d8ea", "elements"), (min(hold, half), "#7ea3d0", "elements that hold particles"), (core, "#2f62a8", None)]
+    known = axes.get_legend_handles_labels()[1]
+    for size, color, label in bands:
+        axes.add_patch(Rectangle((faces[0], middle - size), faces[1] - faces[0], 2 * size, color=color, lw=0, label=None if label in known else label))
 
 
 def _name(material):

@@ -115,7 +115,7 @@ class FixHVIFEM :
 
   struct Probe {
     double x[3];
-    static constexpr int NVALUE = 11;
+    static constexpr int NVALUE = 14;
     double value[NVALUE];
     std::int64_t id;    // of the element; 0: not known yet
   };
@@ -137,10 +137,10 @@ class FixHVIFEM :
   class FixHVILedger *ledger;
 
   std::vector<Element> elements;    // of this rank, which has their first nodes; type 0: is no more
-  int nmax;                         // length of the following
   int *head;                        // of owned particles: its first element, -1: none
   int *users;                       // of owned particles: number of elements that have it as a node
   std::vector<int> next;            // by element: of the same particle, -1: none
+  std::vector<int> read_head;    // head of particles of a data file, until LAMMPS sets their arrays
 
   // from one exchange of particles to the next
 
@@ -153,7 +153,6 @@ class FixHVIFEM :
   std::vector<Member> members;        // by slot of near
   std::vector<int> corner, place;     // by element: CORNERS nodes; first particle, -1: none
   std::vector<char> active;           // by element: particles act on some of its own
-  std::vector<char> listed;           // its particles are in lists with all that are near
   std::vector<int> flags;             // by particle, while lists are looked at
 
   // of a step
@@ -171,6 +170,7 @@ class FixHVIFEM :
   enum { STAYS, IS_FREE, IS_NO_MORE };           // FLAG
   struct Now {
     double p, c, kick;
+    double work;    // power of the last forces on the velocity before them
     double L[9], K[9];
     double sums[SUMS];
   };
@@ -182,6 +182,7 @@ class FixHVIFEM :
   double shortest;    // stable step
   bool going_on;      // all elements are as the last run has left them
   bool wraps;         // they may lie across periodic faces
+  double nearby;      // as far as there is no other image
 
   // of this rank, from the start on
 
@@ -194,7 +195,6 @@ class FixHVIFEM :
   void link();
   void connect();
   void start_elements();
-  int first_of(int) const;
   void ids_have_changed(tagint) const;
   void mark_particles();
   void unmark_particles();
@@ -214,6 +214,8 @@ class FixHVIFEM :
   void resume(std::size_t);
   void advance(std::size_t first, int n, double dt, bool due);
   void show_states(bool all);
+  double with_pairs(const Now &, double felt[9]) const;
+  bool waits(std::size_t first, int n) const;
   void make_forces(double dt);
   void gather_forces();
   void element_forces(std::size_t first, int n, double dt);

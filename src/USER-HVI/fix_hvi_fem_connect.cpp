@@ -117,6 +117,7 @@ void FixHVIFEM::link()
     return one.id < two.id;
   });
   next.assign(elements.size(), -1);
+  read_head.clear();
   std::fill_n(head, atom->nlocal, -1);
   std::vector<int> number(atom->nlocal, 0);
   int most = 0;
@@ -321,6 +322,15 @@ void FixHVIFEM::check_masses()
 
 void FixHVIFEM::check_state()
 {
+  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++)
+      if (is_node(atom->type[i]) && mirror.has(k) && atom->x[i][k] == mirror.at[k] &&
+          atom->v[i][k] != 0.0)
+        error->one(FLERR,
+                   "Fix hvi/fem: node {} is on the mirror plane {} and moves across it: set its "
+                   "velocity there to 0",
+                   atom->tag[i], "xyz"[k]);
   int here = 1, all;
   for (std::size_t e = 0; e < elements.size(); e++) {
     Element &one = elements[e];

@@ -39,8 +39,6 @@ void FixHVIFEM::grow_arrays(int n)
 {
   memory->grow(head, n, "hvi/fem:head");
   memory->grow(users, n, "hvi/fem:users");
-  if (n > nmax) std::fill(head + nmax, head + n, -1);
-  nmax = n;
 }
 
 void FixHVIFEM::copy_arrays(int i, int j, int /*delflag*/)
@@ -49,21 +47,13 @@ void FixHVIFEM::copy_arrays(int i, int j, int /*delflag*/)
   users[j] = users[i];
 }
 
-// read_data says that a particle is new when it has read all sections, those of elements, too
+// LAMMPS sets the arrays of new particles after it has read all sections, and may then send them to other ranks
 
 void FixHVIFEM::set_arrays(int i)
 {
-  head[i] = first_of(i);
+  head[i] = -1;
+  if (i < (int) read_head.size()) std::swap(head[i], read_head[i]);
   users[i] = 0;
-}
-
-// head, if that is of this particle and not of one that was in its place
-
-int FixHVIFEM::first_of(int i) const
-{
-  const int e = head[i];
-  const bool known = e >= 0 && e < (int) elements.size() && alive(e);
-  return known && elements[e].node[0] == atom->tag[i] ? e : -1;
 }
 
 /* ----------------------------------------------------------------------
@@ -235,8 +225,9 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
         throw TokenizerException("n must be from 0 to 8", std::to_string(one.n));
       const int i = nodes.local(one.node[0]);
       if (i < 0 || i >= atom->nlocal) continue;
-      next.push_back(first_of(i));
-      head[i] = elements.size();
+      if (i >= (int) read_head.size()) read_head.resize(i + 1, -1);
+      next.push_back(read_head[i]);
+      read_head[i] = elements.size();
       elements.push_back(one);
     } catch (TokenizerException &wrong) {
       error->all(FLERR, "Fix hvi/fem: wrong row of section {} of the data file: {}", keyword,

@@ -32,27 +32,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using HVI::CORNERS;
 
 /* ----------------------------------------------------------------------
    After lists have been made: an element is active if something in them acts on its particles, that is,
-   what is free, or of another body; only then its particles have sums and forces.  Those which may
-   fail soon are in the next lists with all that is near, so that they need no new ones when they do.
+   what is free, or of another body; only then its particles have sums and forces.  So
+   there are new lists whenever elements fail: those beside them are to become active.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::post_neighbor()
 {
   HVI::SphFields &fields = store->fields;
-  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  const int nall = atom->nlocal + atom->nghost;
   fields.embedded.assign(nall, 0);
   fields.idle.assign(nall, 0);
-  for (int i = 0; i < nlocal; i++)
+  for (int i = 0; i < nall; i++)
     if (atom->mask[i] & held) fields.embedded[i] = atom->type[i];
-  flags.assign(fields.embedded.begin(), fields.embedded.end());
-  comm->forward_comm(this);
-  for (int i = nlocal; i < nall; i++) fields.embedded[i] = flags[i];
 
   flags.assign(nall, 0);
   const NeighList *const list = force->pair_match("^hvi/sph$", 0)->list;
@@ -68,18 +66,23 @@ void FixHVIFEM::post_neighbor()
   if (force->newton_pair) comm->reverse_comm(this);
 
   active.assign(elements.size(), 0);
-  listed.assign(elements.size(), 1);
   particles.gather(
-      2,
+      1,
       [&](int i, double *b) {
         b[0] = flags[i];
-        b[1] = atom->mask[i] & inner[atom->type[i]] ? 1.0 : 0.0;
       },
       [this](int k, const double *b) {
-        const int e = inside[k].e;
-        if (b[0] > 0.0) active[e] = 1;
-        if (b[1] > 0.0) listed[e] = 0;
+        if (b[0] > 0.0) active[inside[k].e] = 1;
       });
+
+  // others have none of what comes from pairs, until they are active
+
+  now.assign(elements.size(), Now());
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (active[e]) continue;
+    elements[e].power = 0.0;
+    std::fill_n(elements[e].pair_force, 3 * CORNERS, 0.0);
+  }
 
   members.clear();
   std::vector<tagint> wanted;
@@ -96,18 +99,12 @@ void FixHVIFEM::post_neighbor()
 
   flags.assign(nall, 0);
   particles.scatter(
-      2,
+      1,
       [this](int k, double *b) {
-        const Element &one = elements[inside[k].e];
         b[0] = active[inside[k].e];
-        b[1] = options.fails &&
-            (b[0] > 0.0 || one.s.damage > 0.2 || one.s.voids.D > 0.05 ||
-             (options.strain > 0.0 && one.s.eps > 0.3 * options.strain));
       },
       [this](int i, const double *b) {
         flags[i] = b[0] == 0.0;
-        const int bit = inner[atom->type[i]];
-        atom->mask[i] = b[1] > 0.0 ? atom->mask[i] & ~bit : atom->mask[i] | bit;
       });
   comm->forward_comm(this);
   fields.idle.assign(flags.begin(), flags.end());
@@ -124,15 +121,20 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
   for (std::size_t e = 0; e < elements.size(); e++) {
     if (place[e] < 0) continue;
     const Element &one = elements[e];
-    double y[3][CORNERS][3];
-    for (const int what : {X, V, W}) corners(e, what, y[what / 3]);
+    double y[CORNERS][RHO];    // x, v, w
+    for (int a = 0; a < CORNERS; a++) memcpy(y[a], at(e, a), RHO * sizeof(double));
+    if (wraps) {
+      double x[CORNERS][3];
+      corners(e, X, x);
+      for (int a = 0; a < CORNERS; a++) std::copy_n(x[a], 3, y[a]);
+    }
     const auto &weights = subcells[one.n];
     for (std::size_t p = 0; p < weights.size(); p++) {
       double *const row = &rows[PLACE * (place[e] + p)];
-      std::fill_n(row, 9, 0.0);
+      double sum[RHO] = {};
       for (int a = 0; a < CORNERS; a++)
-        for (int what = 0; what < 3; what++)
-          for (int k = 0; k < 3; k++) row[3 * what + k] += weights[p][a] * y[what][a][k];
+        for (int k = 0; k < RHO; k++) sum[k] += weights[p][a] * y[a][k];
+      memcpy(row, sum, sizeof(sum));
       row[RHO] = one.rho;
       row[FLAG] = !freed.empty() && freed[e] ? IS_FREE : (alive(e) ? STAYS : IS_NO_MORE);
       row[ESPH] = one.ahead * one.mass / one.particles();
@@ -142,7 +144,7 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
   particles.scatter(
       PLACE,
       [this](int k, double *b) {
-        std::copy_n(&rows[PLACE * k], +PLACE, b);
+        memcpy(b, &rows[PLACE * k], PLACE * sizeof(double));
       },
       [this](int i, const double *b) {
         if (b[FLAG] == IS_NO_MORE) return;
@@ -204,8 +206,8 @@ FixHVIFEM::Reason FixHVIFEM::reason(std::size_t e) const
 
 void FixHVIFEM::release(std::vector<char> &freed)
 {
-  enum { FREED, REBUILD, STATES, N };
-  int here[N] = {0, 0, 0}, all[N];
+  enum { FREED, STATES, N };
+  int here[N] = {0, 0}, all[N];
   freed.assign(elements.size(), 0);
   for (std::size_t e = 0; e < elements.size(); e++) {
     Element &one = elements[e];
@@ -214,7 +216,6 @@ void FixHVIFEM::release(std::vector<char> &freed)
     if (why == NONE) continue;
     freed[e] = 1;
     here[FREED]++;
-    if (!listed[e]) here[REBUILD] = 1;
     if (!active[e]) here[STATES] = 1;
     double of_nodes = 0.0, of_particles = 0.0;
     for (int a = 0; a < CORNERS; a++)
@@ -239,7 +240,7 @@ void FixHVIFEM::release(std::vector<char> &freed)
     return;
   }
   total -= all[FREED];
-  if (all[FREED]) next_reneighbor = update->ntimestep;
+  next_reneighbor = update->ntimestep;
   if (all[STATES]) show_states(true);
   let_go(freed);
 }
@@ -274,21 +275,6 @@ void FixHVIFEM::let_go(const std::vector<char> &freed)
             1.0e-30;    // until it is taken out with the next lists: not 0, for others divide by it
         for (int k = 0; k < 3; k++) atom->v[i][k] = atom->vest[i][k] = 0.0;
       });
-
-  // ghosts of the particles are free, too; with new lists that comes of itself
-
-  if (next_reneighbor == update->ntimestep) return;
-  flags.assign(atom->nlocal + atom->nghost, 0);
-  particles.scatter(
-      1,
-      [&](int k, double *b) {
-        b[0] = elements[inside[k].e].type > 0 ? elements[inside[k].e].type : 0.0;
-      },
-      [this](int i, const double *b) {
-        flags[i] = b[0];
-      });
-  comm->forward_comm(this);
-  for (std::size_t i = atom->nlocal; i < flags.size(); i++) store->fields.embedded[i] = flags[i];
 }
 
 /* ----------------------------------------------------------------------

@@ -56,7 +56,7 @@ WRONG = [
     (change("    gap_mm: 60\n", ""), 8, "wall 2: gap_mm: is missing"),
     (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, gap_mm: 5,"), 7, "wall 1: gap_mm: is the gap in front of a wall"),
     (change("{thickness_mm: 0.8,", "{thickness_mm: 0.3,"), 11, "spacings_mm: 0.4 mm is more than wall 1 is thick, 0.3 mm"),
-    (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, method: mli,"), 7, "wall 1: method: must be sph, not mli"),
+    (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, method: mli,"), 7, "wall 1: method: must be sph, hybrid or tied, not mli"),
     (change("gap_mm: 60", "gap_mm: 60\n    spacings_mm: [0.2]"), 11, "wall 2: spacings_mm: must be 2 values, one for each"),
     (change("gap_mm: 60", "gap_mm: 60\n    radius_mm: 2"), 11,
      "wall 2: radius_mm: with 2 mm a projectile of 5 mm at 0 degrees strikes its edge or beside it: at least 3.75 mm are needed; without the key it is what the cloud needs"),
@@ -402,3 +402,77 @@ def test_real_shield(root, lmp_exe, tmp_path, monkeypatch, capsys):
     said = yaml.safe_load((tmp_path / "runs/hit/verdict.yaml").read_text())
     assert said["verdict"] == "fails" and set(said["runs"].values()) == {"fails"} and re.search(r"wall 2 is perforated by a hole of \d", out)
     assert cli.main(words) == 3 and "2 runs, 2 done before, 0 to run" in capsys.readouterr().out
+
+
+# ---------------------------------------------------------------------- walls of elements
+HYBRID = change("speed_km_s: 7.1", "speed_km_s: 7.1\nmethod: hybrid")
+
+
+def test_case_with_elements(folder):
+    """what runs find in their folders: a mesh for each wall, of types, layers and spacing that are theirs"""
+    (folder / "emi.yaml").write_text(HYBRID)
+    source = runs.Input(shield.INPUT)
+    case = cases.read("emi.yaml", source)
+    found = case.variables(1, 0.0)
+    assert (found["method"], found["plate"]) == ("hybrid", ["wall1.data", "wall2.data"])
+    made = shield.job(case, source, (1, 0.0), folder / "a").record["made"]
+    first, second = made["wall1.data"], made["wall2.data"]
+    assert (first["type"], first["node_type"], second["type"], second["node_type"]) == (2, 4, 3, 5)
+    assert (first["n"], first["layers"], first["element"], second["n"], second["layers"]) == (2, 2, pytest.approx(4e-4), 2, 3)
+    assert (first["core"], first["hold"], first["side"]) == pytest.approx((4e-3, 10e-3, 30e-3))  # 1.6, 4 and 6 radii
+    reach = 0.75 * 60 + 6 * 2.5  # what in.whipple lets the cloud strike
+    assert (second["core"], second["hold"], second["side"]) == pytest.approx((0.5e-3 * reach, 1e-3 * reach, 2.5e-3 * reach))
+    assert first["quarter"] is True and first["growth"] > 1
+    (folder / "emi.yaml").write_text(CASE.replace("gap_mm: 60", "gap_mm: 60\n    method: tied\n    radius_mm: 30\n    core_mm: 0") + "angle_deg: 20\n")
+    case = cases.read("emi.yaml", source)
+    assert case.variables(0, 0.0)["plate"] == ["plain", "wall2.data"] and case.variables(0, 0.0)["method"] == "tied"
+    words = shield.job(case, source, (0, 0.0), folder / "b").record["made"]["wall2.data"]
+    assert words["n"] == 3 and words["core"] == 0 and "hold" not in words and words["quarter"] is False
+    assert words["side"] >= 60e-3 and words["side"] / (2 * words["element"]) == pytest.approx(round(words["side"] / (2 * words["element"])))
+    assert "made" not in shield.job(cases.read(written(folder, CASE), source), source, (0, 0.0), folder / "c").record
+
+
+def written(folder, text):
+    (folder / "other.yaml").write_text(text)
+    return "other.yaml"
+
+
+@pytest.mark.parametrize("text, line, message", [
+    (HYBRID.replace("[0.2, 0.4]", "[0.2, 0.16]"), 6, "wall 1: method: hybrid: 5 layers of particles (spacing 0.16 mm) are no whole elements of 2 or 3 each way: "
+     "spacings_mm of 0.2 or 0.1334 would do"),
+    (change("{thickness_mm: 0.8,", "{thickness_mm: 0.8, hold_mm: 5,"), 7, "wall 1: hold_mm: is of elements: method hybrid or tied"),
+    (change("gap_mm: 60", "gap_mm: 60\n    method: tied").replace("{thickness_mm: 0.8,", "{thickness_mm: 0.8, method: hybrid,"), 11, "wall 2: method: tied, but another wall is hybrid"),
+    (HYBRID.replace("{thickness_mm: 0.8,", "{thickness_mm: 0.8, hold_mm: 4,"), 6, "free particles up to 4 mm need elements with particles around them, up to 5.2 mm at least"),
+    (HYBRID + "settings: {zones: 2}\n", 14, "settings: zones: must be 1 with method hybrid, not 2"),
+    (HYBRID + "settings: {plate: [plain, plain]}\n", 14, "settings: plate: is set by the case itself"),
+    (HYBRID + "settings: {method: sph}\n", 14, "settings: method: is set by the case itself"),
+    (change("speed_km_s: 7.1", "speed_km_s: 7.1\nmethod: fem"), 6, "method: must be sph, hybrid or tied, not fem")])
+def test_wrong_elements(folder, capsys, text, line, message):
+    (folder / "emi.yaml").write_text(text)
+    assert front("shield") == 1
+    err = capsys.readouterr().err
+    assert f"emi.yaml, line {line}: " in err and message in err, err
+    assert not (folder / "runs").exists()
+
+
+def test_meshes_are_made(folder, capsys, monkeypatch):
+    """in the folder of each run, also of the plan; another hold_mm is another run; the sketch shows them"""
+    monkeypatch.setenv("FAKE_PLAN", PLAN.replace("wall2_layers", "wall1_elements: 70\nwall2_elements: 90\nwall2_layers"))
+    text = HYBRID.replace("gap_mm: 60", "gap_mm: 10")
+    (folder / "emi.yaml").write_text(text)
+    assert front("shield", "--dry-run") == 0
+    out = capsys.readouterr().out
+    assert re.search(r"^ *wall2_elements +90 +90$", out, re.M)
+    assert front("shield") == 3 and "4 to run" in capsys.readouterr().out
+    for path in (folder / "runs/emi/plan/dx-0.4", folder / "runs/emi/dx-0.2_shift-0.5"):
+        for k in (1, 2):
+            head = (path / f"wall{k}.data").read_text()[:400]
+            assert f"mesh wall{k}.data, mirror x 0 lo mirror y 0 lo" in head and re.search(r"^\d+ elements$", head, re.M)
+    (folder / "emi.yaml").write_text(text.replace("{thickness_mm: 0.8,", "{thickness_mm: 0.8, hold_mm: 11,"))
+    assert front("shield") == 3 and "0 done before, 4 to run" in capsys.readouterr().out
+    case = cases.read("emi.yaml", runs.Input(shield.INPUT))
+    labels = [label for label in sketch.draw(case, yaml.safe_load(PLAN)).axes[0].get_legend_handles_labels()[1]]
+    assert labels.count("elements") == labels.count("elements that hold particles") == 1
+    assert not shield.fits(case, 0.8) and shield.fits(case, 0.5)  # 0.16 and 0.1 mm
+    assert front("limit", "--on", "thickness1", "--from", "0.7", "--to", "1.1", "--step", "0.1") == 1
+    assert "thickness1 0.9 mm: wall 1: method: hybrid: 5 layers" in capsys.readouterr().err
