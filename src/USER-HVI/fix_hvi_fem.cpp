@@ -222,12 +222,10 @@ void FixHVIFEM::half_energy(double dt)
     double work = 0.0, kick = 0.0;
     for (int a = 0; a < CORNERS; a++) {
       const double *const n = at(e, a);
-      for (int k = 0; k < 3; k++) work += one.force[3 * a + k] * n[V + k];
+      for (int k = 0; k < 3; k++)
+        work += (one.force[3 * a + k] + one.pair_force[3 * a + k]) * n[V + k];
       kick += n[KICK];
     }
-    if (active[e])
-      for (int a = 0; a < CORNERS; a++)
-        for (int k = 0; k < 3; k++) work += one.pair_force[3 * a + k] * at(e, a)[V + k];
     one.change = 0.5 * dt * (one.power - work) / one.mass;
     one.e += one.change + kick / CORNERS;
     one.ahead = one.e + one.change;

@@ -132,7 +132,6 @@ void FixHVIFEM::settle()
   }
   gather_sums();
   shortest = HVI::NO_BOUND;
-  push.assign(3 * nodes.size(), 0.0);
   for (std::size_t e = 0; e < elements.size(); e += LANES) {
     const int n = std::min<std::size_t>(LANES, elements.size() - e);
     if (going_on)
@@ -372,6 +371,19 @@ void FixHVIFEM::make_forces(double dt)
     const int n = std::min<std::size_t>(LANES, elements.size() - e);
     if (waits(e, n)) element_forces(e, n, dt);
   }
+
+  // in the order of elements, whoever is active: so sums are the same to the last bit when a run goes on with new lists
+
+  push.assign(3 * nodes.size(), 0.0);
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (!alive(e)) continue;
+    const Element &one = elements[e];
+    for (int a = 0; a < CORNERS; a++)
+      for (int k = 0; k < 3; k++) {
+        push[3 * corner[CORNERS * e + a] + k] += one.force[3 * a + k] + one.pair_force[3 * a + k];
+        now[e].work += one.pair_force[3 * a + k] * at(e, a)[V + k];
+      }
+  }
   bring_forces();
 }
 
@@ -470,18 +482,6 @@ void FixHVIFEM::element_forces(std::size_t first, int n, double dt)
       for (int a = 0; a < CORNERS; a++)
         for (int k = 0; k < 3; k++) one.force[3 * a + k] = f[k][a][lane];
     }
-  }
-  for (std::size_t e = first; e < first + n; e++) {
-    if (!alive(e)) continue;
-    const Element &one = elements[e];
-    for (int a = 0; a < CORNERS; a++)
-      for (int k = 0; k < 3; k++) push[3 * corner[CORNERS * e + a] + k] += one.force[3 * a + k];
-    if (!active[e]) continue;
-    for (int a = 0; a < CORNERS; a++)
-      for (int k = 0; k < 3; k++) {
-        push[3 * corner[CORNERS * e + a] + k] += one.pair_force[3 * a + k];
-        now[e].work += one.pair_force[3 * a + k] * at(e, a)[V + k];
-      }
   }
 }
 
