@@ -77,6 +77,7 @@ verify:
 	  cmake/env.sh $$python tests/solids.py --lmp $(OUT)/lmp --out $(OUT)/verify $(SOLIDS_ARGS) && \
 	  cmake/env.sh $$python tests/states.py --lmp $(OUT)/lmp --out $(OUT)/verify $(STATES_ARGS) && \
 	  cmake/env.sh $$python tests/expansion.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
+	  cmake/env.sh $$python tests/interface.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
 	  ctest --test-dir $(BUILD) --output-on-failure -C long -L long -j $(JOBS) && export PYTHONPATH=$(TOP)/python && \
 	  { cmake/env.sh $$python -m hvi shield $(DEMO)/cases/quick.yaml --lmp $(OUT)/lmp --runs $(OUT)/verify --jobs $(RANKS) --ranks 1; code=$$?; \
 	    [ $$code = 0 ] || [ $$code = 3 ] || [ $$code = 4 ] || exit $$code; } && \

@@ -7,7 +7,7 @@ EDGE, N = 1.0e-3, 2  # of an element; particles along it
 DX = EDGE / N
 DENSITY = 2703.0  # of Al6061-T6.hvi
 PAIR = "cubic dissipation riemann"
-BOOK = ["c_book", *(f"c_book[{k}]" for k in range(1, 10))]
+TOTAL, P, LEFT_P, J, MASS = 8, 10, 13, 16, 19  # of compute hvi/energy: where they begin
 
 # nodes and embedded particles are of types 2 and 3, type 1 is free: a projectile; the order of fixes is that of the manual
 
@@ -35,19 +35,16 @@ FIXES = """fix move {sph} hvi/sph
 fix solid all hvi/johnson-cook damage no spall none
 fix wall all hvi/fem nodes 3 {fem}
 """
-REST = """fix step all hvi/dt 0.4
+REST = """fix step all hvi/dt {courant}
 neighbor {skin} bin
 compute book all hvi/energy {clamps}
+compute state all hvi/atom p e eps sxx syy szz sxy sxz syz damage
+compute rho all property/atom rho esph
 thermo {every}
-thermo_style custom step time dt atoms {book} f_wall f_wall[*] {more}
+thermo_style custom step time dt atoms c_book[*] f_wall f_wall[*] {more}
 thermo_modify norm no lost error format float %.17g
 """
-STATE = """compute state all hvi/atom p e eps sxx syy szz sxy sxz syz damage
-compute rho all property/atom rho esph
-run 0
-write_dump all custom {0} id type mass x y z vx vy vz fx fy fz c_rho[*] c_state[*] modify sort id format float %.17g
-uncompute state
-uncompute rho
+STATE = """write_dump all custom {0} id type mass x y z vx vy vz fx fy fz c_rho[*] c_state[*] modify sort id format float %.17g
 """
 
 
@@ -59,7 +56,7 @@ def plate(nx=6, ny=6, nz=2, core=1.1, n=N, **more):
 
 
 def start(mesh, create="", boundary="s s s", box=None, newton="on", comm="brick", sort="sort 0 0", pair=PAIR, fem="", sph="all",
-          clamps="", every=10, more="", skin=0.3 * DX, data="mesh.data", read=True, density=DENSITY):
+          clamps="", every=10, courant=0.4, more="", skin=0.3 * DX, data="mesh.data", read=True, density=DENSITY):
     """Input up to the first run; the mesh is written to data"""
     if box is None:
         low, high = mesh._box()
@@ -74,7 +71,7 @@ def start(mesh, create="", boundary="s s s", box=None, newton="on", comm="brick"
     if box is None:
         box = " ".join(f"{a:.17g} {b:.17g}" for a, b in zip(low, high))
     values = dict(create=create, boundary=boundary, box=box, newton=newton, comm=comm, sort=sort, pair=pair, fem=fem, sph=sph, clamps=clamps,
-                  every=every, more=more, skin=skin, mass=density * DX**3, h=1.2 * DX, book=" ".join(BOOK))
+                  every=every, courant=courant, more=more, skin=skin, mass=density * DX**3, h=1.2 * DX)
     text = (HEAD + STYLES + FIXES).format(**values)
     text += f"read_data {data} add append fix wall elements Elements\n"
     return text + REST.format(**values)

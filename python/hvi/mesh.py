@@ -132,7 +132,7 @@ class Mesh:
         try:
             with open(path, "w", encoding="ascii") as out:
                 out.write(f"LAMMPS data file: mesh {title}, mirror {self.mirror}\n\n{len(x)} atoms\n{len(masses)} atom types\n"
-                          f"{len(self.elements)} elements\n\n")
+                          + (f"{len(self.elements)} elements\n\n" if len(self.elements) else "\n"))
                 out.writelines(f"{lo:.16g} {hi:.16g} {a}lo {a}hi\n" for a, lo, hi in zip("xyz", *box))
                 out.write("\nMasses\n\n")
                 out.writelines(f"{k} {m:.15g}\n" for k, m in masses.items())

@@ -89,10 +89,18 @@ void FixHVIFEM::init()
                "property/atom rmass ghost yes before read_data");
   ledger = FixHVILedger::instance(lmp);
   store->embedded = held;
-  wraps = domain->periodicity[0] || domain->periodicity[1] || domain->periodicity[2];
+  wraps = false;
+  nearby = HUGE_VAL;
+  for (int k = 0; k < 3; k++)
+    if (domain->periodicity[k]) {
+      wraps = true;
+      nearby = std::min(nearby, 0.25 * domain->prd[k]);
+    }
 
-  bigint here = 0, all;    // others have gone, with particles or as such
-  for (const Element &one : elements) here += one.type > 0;
+  const bigint here = std::count_if(elements.begin(), elements.end(), [](const Element &one) {
+    return one.type > 0;    // others went with their nodes when these were read
+  });
+  bigint all;
   MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all == 0 && total < 0)
     error->all(FLERR, "Fix hvi/fem has no elements: use read_data FILE fix {} elements Elements",
@@ -192,7 +200,6 @@ void FixHVIFEM::post_integrate()
 {
   gather_nodes();
   half_energy(update->dt);
-  for (Element &one : elements) one.ahead = one.e + one.change;
   std::vector<char> freed;
   if (options.fails) release(freed);
   place_particles(freed);
@@ -215,20 +222,29 @@ void FixHVIFEM::half_energy(double dt)
     double work = 0.0, kick = 0.0;
     for (int a = 0; a < CORNERS; a++) {
       const double *const n = at(e, a);
-      for (int k = 0; k < 3; k++)
-        work += (one.force[3 * a + k] + one.pair_force[3 * a + k]) * n[V + k];
+      for (int k = 0; k < 3; k++) work += one.force[3 * a + k] * n[V + k];
       kick += n[KICK];
     }
+    if (active[e])
+      for (int a = 0; a < CORNERS; a++)
+        for (int k = 0; k < 3; k++) work += one.pair_force[3 * a + k] * at(e, a)[V + k];
     one.change = 0.5 * dt * (one.power - work) / one.mass;
     one.e += one.change + kick / CORNERS;
+    one.ahead = one.e + one.change;
   }
 }
 
+// the second half: forces have worked on velocities that have not changed since they were made
+
 void FixHVIFEM::final_integrate()
 {
-  for (std::size_t k = 0; k < node.size(); k += NODE) node[k + KICK] = 0.0;
   dt_last = update->dt;
-  half_energy(dt_last);
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (!alive(e)) continue;
+    Element &one = elements[e];
+    one.change = 0.5 * dt_last * (one.power - now[e].work) / one.mass;
+    one.e += one.change;
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -257,6 +273,8 @@ void FixHVIFEM::show_particles()
   for (std::size_t e = 0; e < elements.size(); e++) {
     if (!alive(e)) continue;
     elements[e].mark = fingerprint(e);
+    elements[e].step = dt_last;
+    std::copy_n(now[e].L, 9, elements[e].L);
     now[e].kick = 0.0;
     for (int a = 0; a < CORNERS; a++) now[e].kick += at(e, a)[KICK] / CORNERS;
   }
@@ -290,7 +308,7 @@ double FixHVIFEM::half_kick(int i) const
 
 // of its nodes: an element that goes on has forces of its own at the start of a run
 
-std::uint64_t FixHVIFEM::fingerprint(std::size_t e) const
+double FixHVIFEM::fingerprint(std::size_t e) const
 {
   std::uint64_t mark = 0x9E3779B97F4A7C15ull;
   for (int a = 0; a < CORNERS; a++)
@@ -300,7 +318,7 @@ std::uint64_t FixHVIFEM::fingerprint(std::size_t e) const
       mark = (mark ^ bits) * 0xFF51AFD7ED558CCDull;
       mark ^= mark >> 32;
     }
-  return mark | 1;
+  return (double) (mark >> 12) + 1.0;    // with all digits in data files
 }
 
 /* ---------------------------------------------------------------------- */
@@ -380,8 +398,8 @@ double FixHVIFEM::compute_array(int i, int k)
 }
 
 /* ----------------------------------------------------------------------
-   Probes: the element whose center was nearest at the start of the first run; when it has become
-   particles, nothing
+   Probes: the element whose center was nearest at the start of the first run: pressure, stress, von Mises
+   stress, velocity and center; when it has become particles, 0
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::find_probes()
@@ -415,7 +433,7 @@ void FixHVIFEM::read_probes()
 {
   if (probes.empty() || now.size() != elements.size()) return;
   probed = update->ntimestep;
-  std::vector<double> v(3 * nodes.size());    // in pairs' and forces' table is another until output
+  std::vector<double> v(3 * nodes.size());    // that of the table is extrapolated until output
   nodes.gather(
       3,
       [this](int i, double *b) {
@@ -436,8 +454,13 @@ void FixHVIFEM::read_probes()
       const double stress[7] = {p, S.xx - p, S.yy - p, S.zz - p, S.xy, S.xz, S.yz};
       std::copy_n(stress, 7, value);
       value[7] = HVI::von_mises(S);
+      double x[CORNERS][3];
+      corners(e, X, x);
       for (int a = 0; a < CORNERS; a++)
-        for (int k = 0; k < 3; k++) value[8 + k] += v[3 * corner[CORNERS * e + a] + k] / CORNERS;
+        for (int k = 0; k < 3; k++) {
+          value[8 + k] += v[3 * corner[CORNERS * e + a] + k] / CORNERS;
+          value[11 + k] += x[a][k] / CORNERS;
+        }
     }
   }
   MPI_Allreduce(here.data(), all.data(), here.size(), MPI_DOUBLE, MPI_SUM, world);

@@ -115,7 +115,7 @@ class FixHVIFEM :
 
   struct Probe {
     double x[3];
-    static constexpr int NVALUE = 11;
+    static constexpr int NVALUE = 14;
     double value[NVALUE];
     std::int64_t id;    // of the element; 0: not known yet
   };
@@ -140,6 +140,7 @@ class FixHVIFEM :
   int *head;                        // of owned particles: its first element, -1: none
   int *users;                       // of owned particles: number of elements that have it as a node
   std::vector<int> next;            // by element: of the same particle, -1: none
+  std::vector<int> read_head;    // head of particles of a data file, until LAMMPS sets their arrays
 
   // from one exchange of particles to the next
 
@@ -169,6 +170,7 @@ class FixHVIFEM :
   enum { STAYS, IS_FREE, IS_NO_MORE };           // FLAG
   struct Now {
     double p, c, kick;
+    double work;    // power of the last forces on the velocity before them
     double L[9], K[9];
     double sums[SUMS];
   };
@@ -180,6 +182,7 @@ class FixHVIFEM :
   double shortest;    // stable step
   bool going_on;      // all elements are as the last run has left them
   bool wraps;         // they may lie across periodic faces
+  double nearby;      // as far as there is no other image
 
   // of this rank, from the start on
 
@@ -201,15 +204,18 @@ class FixHVIFEM :
   void gather_start();
   void check_state();
   bool strayed();
-  std::uint64_t fingerprint(std::size_t) const;
+  double fingerprint(std::size_t) const;
   void gather_nodes();
   void half_energy(double dt);
   double half_kick(int i) const;
   void place_particles(const std::vector<char> &freed);
   void show_particles();
   void gather_sums();
+  void resume(std::size_t);
   void advance(std::size_t first, int n, double dt, bool due);
   void show_states(bool all);
+  double with_pairs(const Now &, double felt[9]) const;
+  bool waits(std::size_t first, int n) const;
   void make_forces(double dt);
   void gather_forces();
   void element_forces(std::size_t first, int n, double dt);

@@ -110,12 +110,19 @@ void FixHVIFEM::link()
                                   return one.type <= 0;
                                 }),
                  elements.end());
+
+  // in an order that does not depend on how they came here: sums are the same after a restart
+
+  std::sort(elements.begin(), elements.end(), [](const Element &one, const Element &two) {
+    return one.id < two.id;
+  });
   next.assign(elements.size(), -1);
+  read_head.clear();
   std::fill_n(head, atom->nlocal, -1);
   std::vector<int> number(atom->nlocal, 0);
   int most = 0;
   for (int e = elements.size() - 1; e >= 0; e--) {
-    const int i = atom->map(elements[e].node[0]);
+    const int i = nodes.local(elements[e].node[0]);
     if (i < 0 || i >= atom->nlocal)
       error->one(FLERR,
                  "Fix hvi/fem: node {} of element {} is not there at step {}: elements must not "
@@ -151,15 +158,17 @@ void FixHVIFEM::mark_particles()
 {
   connect();
   flags.assign(atom->nlocal, 0);
-  for (int i = 0; i < atom->nlocal; i++) flags[i] = atom->mask[i] & held;
+  int here = 0, known;    // a data file has no groups
+  for (int i = 0; i < atom->nlocal; i++) here |= flags[i] = atom->mask[i] & held;
+  MPI_Allreduce(&here, &known, 1, MPI_INT, MPI_MAX, world);
   unmark_particles();
   particles.scatter(
       2,
       [this](int k, double *b) {
         b[0] = elements[inside[k].e].type;
-        b[1] = elements[inside[k].e].mark ? 1.0 : 0.0;
+        b[1] = elements[inside[k].e].mark;
       },
-      [this](int i, const double *b) {
+      [this, known](int i, const double *b) {
         const int itype = b[0];
         if (atom->type[i] != itype)
           error->one(FLERR,
@@ -168,7 +177,7 @@ void FixHVIFEM::mark_particles()
                      atom->tag[i], itype, atom->type[i]);
         if (atom->mask[i] & held)
           error->one(FLERR, "Fix hvi/fem: particle {} is in two elements", atom->tag[i]);
-        if (b[1] > 0.0 && !flags[i]) ids_have_changed(atom->tag[i]);
+        if (b[1] > 0.0 && known && !flags[i]) ids_have_changed(atom->tag[i]);
         check_group(i);
         atom->mask[i] |= held | inner[itype];
       });
@@ -313,6 +322,15 @@ void FixHVIFEM::check_masses()
 
 void FixHVIFEM::check_state()
 {
+  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++)
+      if (is_node(atom->type[i]) && mirror.has(k) && atom->x[i][k] == mirror.at[k] &&
+          atom->v[i][k] != 0.0)
+        error->one(FLERR,
+                   "Fix hvi/fem: node {} is on the mirror plane {} and moves across it: set its "
+                   "velocity there to 0",
+                   atom->tag[i], "xyz"[k]);
   int here = 1, all;
   for (std::size_t e = 0; e < elements.size(); e++) {
     Element &one = elements[e];
@@ -328,14 +346,17 @@ void FixHVIFEM::check_state()
       one.rho *= one.V / volume;
       one.V = volume;
     }
-    one.ahead = one.e;
   }
-  if (here && strayed()) here = 0;
+  if (strayed()) here = 0;    // all ranks ask
   MPI_Allreduce(&here, &all, 1, MPI_INT, MPI_MIN, world);
   going_on = all;
+  double step = 0.0;
+  if (going_on)
+    for (const Element &one : elements) step = std::max(step, one.step);
+  MPI_Allreduce(&step, &dt_last, 1, MPI_DOUBLE, MPI_MAX, world);
   if (going_on) return;
-  dt_last = 0.0;
   for (Element &one : elements) {
+    one.ahead = one.e;
     one.power = one.q = 0.0;
     std::fill_n(one.force, 3 * CORNERS, 0.0);
     std::fill_n(one.pair_force, 3 * CORNERS, 0.0);

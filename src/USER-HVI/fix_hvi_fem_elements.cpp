@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using HVI::CORNERS;
@@ -54,7 +55,7 @@ void FixHVIFEM::gather_nodes()
         b[USERS] = users[i];
       },
       [this](int k, const double *b) {
-        std::copy_n(b, +NODE, &node[NODE * k]);
+        memcpy(&node[NODE * k], b, NODE * sizeof(double));
       });
 }
 
@@ -62,14 +63,16 @@ void FixHVIFEM::gather_nodes()
 
 void FixHVIFEM::corners(std::size_t e, int what, double x[CORNERS][3]) const
 {
-  for (int a = 0; a < CORNERS; a++) std::copy_n(at(e, a) + what, 3, x[a]);
+  for (int a = 0; a < CORNERS; a++)
+    for (int k = 0; k < 3; k++) x[a][k] = at(e, a)[what + k];
   if (!wraps || what != X) return;
   for (int a = 1; a < CORNERS; a++) {
-    double d[3] = {x[a][0] - x[0][0], x[a][1] - x[0][1], x[a][2] - x[0][2]};
-    double near_by[3] = {d[0], d[1], d[2]};
-    HVI::minimum_image(domain, near_by[0], near_by[1], near_by[2]);
+    const double d[3] = {x[a][0] - x[0][0], x[a][1] - x[0][1], x[a][2] - x[0][2]};
+    if (std::fabs(d[0]) < nearby && std::fabs(d[1]) < nearby && std::fabs(d[2]) < nearby) continue;
+    double image[3] = {d[0], d[1], d[2]};
+    HVI::minimum_image(domain, image[0], image[1], image[2]);
     for (int k = 0; k < 3; k++)
-      if (near_by[k] != d[k]) x[a][k] = x[0][k] + near_by[k];
+      if (image[k] != d[k]) x[a][k] = x[0][k] + image[k];
   }
 }
 
@@ -77,11 +80,16 @@ void FixHVIFEM::corners(std::size_t e, int what, double x[CORNERS][3]) const
 
 void FixHVIFEM::load(std::size_t first, int n, int what, HexNodes &y) const
 {
-  double x[CORNERS][3];
   for (int lane = 0; lane < LANES; lane++) {
-    corners(first + std::min(lane, n - 1), what, x);
-    for (int a = 0; a < CORNERS; a++)
-      for (int k = 0; k < 3; k++) y[k][a][lane] = x[a][k];
+    const std::size_t e = first + std::min(lane, n - 1);
+    if (wraps && what == X) {
+      double x[CORNERS][3];
+      corners(e, what, x);
+      for (int a = 0; a < CORNERS; a++)
+        for (int k = 0; k < 3; k++) y[k][a][lane] = x[a][k];
+    } else
+      for (int a = 0; a < CORNERS; a++)
+        for (int k = 0; k < 3; k++) y[k][a][lane] = at(e, a)[what + k];
   }
 }
 
@@ -108,23 +116,51 @@ HVI::SolidInput FixHVIFEM::input(const Element &one) const
 }
 
 /* ----------------------------------------------------------------------
-   Between the sweeps of pair hvi/sph
+   Between the sweeps of pair hvi/sph.  Elements that pairs do not act on have their forces at once, while
+   all of their numbers are at hand.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::settle()
 {
   const bool due = integrator->is_due();
-  now.resize(elements.size());
-  for (Now &one : now) {
-    std::fill_n(one.K, 9, 0.0);
-    one.kick = 0.0;
-    std::fill_n(one.sums, +SUMS, 0.0);
+  const double dt = integrator->step();
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    now[e].kick = 0.0;
+    if (!active[e]) continue;
+    std::fill_n(now[e].K, 9, 0.0);
+    std::fill_n(now[e].sums, +SUMS, 0.0);
   }
   gather_sums();
   shortest = HVI::NO_BOUND;
-  for (std::size_t e = 0; e < elements.size(); e += LANES)
-    advance(e, std::min<std::size_t>(LANES, elements.size() - e), integrator->step(), due);
+  push.assign(3 * nodes.size(), 0.0);
+  for (std::size_t e = 0; e < elements.size(); e += LANES) {
+    const int n = std::min<std::size_t>(LANES, elements.size() - e);
+    if (going_on)
+      for (std::size_t k = e; k < e + n; k++) resume(k);
+    else
+      advance(e, n, dt, due);
+    if (!waits(e, n)) element_forces(e, n, due ? dt : 0.0);
+  }
   show_states(false);
+}
+
+// as the last run has left it: what advance() told others
+
+void FixHVIFEM::resume(std::size_t e)
+{
+  const Element &one = elements[e];
+  double csq;
+  store->materials.of(one.type)->eos->evaluate(one.rho, one.ahead, now[e].p, csq);
+  now[e].p = HVI::clip_tension(now[e].p, one.s.failed() ? 0.0 : one.s.least);
+  std::copy_n(one.L, 9, now[e].L);
+  if (!(one.stable >= shortest)) shortest = one.stable;
+}
+
+// for what pairs do to particles of n elements from first on
+
+bool FixHVIFEM::waits(std::size_t first, int n) const
+{
+  return std::count(&active[first], &active[first] + n, 0) < n;
 }
 
 /* ----------------------------------------------------------------------
@@ -164,6 +200,24 @@ void FixHVIFEM::gather_sums()
      rho(n+1) = rho(n) V(n)/V(n+1) exp[dt (tr L - tr L^)]
 ------------------------------------------------------------------------- */
 
+double FixHVIFEM::with_pairs(const Now &t, double felt[9]) const
+{
+  const double *const s = t.sums, *const m = s + M, *const contact = s + CONTACT;
+  const double trace = t.L[0] + t.L[4] + t.L[8];
+  const double Phi[9] = {m[0], m[3], m[4], m[3], m[1], m[5], m[4], m[5], m[2]};
+  const double Phi_c[9] = {contact[0], contact[3], contact[4], contact[3], contact[1],
+                           contact[5], contact[4], contact[5], contact[2]};
+  double trace_felt = trace + s[TRACE];
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) {
+      double l = t.L[3 * i + j] + s[L + 3 * i + j];
+      for (int k = 0; k < 3; k++) l -= t.L[3 * i + k] * Phi[3 * k + j];
+      felt[3 * i + j] = l;
+      trace_felt -= t.L[3 * i + j] * Phi_c[3 * j + i];
+    }
+  return trace_felt + felt[0] + felt[4] + felt[8] - trace;
+}
+
 void FixHVIFEM::advance(std::size_t first, int n, double dt, bool due)
 {
   HexNodes x, v, B;
@@ -196,38 +250,33 @@ void FixHVIFEM::advance(std::size_t first, int n, double dt, bool due)
     Element &one = elements[e];
     Now &t = now[e];
     for (int k = 0; k < 9; k++) t.L[k] = gradient[k][lane];
-    const double *const s = t.sums, *const m = s + M, *const contact = s + CONTACT;
     const double trace = t.L[0] + t.L[4] + t.L[8];
-    const double Phi[9] = {m[0], m[3], m[4], m[3], m[1], m[5], m[4], m[5], m[2]};
-    const double Phi_c[9] = {contact[0], contact[3], contact[4], contact[3], contact[1],
-                             contact[5], contact[4], contact[5], contact[2]};
-    double felt[9];
-    double trace_felt = trace + s[TRACE];
-    for (int i = 0; i < 3; i++)
-      for (int j = 0; j < 3; j++) {
-        double l = t.L[3 * i + j] + s[L + 3 * i + j];
-        for (int k = 0; k < 3; k++) l -= t.L[3 * i + k] * Phi[3 * k + j];
-        felt[3 * i + j] = l;
-        trace_felt -= t.L[3 * i + j] * Phi_c[3 * j + i];
-      }
-    trace_felt += felt[0] + felt[4] + felt[8] - trace;
+    double felt[9], trace_felt = trace;
+    std::copy_n(t.L, 9, felt);
+    if (active[e]) trace_felt = with_pairs(t, felt);
     const HVI::SolidModel &own = model(one);
     if (due) {
       if (!one.s.failed())
         own.try_out(
             one.s,
             {felt[0], felt[1], felt[2], felt[3], felt[4], felt[5], felt[6], felt[7], felt[8]}, dt);
-      one.rho *= one.V / V_end[lane] * std::exp(dt * (trace - trace_felt));
+      one.rho *= one.V / V_end[lane];
+      if (active[e]) one.rho *= std::exp(dt * (trace - trace_felt));
     }
     one.V = V_end[lane];
     double csq;
-    if (!(one.V > 0.0) ||
-        !store->materials.of(one.type)->eos->evaluate(one.rho, one.ahead, t.p, csq))
+    const bool known =
+        one.V > 0.0 && store->materials.of(one.type)->eos->evaluate(one.rho, one.ahead, t.p, csq);
+
+    // no body at rest has less energy, and a step in which an element turns over gives it far less
+
+    if (!known || one.ahead < -0.02 * (csq + one.s.shear / one.rho))
       error->one(
           FLERR,
-          "Fix hvi/fem: equation of state of element {} (type {}) has no answer at volume {}, "
-          "density {} and energy per mass {} at step {}",
-          one.id, one.type, one.V, one.rho, one.ahead, update->ntimestep);
+          "Fix hvi/fem: element {} (type {}) has turned inside out or collapsed at step {}: volume "
+          "{}, density {}, energy per mass {}; elements that are crushed need particles and "
+          "convert yes, or a smaller courant",
+          one.id, one.type, update->ntimestep, one.V, one.rho, one.ahead);
     rho[lane] = one.rho;
     c[lane] = csq;
     if (!due || one.s.failed()) continue;
@@ -313,14 +362,16 @@ void FixHVIFEM::pre_reverse(int, int)
 
 void FixHVIFEM::make_forces(double dt)
 {
-  push.assign(3 * nodes.size(), 0.0);
-  for (Element &one : elements) {
-    one.power = 0.0;
-    std::fill_n(one.pair_force, 3 * CORNERS, 0.0);
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (!active[e]) continue;
+    elements[e].power = 0.0;
+    std::fill_n(elements[e].pair_force, 3 * CORNERS, 0.0);
   }
   gather_forces();
-  for (std::size_t e = 0; e < elements.size(); e += LANES)
-    element_forces(e, std::min<std::size_t>(LANES, elements.size() - e), dt);
+  for (std::size_t e = 0; e < elements.size(); e += LANES) {
+    const int n = std::min<std::size_t>(LANES, elements.size() - e);
+    if (waits(e, n)) element_forces(e, n, dt);
+  }
   bring_forces();
 }
 
@@ -407,9 +458,13 @@ void FixHVIFEM::element_forces(std::size_t first, int n, double dt)
     HVI::hex_forces(s, B, f);
     const Vec power =
         HVI::hex_hourglass(x, v, B, V_end, rho, c, gradient, options.viscous, stiff, dt, Q, f);
+    Vec work = Vec{};
+    for (int k = 0; k < 3; k++)
+      for (int a = 0; a < CORNERS; a++) work += f[k][a] * v[k][a];
     for (int lane = 0; lane < n; lane++) {
       if (!alive(first + lane)) continue;
       Element &one = elements[first + lane];
+      now[first + lane].work = work[lane];
       for (int k = 0; k < 12; k++) one.Q[k] = Q[k][lane];
       one.hourglass += dt * power[lane];
       for (int a = 0; a < CORNERS; a++)
@@ -420,8 +475,13 @@ void FixHVIFEM::element_forces(std::size_t first, int n, double dt)
     if (!alive(e)) continue;
     const Element &one = elements[e];
     for (int a = 0; a < CORNERS; a++)
-      for (int k = 0; k < 3; k++)
-        push[3 * corner[CORNERS * e + a] + k] += one.force[3 * a + k] + one.pair_force[3 * a + k];
+      for (int k = 0; k < 3; k++) push[3 * corner[CORNERS * e + a] + k] += one.force[3 * a + k];
+    if (!active[e]) continue;
+    for (int a = 0; a < CORNERS; a++)
+      for (int k = 0; k < 3; k++) {
+        push[3 * corner[CORNERS * e + a] + k] += one.pair_force[3 * a + k];
+        now[e].work += one.pair_force[3 * a + k] * at(e, a)[V + k];
+      }
   }
 }
 

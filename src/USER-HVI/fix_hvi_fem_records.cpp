@@ -47,9 +47,12 @@ void FixHVIFEM::copy_arrays(int i, int j, int /*delflag*/)
   users[j] = users[i];
 }
 
+// LAMMPS sets the arrays of new particles after it has read all sections, and may then send them to other ranks
+
 void FixHVIFEM::set_arrays(int i)
 {
   head[i] = -1;
+  if (i < (int) read_head.size()) std::swap(head[i], read_head[i]);
   users[i] = 0;
 }
 
@@ -214,7 +217,6 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
         for (int c = 0; c < ncolumn; c++) number[c] = values.next_double();
         memcpy((double *) &elements[found->second] + IDS + COLUMNS * k, number,
                ncolumn * sizeof(double));
-        elements[found->second].mark = 0;
         continue;
       }
       one.type = values.next_int();
@@ -225,10 +227,11 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
         throw TokenizerException("there is no such type", std::to_string(one.type));
       if (one.n < 0 || one.n > 8)
         throw TokenizerException("n must be from 0 to 8", std::to_string(one.n));
-      const int i = atom->map(one.node[0]);
+      const int i = nodes.local(one.node[0]);
       if (i < 0 || i >= atom->nlocal) continue;
-      next.push_back(head[i]);
-      head[i] = elements.size();
+      if (i >= (int) read_head.size()) read_head.resize(i + 1, -1);
+      next.push_back(read_head[i]);
+      read_head[i] = elements.size();
       elements.push_back(one);
     } catch (TokenizerException &wrong) {
       error->all(FLERR, "Fix hvi/fem: wrong row of section {} of the data file: {}", keyword,

@@ -32,6 +32,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using HVI::CORNERS;
@@ -74,6 +75,15 @@ void FixHVIFEM::post_neighbor()
         if (b[0] > 0.0) active[inside[k].e] = 1;
       });
 
+  // others have none of what comes from pairs, until they are active
+
+  now.assign(elements.size(), Now());
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    if (active[e]) continue;
+    elements[e].power = 0.0;
+    std::fill_n(elements[e].pair_force, 3 * CORNERS, 0.0);
+  }
+
   members.clear();
   std::vector<tagint> wanted;
   for (std::size_t e = 0; e < elements.size(); e++) {
@@ -102,8 +112,7 @@ void FixHVIFEM::post_neighbor()
 
 /* ----------------------------------------------------------------------
    To their places, with velocity and what pairs and lists see of density and energy.  Who leaves an element
-   keeps all that, but for the energy: its own is that of the middle of the step, to which fix hvi/sph adds what
-   the second half brings.
+   keeps all that.
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::place_particles(const std::vector<char> &freed)
@@ -112,28 +121,32 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
   for (std::size_t e = 0; e < elements.size(); e++) {
     if (place[e] < 0) continue;
     const Element &one = elements[e];
-    double y[3][CORNERS][3];
-    for (const int what : {X, V, W}) corners(e, what, y[what / 3]);
+    double y[CORNERS][RHO];    // x, v, w
+    for (int a = 0; a < CORNERS; a++) memcpy(y[a], at(e, a), RHO * sizeof(double));
+    if (wraps) {
+      double x[CORNERS][3];
+      corners(e, X, x);
+      for (int a = 0; a < CORNERS; a++) std::copy_n(x[a], 3, y[a]);
+    }
     const auto &weights = subcells[one.n];
     for (std::size_t p = 0; p < weights.size(); p++) {
       double *const row = &rows[PLACE * (place[e] + p)];
-      std::fill_n(row, 9, 0.0);
+      double sum[RHO] = {};
       for (int a = 0; a < CORNERS; a++)
-        for (int what = 0; what < 3; what++)
-          for (int k = 0; k < 3; k++) row[3 * what + k] += weights[p][a] * y[what][a][k];
+        for (int k = 0; k < RHO; k++) sum[k] += weights[p][a] * y[a][k];
+      memcpy(row, sum, sizeof(sum));
       row[RHO] = one.rho;
       row[FLAG] = !freed.empty() && freed[e] ? IS_FREE : (alive(e) ? STAYS : IS_NO_MORE);
       row[ESPH] = one.ahead * one.mass / one.particles();
       row[AHEAD] = one.change * one.mass / one.particles();
     }
   }
-  const bool tell = !freed.empty();
   particles.scatter(
       PLACE,
       [this](int k, double *b) {
-        std::copy_n(&rows[PLACE * k], +PLACE, b);
+        memcpy(b, &rows[PLACE * k], PLACE * sizeof(double));
       },
-      [this, tell](int i, const double *b) {
+      [this](int i, const double *b) {
         if (b[FLAG] == IS_NO_MORE) return;
         double *const x = atom->x[i];
         double way[3] = {b[X] - x[0], b[X + 1] - x[1], b[X + 2] - x[2]};
@@ -145,7 +158,7 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         atom->rho[i] = b[RHO];
         atom->esph[i] = b[ESPH];
         integrator->carry(i, b + W);
-        if (tell && b[FLAG] == IS_FREE) {
+        if (b[FLAG] == IS_FREE) {    // this rank may have no element itself
           atom->mask[i] &= ~(held | inner[atom->type[i]]);
           integrator->let_go(i, b[AHEAD]);
           ledger->hand_over(i, atom->rmass[i]);

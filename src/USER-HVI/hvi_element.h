@@ -28,7 +28,7 @@ struct Element {
   std::int64_t id, type;         // of its material
   std::int64_t node[CORNERS];    // IDs
   std::int64_t n, first;         // n^3 particles with IDs from first on; 0: none
-  std::uint64_t mark;            // fingerprint of its nodes at the end of the last run; 0: none
+  double mark;                   // fingerprint of its nodes at the end of the last run; 0: none
   double mass;                   // 0: not known yet
   double V0, V, rho;             // volume of the start and now; density
   double e, ahead, change;    // energy per mass; of the end of a step, and half of the change in it
@@ -40,9 +40,11 @@ struct Element {
   double pair_force[3 * CORNERS];    // of those, on nodes
   double force[3 * CORNERS];         // its own, on nodes
   double Q[12];                      // hourglass stiffness, see hex_hourglass()
+  double step, L[9];                 // step that has led to those forces, velocity gradient in it
   SolidState s;
 
-  static constexpr int SIZE = IDS + 1 + 13 + 6 * CORNERS + 12 + sizeof(SolidState) / sizeof(double);
+  static constexpr int SIZE =
+      IDS + 1 + 13 + 6 * CORNERS + 12 + 10 + sizeof(SolidState) / sizeof(double);
   int particles() const { return n * n * n; }
 };
 

@@ -185,7 +185,10 @@ HVI_INLINE Vec hex_bulk_viscosity(const Vec &rho, const Vec &c, const Vec &V, co
    step, x, B and V of its end.  c is the speed of longitudinal waves.  Where stiff is 0, Q is too: what
    it held is left to whoever took the power.
 
-   Adds to f.  Returns F q', the power taken from the corners, - f v of what it adds.
+   Adds to f.  Returns the power taken from the corners, with the mean of Q before and after the step: a force
+   works on the velocities of the middles of both steps beside it, and the sum over steps is then
+   what Q holds and what is lost.  With its end alone hourglasses that only vibrate would seem to take more
+   and more.
 ------------------------------------------------------------------------- */
 
 HVI_INLINE Vec hex_hourglass(const HexNodes &x, const HexNodes &v, const HexNodes &B, const Vec &V,
@@ -223,11 +226,12 @@ HVI_INLINE Vec hex_hourglass(const HexNodes &x, const HexNodes &v, const HexNode
     }
     for (int i = 0; i < 3; i++) {
       const int a = (i + 1) % 3, b = (i + 2) % 3;
-      const Vec end =
-          mid[i] + turn * (spun[i] + (t[a] * spun[b] - t[b] * spun[a])) + 0.5 * step * rate[i];
+      const Vec begin = q[i],
+                end = mid[i] + turn * (spun[i] + (t[a] * spun[b] - t[b] * spun[a])) +
+          0.5 * step * rate[i];
       q[i] = stiffens ? end : Vec{};
       F[i][m] = q[i] + drag * rate[i];
-      power += F[i][m] * rate[i];
+      power += (0.5 * (begin + q[i]) + drag * rate[i]) * rate[i];
     }
   }
   for (int i = 0; i < 3; i++) {

@@ -46,6 +46,12 @@ std::vector<tagint> HVITagExchange::alltoall(const std::vector<std::vector<tagin
   return takes;
 }
 
+int HVITagExchange::local(tagint id) const
+{
+  if (id < 1 || (atom->map_style == Atom::MAP_ARRAY && id >= atom->get_map_maxarray())) return -1;
+  return atom->map(id);
+}
+
 /* ----------------------------------------------------------------------
    A directory tells owners: the rank of an ID there is ID modulo ranks.  Owners say what they have, others
    what they look for.
@@ -59,7 +65,7 @@ tagint HVITagExchange::connect(const std::vector<tagint> &wanted,
   nslots = wanted.size();
   std::vector<int> far;    // slots whose particles are elsewhere
   for (int k = 0; k < nslots; k++) {
-    const int i = atom->map(wanted[k]);
+    const int i = local(wanted[k]);
     if (i >= 0 && i < nlocal && may_be(i)) {
       owned.here.push_back(i);
       slots.here.push_back(k);

@@ -39,6 +39,10 @@ class HVITagExchange : protected Pointers {
 
   int size() const { return nslots; }
 
+  // index on this rank; -1: none.  A map by array is not asked beyond its end.
+
+  int local(tagint id) const;
+
   template <class Pack, class Unpack> void gather(int width, const Pack &pack, const Unpack &unpack)
   {
     run(width, owned, slots, pack, unpack);

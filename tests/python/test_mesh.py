@@ -208,6 +208,9 @@ def test_periodic_block(tmp_path):
     assert "\n0 1 ylo yhi\n0 5 zlo zhi\n" in head
     x = found["Atoms # sph"][:, 5:]
     assert (x[:, 1:] >= 0).all() and (x[:, 1:] < [1, 5]).all() and len(x) == 80 + 480
+    mesh.block(3, 4, 5, n=2, free=np.ones((3, 4, 5), bool)).write(tmp_path / "free.data", 1.0)
+    found, head = sections(tmp_path / "free.data")
+    assert "elements" not in head and list(found) == ["Masses", "Atoms # sph"]  # LAMMPS knows no header "elements" without fix hvi/fem
     held = np.unique(np.round(x[80:], 9), axis=0)
     assert len(held) == 480 and held[0] == pytest.approx([0.125, 0.0625, 0.25]) and held[-1] == pytest.approx([1.375, 0.9375, 4.75])
 

@@ -43,11 +43,13 @@ run           150
 """
 
 
-@pytest.mark.parametrize("n", [2, 4])
-def test_books_are_kept(lmp, n):
-    """with 4^3 particles elements beside those that fail were out of reach of what is free until then"""
+@pytest.mark.parametrize("n, nranks", [(2, 1), (4, 1), (2, 3)])
+def test_books_are_kept(lmp, n, nranks):
+    """with 4^3 particles elements beside those that fail were out of reach of what is free until then; one of three ranks has
+    particles of elements, but no elements"""
     plate(1e-3, n * 0.25e-3, side=20e-3, core=2.5e-3, hold=6e-3, n=n, quarter=True, type=2, node_type=3).write("wall.data", 2703.0)
-    thermo = lmp(IMPACT).thermo
+    balance = "comm_style tiled\nfix balance all balance 20 1.05 rcb\n" if nranks > 1 else ""
+    thermo = lmp(IMPACT.replace("run  ", balance + "run  "), nranks=nranks).thermo
     assert thermo["f_wall"][-1] <= thermo["f_wall"][0] - n**2 / 3
     assert np.abs(thermo["v_pz"] / thermo["c_book[26]"]).max() < 1e-12
     assert abs(thermo["c_book[9]"][-1] - 1) < 2e-6

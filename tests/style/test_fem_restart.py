@@ -1,0 +1,123 @@
+"""Elements in restart and data files: a run that is interrupted goes on as if it had not been, with elements that have become particles."""
+
+import numpy as np
+import pytest
+from fem_scenes import STATE, read_state, start, strike_plate
+
+FAILS = "strain 0.1 probe 2e-3 2e-3 -1e-3"  # the first elements become particles at step 27, and 8 more soon after
+MIDDLE, END = 30, 36
+
+
+def whole(rest, **more):
+    mesh, strike_it = strike_plate()
+    return start(mesh, fem=FAILS, every=5, more="f_wall[1][1] f_wall[1][7] f_wall[1][11]", **more) + strike_it + rest
+
+
+def continued(read="read_restart half", fem=FAILS, newton="on", **more):
+    """the same words without the box and what is in it"""
+    mesh, _ = strike_plate()
+    text = start(mesh, fem=fem, every=5, more="f_wall[1][1] f_wall[1][7] f_wall[1][11]", newton=newton, data="again.data", **more)
+    first, last = text.index("fix prop"), text.index("pair_style")
+    head = f"newton {newton}\n" + ("atom_modify sort 0 0\n" if read.startswith("read_restart") else "")
+    if read.startswith("read_restart"):
+        head += read + "\nfix prop all property/atom rmass ghost yes\n"
+    else:
+        head = text[:last]
+    body = text[last:].split("\n")
+    at = next(k for k, line in enumerate(body) if line.startswith("read_data"))
+    body[at] = "" if read.startswith("read_restart") else read
+    return head + "\n".join(body)
+
+
+def same(a, b, tolerance=0.0, renumbered=False):
+    if renumbered:  # read_data ... add append: IDs begin at 1 again, in the order they had
+        a, b = ({k: v for k, v in one.items() if k != "id"} for one in (a, b))
+    for name in a:
+        assert np.abs(a[name] - b[name]).max() <= tolerance * np.abs(a[name]).max(), name
+
+
+def books(a, b, tolerance=0.0):
+    later = a["Step"] >= b["Step"][0]
+    for name in a:
+        size = np.abs(a["c_book[12]" if name in ("c_book[10]", "c_book[11]") else name]).max()
+        assert np.abs(a[name][later] - b[name]).max() <= tolerance * size, name
+
+
+@pytest.mark.parametrize("middle, end, tolerance", [(20, 22, 0.0), (MIDDLE, 32, 0.0), (MIDDLE, END, 1e-12)])
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (2, "off")])
+def test_goes_on(lmp, nranks, newton, middle, end, tolerance):
+    """states, forces, the step, all that is booked, probes: the same bits; when elements have failed, on ranks and later,
+    sums are of another order"""
+    tolerance = 1e-12 if nranks > 1 and middle == MIDDLE else tolerance
+    a = lmp(whole(f"restart {middle} half\nrun {end}\n" + STATE.format("whole"), newton=newton), nranks=nranks).runs[0]
+    b = lmp(continued(f"read_restart half.{middle}", newton=newton) + f"run {end - middle}\n" + STATE.format("part"), nranks=nranks).runs[0]
+    books(a, b, tolerance)
+    same(read_state("whole"), read_state("part"), tolerance)
+    assert (b["f_wall"][0] < 64) == (middle == MIDDLE) and (end < END or b["f_wall"][-1] < b["f_wall"][0])
+    assert a["Dt"].min() < a["Dt"].max() and np.abs(b["f_wall[1][1]"]).min() > 0
+
+
+@pytest.mark.parametrize("first, second", [(1, 3), (3, 2)])
+def test_other_ranks(lmp, first, second):
+    a = lmp(whole(f"run {MIDDLE}\nwrite_restart half\nrun {END - MIDDLE}\n" + STATE.format("whole")), nranks=first).runs[1]
+    b = lmp(continued() + f"run {END - MIDDLE}\n" + STATE.format("part"), nranks=second).runs[0]
+    books(a, b, 1e-10)
+    same(read_state("whole"), read_state("part"), 1e-10)
+
+
+def test_changed_after_a_restart(lmp):
+    """forces anew"""
+    change = "velocity all set 0 0 0\nrun 0\n"
+    lmp(whole(f"run {MIDDLE}\nwrite_restart half\n" + change + STATE.format("whole")))
+    lmp(continued() + change + STATE.format("part"))
+    a, b = read_state("whole"), read_state("part")
+    same(a, b, 1e-12)
+    assert np.abs(a["V"]).max() == 0.0 < np.abs(a["F"]).max()
+
+
+def test_wrong_fixes_after_a_restart(lmp):
+    """without the fix nodes are particles of no material; with another ID elements are missing"""
+    lmp(whole(f"run {MIDDLE}\nwrite_restart half\n"))
+    text = continued()
+    r = lmp("\n".join(line for line in text.split("\n") if "f_wall" not in line and "fix wall" not in line) + "run 1\n", expect_fail=True)
+    assert "type 3 has no material" in r.error
+    r = lmp(text.replace("fix wall", "fix other").replace("f_wall", "f_other") + "run 1\n", expect_fail=True)
+    assert "has no elements" in r.error
+
+
+def test_all_elements_gone(lmp):
+    """a run, and a restart file, in which nothing is left of the mesh but its particles"""
+    text = whole("run 60\nrun 5\nwrite_restart half\n").replace("strain 0.1", "strain 1e-12")
+    r = lmp(text)
+    assert r.runs[1]["f_wall"][-1] == 0
+    assert (r.runs[1]["Atoms"][-1] == len(strike_plate()[0].free) + 8 * 64).all()
+    r = lmp(continued(fem=FAILS.replace("strain 0.1", "strain 1e-12")) + "run 5\n")
+    assert r.thermo["f_wall"][-1] == 0
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("middle", [20])
+def test_data_file(lmp, nranks, middle):
+    """write_data, read_data with all sections: the state to its digits, and then the run as if not interrupted"""
+    lmp(whole(f"run {middle}\nwrite_data half.data\n" + STATE.format("half") + f"run {END - middle}\n" + STATE.format("whole")))
+    found = [line.split("#")[0].strip() for line in open("half.data") if line[:1].isalpha()]
+    words = []
+    for name in found:
+        owner = {"wall": "wall", "move": "move", "soli": "solid"}.get(name[:4])
+        if name == "Elements":
+            words.append("fix wall elements Elements")
+        elif name == "prop":
+            words.append("fix prop NULL prop")
+        elif owner:
+            words.append(f"fix {owner} NULL {name}")
+    assert sum(w.startswith("fix wall NULL wall_state_") for w in words) > 10
+    text = continued("read_data half.data add append " + " ".join(words))
+    lmp(text + "run 0\n" + STATE.format("read") + f"run {END - middle}\n" + STATE.format("part"), nranks=nranks)
+    half, read, whole_, part = (read_state(f) for f in ("half", "read", "whole", "part"))
+    same(half, read, 1e-12, renumbered=True)
+    same(whole_, part, 1e-8, renumbered=True)
+    # what is not asked for is not lost without a word
+    for k, w in enumerate(words):
+        if k in (0, 3) or "prop" in w:
+            r = lmp(text.replace(w, ""), expect_fail=True)
+            assert "Unknown identifier in data file" in r.error or "Unknown" in r.error, w
