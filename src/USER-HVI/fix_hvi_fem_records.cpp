@@ -179,6 +179,10 @@ void FixHVIFEM::read_data_header(char *line)
 {
   announced = utils::bnumeric(FLERR, utils::split_words(line)[0], false, lmp);
   if (announced < 1) error->all(FLERR, "Fix hvi/fem: no elements in the header of the data file");
+
+  // fix property/atom would give to particles the mass of who was at their places before, ghosts perhaps
+
+  if (atom->rmass) std::fill(atom->rmass + atom->nlocal, atom->rmass + atom->nmax, 0.0);
   std::int64_t here = 0;
   for (const Element &one : elements) here = std::max(here, one.id);
   MPI_Allreduce(&here, &id_before, 1, MPI_INT64_T, MPI_MAX, world);

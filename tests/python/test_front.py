@@ -244,7 +244,8 @@ def test_notes_are_not_causes(folder, capsys, monkeypatch):
 @pytest.mark.parametrize("reason, key", [
     ("take -var dx 0.25 or finer", "take spacings_mm of 0.25 or finer"), ("take a smaller -var C", "take a smaller settings: C"),
     ("passed beside wall 3 -- take -var radius 45 for it", "passed beside wall 3 -- take radius_mm of 45 for it"), ("a smaller -var dx", "a smaller spacings_mm"),
-    ("take -var tstop 32.5.", "take settings: {tstop: 32.5}.")])
+    ("take -var tstop 32.5.", "take settings: {tstop: 32.5}."), ("take a mesh that holds particles farther out (hvi mesh --hold)", "take a larger hold_mm"),
+    ("take a wider core of particles (hvi mesh --core)", "take a wider core_mm")])
 def test_remedies_as_keys(reason, key):
     assert shield.as_key(reason) == key
 
