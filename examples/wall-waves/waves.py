@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Waves in walls, from waves.dat of in.waves: arrivals, speeds and peaks beside plate theory.
 
-    python3 waves.py FOLDER [--at 60 95 130] [--material Al2024-T3.hvi] [--thickness 0.8] [--share 0.1] [--figure waves.png] [--maps maps.png]
+    python3 waves.py FOLDER [--at 60 95 130] [--material Al2024-T3.hvi] [--thickness 0.8] [--share 0.1] [--wall 2] [--figure waves1.png] [--maps walls1.png]
 """
 
 import argparse
@@ -145,10 +145,14 @@ def main():
     parser.add_argument("--thickness", type=float, default=0.8, help="mm")
     parser.add_argument("--share", type=float, default=0.1, help="of the first peak of von Mises stress, which counts as arrival")
     parser.add_argument("--side", type=float, default=300, help="of the walls, mm: what comes back from the edge is left out")
+    parser.add_argument("--wall", type=int, choices=(1, 2), help="this one alone")
     parser.add_argument("--figure", help="draws the records")
     parser.add_argument("--maps", help="draws the walls, from elements.*.dump")
     args = parser.parse_args()
     records = read(os.path.join(args.folder, "waves.dat"), args.at)
+    records = {place: record for place, record in records.items() if args.wall in (None, place[0])}
+    if not records:
+        raise SystemExit(f"{args.folder} has no wall {args.wall}")
     plate = Plate(args.material, args.thickness)
     print(f"{args.material}: E {1e-9 * plate.E:.1f} GPa, nu {plate.nu:.3f}; speeds mm/us: plate {plate.plate:.3f}, "
           f"bulk {plate.bulk:.3f}, shear {plate.shear:.3f}, bending at most {plate.shear * np.pi / np.sqrt(12):.2f}")
@@ -180,23 +184,23 @@ def main():
 def maps(args, records):
     """von Mises stress of the elements of each wall at the times of the dumps, in the quarter that is computed"""
     files = sorted(pathlib.Path(args.folder).glob("elements.*.dump"), key=lambda path: int(path.name.split(".")[1]))[1:]
-    some = records[1, args.at[0]]
+    some = next(iter(records.values()))
+    walls = sorted({wall for wall, _ in records})
     tables = [np.loadtxt(path, skiprows=9) for path in files]  # id type x y z p sxx ... vm eps damage e n
-    types = sorted(set(tables[0][:, 1]))
-    figure, axes = plt.subplots(len(types), len(files), figsize=(3.2 * len(files) + 1, 3.2 * len(types)), sharex=True, sharey=True, squeeze=False)
+    figure, axes = plt.subplots(len(walls), len(files), figsize=(2.6 * len(files) + 1, 2.6 * len(walls)), sharex=True, sharey=True, squeeze=False)
     for column, (path, table) in enumerate(zip(files, tables)):
-        for row, kind in enumerate(types):
-            axis, mine = axes[row, column], table[:, 1] == kind
+        for row, wall in enumerate(walls):
+            axis, mine = axes[row, column], table[:, 1] == 2 * wall  # type of its material
             x, y, vm = 1e3 * table[mine, 2], 1e3 * table[mine, 3], 1e-6 * table[mine, 12]
-            image = axis.scatter(x, y, c=vm, s=1.2, marker="s", vmin=0, vmax=100, linewidths=0, rasterized=True)
+            image = axis.scatter(x, y, c=vm, s=6, marker="s", vmin=0, vmax=100, linewidths=0, rasterized=True)
             axis.plot(args.at, [0.8] * len(args.at), "r|", ms=6)
             axis.set_aspect("equal")
             if row == 0:
                 axis.set_title(f"{np.interp(int(path.name.split('.')[1]), some['step'], some['us']):.0f} us", fontsize=10)
             if column == 0:
-                axis.set_ylabel(f"wall {row + 1}, mm")
+                axis.set_ylabel(f"wall {wall}, mm")
     figure.colorbar(image, ax=axes, label="von Mises stress, MPa", shrink=0.8)
-    figure.savefig(args.maps, dpi=80, bbox_inches="tight")
+    figure.savefig(args.maps, dpi=75, bbox_inches="tight")
 
 
 def draw(args, records, plate, struck):
