@@ -1,5 +1,7 @@
 """Elements in restart and data files: a run that is interrupted goes on as if it had not been, with elements that have become particles."""
 
+import re
+
 import numpy as np
 import pytest
 from fem_scenes import STATE, read_state, start, strike_plate
@@ -96,10 +98,13 @@ def test_all_elements_gone(lmp):
 
 
 @pytest.mark.parametrize("nranks", [1, 2])
-@pytest.mark.parametrize("middle", [20])
+@pytest.mark.parametrize("middle", [20, 30])
 def test_data_file(lmp, nranks, middle):
     """write_data, read_data with all sections: the state to its digits, and then the run as if not interrupted"""
-    lmp(whole(f"run {middle}\nwrite_data half.data\n" + STATE.format("half") + f"run {END - middle}\n" + STATE.format("whole")))
+    def fixed(text):  # the step of fix hvi/dt grows from what is stable, also after a data file
+        return re.sub(r"fix step all hvi/dt \S+", "timestep 1e-8", text)
+
+    lmp(fixed(whole(f"run {middle}\nwrite_data half.data\n" + STATE.format("half") + f"run {END - middle}\n" + STATE.format("whole"))))
     found = [line.split("#")[0].strip() for line in open("half.data") if line[:1].isalpha()]
     words = []
     for name in found:
@@ -111,11 +116,11 @@ def test_data_file(lmp, nranks, middle):
         elif owner:
             words.append(f"fix {owner} NULL {name}")
     assert sum(w.startswith("fix wall NULL wall_state_") for w in words) > 10
-    text = continued("read_data half.data add append " + " ".join(words))
+    text = fixed(continued("read_data half.data add append " + " ".join(words)))
     lmp(text + "run 0\n" + STATE.format("read") + f"run {END - middle}\n" + STATE.format("part"), nranks=nranks)
     half, read, whole_, part = (read_state(f) for f in ("half", "read", "whole", "part"))
     same(half, read, 1e-12, renumbered=True)
-    same(whole_, part, 1e-8, renumbered=True)
+    same(whole_, part, 1e-12, renumbered=True)
     # what is not asked for is not lost without a word
     for k, w in enumerate(words):
         if k in (0, 3) or "prop" in w:
