@@ -477,3 +477,18 @@ def test_meshes_are_made(folder, capsys, monkeypatch):
     assert not shield.fits(case, 0.8) and shield.fits(case, 0.5)  # 0.16 and 0.1 mm
     assert front("limit", "--on", "thickness1", "--from", "0.7", "--to", "1.1", "--step", "0.1") == 1
     assert "thickness1 0.9 mm: wall 1: method: hybrid: 5 layers" in capsys.readouterr().err
+
+
+def test_real_meshes(root, lmp_exe, tmp_path, monkeypatch, capsys):
+    """LAMMPS takes the meshes that a case makes: numbers of the plan are those of the files, the trial has run"""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("LAMMPS_POTENTIALS", str(root / "potentials"))
+    (tmp_path / "hit.yaml").write_text("method: hybrid\n" + REAL)
+    assert cli.main(["shield", "hit.yaml", "--lmp", str(lmp_exe), "--ranks", "1", "--jobs", "2", "--dry-run"]) == 0
+    for dx in ("0.8", "0.66"):
+        folder = tmp_path / f"runs/hit/plan/dx-{dx}"
+        plan = yaml.safe_load((folder / "plan.yaml").read_text())
+        for k in (1, 2):
+            head = (folder / f"wall{k}.data").read_text()[:400]
+            assert [plan[f"wall{k}_{what}"] for what in ("particles", "elements")] == [int(re.search(rf"^(\d+) {word}$", head, re.M)[1]) for word in ("atoms", "elements")]
+        assert plan["seconds"] > 0 and plan["settings"]["method"] == "hybrid"
