@@ -404,3 +404,27 @@ bool FixHVIFEM::strayed()
       });
   return found;
 }
+
+/* ----------------------------------------------------------------------
+   Of nodes, from their owners.  KICK: what half kicks leave in kinetic energy when the step changes
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::gather_nodes()
+{
+  const double *const *const x = atom->x, *const *const v = atom->v;
+  const double *const *const vest = atom->vest;
+  const double factor = (update->dt * update->dt - dt_last * dt_last);
+  node.resize(NODE * nodes.size());
+  nodes.gather(
+      NODE,
+      [&](int i, double *b) {
+        std::copy_n(x[i], 3, b + X);
+        std::copy_n(v[i], 3, b + V);
+        std::copy_n(vest[i], 3, b + W);
+        b[KICK] = factor * half_kick(i);
+        b[USERS] = users[i];
+      },
+      [this](int k, const double *b) {
+        memcpy(&node[NODE * k], b, NODE * sizeof(double));
+      });
+}

@@ -35,30 +35,6 @@ using HVI::HexNodes;
 using HVI::LANES;
 using HVI::Vec;
 
-/* ----------------------------------------------------------------------
-   Of nodes, from their owners.  KICK: what half kicks leave in kinetic energy when the step changes
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::gather_nodes()
-{
-  const double *const *const x = atom->x, *const *const v = atom->v;
-  const double *const *const vest = atom->vest;
-  const double factor = (update->dt * update->dt - dt_last * dt_last);
-  node.resize(NODE * nodes.size());
-  nodes.gather(
-      NODE,
-      [&](int i, double *b) {
-        std::copy_n(x[i], 3, b + X);
-        std::copy_n(v[i], 3, b + V);
-        std::copy_n(vest[i], 3, b + W);
-        b[KICK] = factor * half_kick(i);
-        b[USERS] = users[i];
-      },
-      [this](int k, const double *b) {
-        memcpy(&node[NODE * k], b, NODE * sizeof(double));
-      });
-}
-
 // of an element, near its first corner
 
 void FixHVIFEM::corners(std::size_t e, int what, double x[CORNERS][3]) const

@@ -259,8 +259,7 @@ void PairHVISPH::coeff(int narg, char **arg)
     if (words.size() > 1 || ilo != jlo || ihi != jhi)
       error->all(FLERR, "Pair_coeff hvi/sph nodes is for single types: pair_coeff I I nodes");
     for (int i = ilo; i <= ihi; i++) {
-      if (set.h[i] > 0.0)
-        error->all(FLERR, "Pair_coeff hvi/sph nodes: type {} has a material", i);
+      if (set.h[i] > 0.0) error->all(FLERR, "Pair_coeff hvi/sph nodes: type {} has a material", i);
       setflag[i][i] = 1;
     }
     return;
