@@ -421,7 +421,8 @@ void FixHVISPH::final_integrate()
     if (solid) {
       e.step = dtv;
       missed += dtf * beyond;
-      const bool was_there = e.drho != 0.0 || e.de != 0.0;    // in the first half
+      const bool was_there =
+          (e.drho != 0.0 || e.de != 0.0) && !std::isnan(e.trend_rho);    // in the first half
       e.trend_rho = was_there ? atom->drho[i] - e.trend_rho : 0.0;
       e.trend_e = was_there ? power_e - e.trend_e : 0.0;
       for (int k = 0; k < 3; k++)

@@ -44,7 +44,7 @@ void FixHVISPH::let_go(int i, double de)
   Extra &e = extra[i];
   e.drho = e.stretch = 0.0;
   e.de = de;
-  e.trend_rho = e.trend_e = 0.0;
+  e.trend_rho = NAN;    // there were no rates before
   e.settled = e.rho = atom->rho[i];
   e.esph = atom->esph[i];
 }
