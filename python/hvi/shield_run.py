@@ -75,7 +75,7 @@ class Run:
         walls = []
         for k in range(1, self.walls + 1):
             gap = self.faces(k)[0] - self.faces(k - 1)[1] if k > 1 else None
-            method = str(self.settings["method"]) if self.of_wall(k, "elements") else "sph"
+            method = str(self.settings["method"]) if self.plan.get(f"wall{k}_elements") else "sph"
             walls.append(cases.Wall(float(self.of_wall(k, "thickness_mm")), self.materials[k], gap, method=method))
         outside, s = self.outside(), self.settings
         return cases.Case(name=self.name, diameter_mm=float(s["D"]), material=self.materials[0], speed_km_s=1e-3 * float(s["v0"]), angle_deg=float(s["angle"]),

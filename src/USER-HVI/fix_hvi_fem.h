@@ -25,6 +25,7 @@ FixStyle(hvi/fem,FixHVIFEM);
 
 #include <array>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -54,6 +55,7 @@ class FixHVIFEM :
   void pre_reverse(int, int) override;
   void final_integrate() override;
   void end_of_step() override;
+  void post_run() override;
 
   // migration, restart and data files: fix_hvi_fem_records.cpp
 
@@ -140,6 +142,10 @@ class FixHVIFEM :
   int *head;                        // of owned particles: its first element, -1: none
   int *users;                       // of owned particles: number of elements that have it as a node
   std::vector<int> next;            // by element: of the same particle, -1: none
+  std::unordered_map<std::int64_t, std::size_t>
+      read_ids;                  // of elements, while their states are read
+  bigint expected = -1;          // elements that data files have announced
+  bigint shown = -1;             // step that output sees particles and energies of
   std::vector<int> read_head;    // head of particles of a data file, until LAMMPS sets their arrays
 
   // from one exchange of particles to the next
@@ -169,7 +175,7 @@ class FixHVIFEM :
   enum { RHO = 9, ESPH, AHEAD, FLAG, PLACE };    // of a particle, after X, V, W
   enum { STAYS, IS_FREE, IS_NO_MORE };           // FLAG
   struct Now {
-    double p, c, kick;
+    double p, c;
     double work;    // power of the last forces on the velocity before them
     double L[9], K[9];
     double sums[SUMS];

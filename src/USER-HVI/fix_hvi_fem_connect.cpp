@@ -116,6 +116,12 @@ void FixHVIFEM::link()
   std::sort(elements.begin(), elements.end(), [](const Element &one, const Element &two) {
     return one.id < two.id;
   });
+  const auto twice = std::adjacent_find(elements.begin(), elements.end(),
+                                        [](const Element &one, const Element &two) {
+                                          return one.id == two.id;
+                                        });
+  if (twice != elements.end())
+    error->one(FLERR, "Fix hvi/fem: two elements have the ID {}", twice->id);
   next.assign(elements.size(), -1);
   read_head.clear();
   std::fill_n(head, atom->nlocal, -1);

@@ -101,7 +101,7 @@ void FixHVIFEM::settle()
   const bool due = integrator->is_due();
   const double dt = integrator->step();
   for (std::size_t e = 0; e < elements.size(); e++) {
-    now[e].kick = 0.0;
+    elements[e].kick = 0.0;
     if (!active[e]) continue;
     std::fill_n(now[e].K, 9, 0.0);
     std::fill_n(now[e].sums, +SUMS, 0.0);
@@ -477,11 +477,18 @@ void FixHVIFEM::bring_forces()
         std::copy_n(&push[3 * k], 3, b);
       },
       [&](int i, const double *b) {
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++) {
+          if (mirror.has(k) && mirror.depth(k, atom->x[i]) < 0.0)
+            error->one(
+                FLERR,
+                "Fix hvi/fem: node {} has gone through the mirror plane {} at step {}: walls "
+                "of elements do not bounce off mirror planes",
+                atom->tag[i], "xyz"[k], update -> ntimestep);
           if (mirror.has(k) && atom->x[i][k] == mirror.at[k])
             held_back[k] -= b[k];
           else
             f[i][k] += b[k];
+        }
       });
   const int nall = atom->nlocal + atom->nghost;
   for (int i = 0; i < nall; i++)

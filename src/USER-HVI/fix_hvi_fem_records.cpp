@@ -184,8 +184,15 @@ void FixHVIFEM::read_data_header(char *line)
 
   if (atom->rmass) std::fill(atom->rmass + atom->nlocal, atom->rmass + atom->nmax, 0.0);
   std::int64_t here = 0;
-  for (const Element &one : elements) here = std::max(here, one.id);
+  bigint alive_here = 0, alive_all;
+  for (const Element &one : elements) {
+    here = std::max(here, one.id);
+    alive_here += one.type > 0;
+  }
   MPI_Allreduce(&here, &id_before, 1, MPI_INT64_T, MPI_MAX, world);
+  MPI_Allreduce(&alive_here, &alive_all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  expected = alive_all + announced;
+  read_ids.clear();
 }
 
 void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset)
@@ -193,9 +200,10 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
   const bool state = utils::strmatch(keyword, "_state_\\d+$");
   const int k = state ? atoi(strrchr(keyword, '_') + 1) : 0;
   const int ncolumn = state ? std::min(COLUMNS, SIZE - IDS - COLUMNS * k) : IDS - 1;
-  std::unordered_map<std::int64_t, std::size_t> where;
-  if (state)
-    for (std::size_t e = 0; e < elements.size(); e++) where[elements[e].id] = e;
+  if (state && read_ids.size() != elements.size()) {
+    read_ids.clear();
+    for (std::size_t e = 0; e < elements.size(); e++) read_ids[elements[e].id] = e;
+  }
   for (int row = 0; row < n; row++) {
     char *const end = strchr(buf, '\n');
     *end = '\0';
@@ -211,8 +219,8 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
         throw TokenizerException("IDs of elements must be positive", std::to_string(one.id));
       one.id += id_before;
       if (state) {
-        const auto found = where.find(one.id);
-        if (found == where.end()) continue;    // of another rank
+        const auto found = read_ids.find(one.id);
+        if (found == read_ids.end()) continue;    // of another rank
         double number[COLUMNS];
         for (int c = 0; c < ncolumn; c++) number[c] = values.next_double();
         memcpy((double *) &elements[found->second] + IDS + COLUMNS * k, number,
@@ -227,12 +235,18 @@ void FixHVIFEM::read_data_section(char *keyword, int n, char *buf, tagint offset
         throw TokenizerException("there is no such type", std::to_string(one.type));
       if (one.n < 0 || one.n > 8)
         throw TokenizerException("n must be from 0 to 8", std::to_string(one.n));
+      if (*std::min_element(one.node, one.node + CORNERS) <= offset ||
+          (one.n > 0 && one.first <= offset))
+        throw TokenizerException("IDs of nodes and particles must be positive", "");
       const int i = nodes.local(one.node[0]);
       if (i < 0 || i >= atom->nlocal) continue;
       if (i >= (int) read_head.size()) read_head.resize(i + 1, -1);
       next.push_back(read_head[i]);
       read_head[i] = elements.size();
       elements.push_back(one);
+      int number = 0;
+      for (int e = read_head[i]; e >= 0; e = next[e]) number++;
+      maxexchange = std::max(maxexchange, 2 + number * SIZE);
     } catch (TokenizerException &wrong) {
       error->all(FLERR, "Fix hvi/fem: wrong row of section {} of the data file: {}", keyword,
                  wrong.what());

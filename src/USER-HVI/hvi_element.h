@@ -35,6 +35,7 @@ struct Element {
   double q;                   // bulk viscosity
   double hourglass;           // energy that has gone into hourglass forces
   double shared;              // corners that others had, too, at the start
+  double kick;    // what half kicks gave to nodes beyond e, per mass, as known at output
   double stable, at_start;    // step that it bears, now and at the start
   double power;    // of pairs of its particles: what they gain and what forces on them work
   double pair_force[3 * CORNERS];    // of those, on nodes
@@ -44,7 +45,7 @@ struct Element {
   SolidState s;
 
   static constexpr int SIZE =
-      IDS + 1 + 13 + 6 * CORNERS + 12 + 10 + sizeof(SolidState) / sizeof(double);
+      IDS + 1 + 14 + 6 * CORNERS + 12 + 10 + sizeof(SolidState) / sizeof(double);
   int particles() const { return n * n * n; }
 };
 
