@@ -126,3 +126,13 @@ def test_data_file(lmp, nranks, middle):
         if k in (0, 3) or "prop" in w:
             r = lmp(text.replace(w, ""), expect_fail=True)
             assert "Unknown identifier in data file" in r.error or "Unknown" in r.error, w
+
+
+def test_a_run_that_ends_early(lmp):
+    """fix halt, between outputs: files written then have the same as those of a run to that step"""
+    halt = "variable step equal step\nfix stop all halt 1 v_step >= 23 error continue\n"
+    early = whole(halt + "run 60\n" + STATE.format("early")).replace("thermo 5\n", "thermo 1000\n")
+    assert "thermo 1000" in early
+    lmp(early)
+    lmp(whole("run 23\n" + STATE.format("right")))
+    same(read_state("early"), read_state("right"))
