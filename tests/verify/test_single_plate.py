@@ -4,7 +4,7 @@ import hvi
 import numpy as np
 import pytest
 import yaml
-from hvi import bodies
+from hvi import bodies, mesh_plate
 
 KEYS = """particles steps time_us wall_s ranks particle_steps_per_s energy_ratio energy_missed_ratio momentum_error mass_error lammps_version package_version
     hole_diameter_mm front_velocity_m_s cloud_length_mm cloud_diameter_mm length_ratio axial_velocity_ratio fragments fragmentation
@@ -50,6 +50,21 @@ def test_runs_on_behind_the_last_frame(lmp, root, tmp_path):
 def test_variants(lmp, root, tmp_path, variables):
     r = plate(lmp, root, tmp_path, tstop=2, dx=1.25, Rplate=20, **variables)
     assert abs(r["energy_ratio"] - 1) < 1e-3 and r["momentum_error"] < 1e-10
+
+
+@pytest.mark.parametrize("nranks, method, keep", [(1, "hybrid", 0), (2, "hybrid", 1), (1, "tied", 0)])
+def test_elements_are_as_particles(lmp, root, tmp_path, nranks, method, keep):
+    """a wall with elements around free particles: what breaks comes out as with particles alone, within a spacing; over restart files, too"""
+    mesh_plate.plate(2e-3, 2e-3, side=40e-3, n=2, core=10e-3, hold=16e-3, growth=1.2, largest=4e-3, quarter=True, type=2, node_type=3).write(tmp_path / "wall.data", 2703.0)
+    common = dict(quarter="yes", Rplate=20, tstop=4)
+    sph = plate(lmp, root, tmp_path / "sph", **common)
+    r = plate(lmp, root, tmp_path / "fem", nranks=nranks, method=method, plate=tmp_path / "wall.data", keep=keep, **common)
+    assert abs(r["energy_ratio"] - 1) < 1e-3 and r["momentum_error"] < 1e-12 and abs(r["mass_error"]) < 1e-12
+    assert r["front_velocity_m_s"] == pytest.approx(sph["front_velocity_m_s"], rel=2e-3)
+    for key, bound in (("cloud_length_mm", 0.05), ("cloud_diameter_mm", 0.05), ("hole_diameter_mm", 0.05)):
+        assert r[key] == pytest.approx(sph[key], rel=bound), key
+    wrong = plate(lmp, root, tmp_path / "wrong", fails=True, method=method)
+    assert f"method {method} needs a plate with elements" in wrong.stdout
 
 
 @pytest.mark.parametrize("quarter", ["no", "yes"])
