@@ -1,7 +1,11 @@
 """Small scenes of fix hvi/fem: blocks of hexahedra that hold particles, free particles beside them, and what struck them."""
 
+import pathlib
+
 import numpy as np
 from hvi.mesh import block
+
+ALUMINUM = pathlib.Path(__file__).resolve().parents[1] / "potentials" / "Al6061-T6.hvi"
 
 EDGE, N = 1.0e-3, 2  # of an element; particles along it
 DX = EDGE / N
@@ -30,7 +34,7 @@ STYLES = """pair_style hvi/sph {pair}
 pair_coeff 1 1 file Al6061-T6.hvi h {h}
 pair_coeff 2 2 file Al6061-T6.hvi h {h}
 pair_coeff 3 3 nodes
-"""
+""".replace("Al6061-T6.hvi", str(ALUMINUM))
 FIXES = """fix move {sph} hvi/sph
 fix solid all hvi/johnson-cook damage no spall none
 fix wall all hvi/fem nodes 3 {fem}

@@ -3,9 +3,13 @@
 Units of arguments: spacings of particles for lengths, steps for times.  The metal is 6061-T6; it stays elastic.
 """
 
+import pathlib
+
 import numpy as np
 from hvi.mesh import block
 from scipy.spatial import cKDTree
+
+ALUMINUM = pathlib.Path(__file__).resolve().parents[1] / "potentials" / "Al6061-T6.hvi"
 
 RHO, C0, G = 2703.0, 5240.0, 27.6e9  # of Al6061-T6.hvi
 C = np.sqrt(C0**2 + 4 / 3 * G / RHO)  # of longitudinal waves
@@ -38,7 +42,7 @@ thermo_style custom step c_book[9] c_book[10] c_book[11] c_book[12] {left}
 thermo_modify format float %.17g norm no
 run {steps}
 {then}
-"""
+""".replace("Al6061-T6.hvi", str(ALUMINUM))
 
 
 def scene(mesh, folder, name, kernel, pair, more, steps, fem="", then="", every=20):

@@ -81,7 +81,7 @@ def test_fem_input_runs(lmp, root):
     words = shlex.split(mesh.replace("\\\n", ""))
     words[words.index("--material") + 1] = str(root / words[-1])
     assert cli.main(words[3:]) in (0, None)
-    run = lmp(text)
+    run = lmp(text, env={"LAMMPS_POTENTIALS": str(root / "potentials")})
     assert run.warnings == []
     thermo = run.thermo
     assert thermo["f_wall"][0] == 1018 and 35 < thermo["f_wall[1]"][-1] < 55

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from fem_scenes import ALUMINUM
 from hvi.mesh import block
 from hvi.mesh_plate import plate
 
@@ -21,7 +22,7 @@ mass          * $(2703*2.5e-4^3)
 fix           move all hvi/sph
 fix           solid all hvi/johnson-cook spall voids
 fix           wall all hvi/fem nodes 3 {fem}
-"""
+""".replace("Al6061-T6.hvi", str(ALUMINUM))
 
 IMPACT = START.format(pair="mirror x 0 lo mirror y 0 lo dissipation riemann", fem="") + """
 region        ball sphere 0 0 -1.5001e-3 1.5e-3 units box
