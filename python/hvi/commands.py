@@ -320,6 +320,8 @@ def _fill(args, shape, what):
     bodies.write(args.file, made, density, f"{what} {' '.join(os.path.basename(args.file).split())}, {args.fill}")
     print(f"particles: {len(made.x)}")
     print(f"spacing: {made.spacing:.10g}")
+    if made.step is not None:
+        print("step: " + " ".join(f"{s:.10g}" for s in made.step))
     print(f"density: {density:.10g}" + (f" (units {units})" if units else ""))
     print(f"mass: {density * shape.volume:.10g}")
     print("center: " + " ".join(f"{c:.6g}" for c in shape.center))

@@ -22,7 +22,7 @@ SHAPES = {
 
 
 @functools.lru_cache(None)
-def filled(name, fill="glass"):
+def filled(name, fill):
     return bodies.make(SHAPES[name][0], 1.0, fill)
 
 
@@ -62,7 +62,7 @@ def test_mass_and_center_are_exact(name, fill):
 @pytest.mark.parametrize("name", SHAPES)
 def test_glass_is_even(name):
     """nobody is near another; the kernel's density is that of the body; the outermost layer is smooth"""
-    body = filled(name)
+    body = filled(name, "glass")
     near = cKDTree(whole(body)).query(body.x, k=2)[0][:, 1] / body.spacing
     assert near.min() > 0.6 and 0.94 < near.mean() < 1.03 and near.std() < 0.07
     found = bodies.measure(body)
