@@ -1,0 +1,232 @@
+#!/usr/bin/env python3
+"""Hard cases: which methods live through them, and which do not and why. The scenes are in hard_gas.py and hard_solids.py.
+
+    python3 tests/hard.py --out build/verify       all cases and methods, stock LAMMPS beside: hard.csv, hard.md
+    python3 tests/hard.py --criteria FILE          the criteria, without running anything
+    python3 tests/hard.py --table                  the table of doc/src/Howto_hard.rst from tests/verify/hard.csv
+
+Criteria are in tests/verify/hard_criteria.csv, written down before the first run. What is known to miss one has its cause in the case.
+"""
+
+import argparse
+import csv
+import dataclasses
+import pathlib
+import subprocess
+import sys
+import typing
+
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+from conftest import Result, whole_log  # noqa: E402
+
+ENERGY, MOMENTUM = 1e-3, 1e-12  # of the initial total; of the sum of |p|: what every case asks for where the books are closed
+BOOKS = {"energy": ENERGY, "momentum": MOMENTUM}
+
+
+class Stopped(Exception):
+    """a run that ended with an error, did not end, or has numbers that are none; str: what is said of it"""
+
+
+class Cannot(Exception):
+    """the method has no such law, dimension or boundary; str: why"""
+
+
+@dataclasses.dataclass
+class Case:
+    """a scene with what is asked of it
+
+    name, title: a word and a line for the table.
+    scene(lmp, folder, setting): runs it in a folder (`lmp`: see executor) and returns {measure: number};
+      raises Stopped or Cannot.  Not finite measures stop it, too.
+    methods: {name: setting}; names that begin with "stock" are other packages, which nothing is asked of.
+    criteria: {measure: upper bound}, or (lower, upper).
+    short: methods that run in make test (seconds each); all of them in make verify.
+    known: {method: {measure or "run": cause}}: what it misses, one line each; a cause that does not miss any more fails the test.
+    """
+
+    name: str
+    title: str
+    scene: typing.Callable
+    methods: dict
+    criteria: dict
+    short: tuple = ()
+    known: dict = dataclasses.field(default_factory=dict)
+
+    def bounds(self, measure):
+        b = self.criteria[measure]
+        return b if isinstance(b, tuple) else (-np.inf, b)
+
+
+@dataclasses.dataclass
+class Outcome:
+    case: str
+    method: str
+    measures: dict
+    stopped: str = ""
+    cannot: str = ""
+
+    def missed(self, case):
+        """{measure: number} outside the criteria; {"run": nan} if it stopped"""
+        if self.stopped:
+            return {"run": np.nan}
+        lo = {m: case.bounds(m) for m in case.criteria}
+        absent = set(case.criteria) - set(self.measures) if not self.method.startswith("stock") else set()
+        assert not absent, f"{case.name}, {self.method}: not measured: {absent}"
+        return {m: v for m, v in self.measures.items() if m in lo and not lo[m][0] <= v <= lo[m][1]}
+
+
+def executor(exe, folder):
+    """lmp(text or Path, nranks=1, vars={}, timeout=600) -> conftest's Result; what goes wrong is raised as Stopped"""
+    count = 0
+
+    def lmp(text, nranks=1, vars=None, timeout=600):
+        nonlocal count
+        count += 1
+        infile = text
+        if not isinstance(text, pathlib.Path):
+            infile = folder / f"in.{count}"
+            infile.write_text(text)
+        log = folder / f"log.{count}"
+        command = [HERE.parent / "cmake" / "env.sh", *(["mpirun", "-np", nranks] if nranks > 1 else []), exe, "-in", infile, "-log", log]
+        for name, value in (vars or {}).items():
+            command += ["-var", name, *(value if isinstance(value, (list, tuple)) else [value])]
+        command = ["timeout", "-k", "5", str(timeout), *map(str, command)]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", stdin=subprocess.DEVNULL)
+        r = Result(command, folder, done.returncode, done.stdout, done.stderr, whole_log(log))
+        if done.returncode:
+            raise Stopped(r.error or (f"no end after {timeout} s" if done.returncode in (124, 137) else f"ended with {done.returncode}"))
+        return r
+
+    return lmp
+
+
+def run(case, method, lmp, folder):
+    """an Outcome"""
+    try:
+        measures = {k: float(v) for k, v in case.scene(lmp, folder, case.methods[method]).items()}
+    except Cannot as why:
+        return Outcome(case.name, method, {}, cannot=str(why))
+    except Stopped as why:
+        return Outcome(case.name, method, {}, stopped=str(why))
+    bad = [k for k, v in measures.items() if not np.isfinite(v)]
+    return Outcome(case.name, method, measures, stopped=f"not finite: {', '.join(bad)}" if bad else "")
+
+
+def unexpected(case, outcome):
+    """what must not be: a criterion missed without a cause, a cause that is none any more; "" if all is as it is said"""
+    missed, known = set(outcome.missed(case)), set(case.known.get(outcome.method, {}))
+    if outcome.cannot or outcome.method.startswith("stock"):
+        return ""
+    more = [f"{m} {outcome.measures.get(m, outcome.stopped)} not within {case.bounds(m) if m in case.criteria else 'a run'}" for m in missed - known]
+    less = [f"{m} {outcome.measures.get(m, '')} is met: take its cause out" for m in known - missed]
+    return "; ".join(more + less)
+
+
+def cases():
+    import hard_gas
+    import hard_solids
+
+    return [*hard_gas.CASES, *hard_solids.CASES]
+
+
+COLUMNS = ["case", "method", "measures", "missed", "stopped", "cannot"]
+
+
+def as_row(case, o):
+    show = lambda d: " ".join(f"{k}:{v:.3g}" for k, v in d.items())  # noqa: E731
+    return [o.case, o.method, show(o.measures), " ".join(o.missed(case)), o.stopped, o.cannot]
+
+
+def write_criteria(path):
+    with open(path, "w", newline="") as f:
+        f.write("# python3 tests/hard.py --criteria: written down before the first run\n")
+        w = csv.writer(f, lineterminator="\n")
+        w.writerow(["case", "measure", "least", "most"])
+        for c in cases():
+            for m in c.criteria:
+                w.writerow([c.name, m, *("" if np.isinf(b) else f"{b:g}" for b in c.bounds(m))])
+
+
+def table(rows):
+    """reST list-table of survivors: a row per case, what each method misses with its number"""
+    out = [".. list-table::", "   :header-rows: 1", "   :widths: 30 35 35", "", "   * - case", "     - hvi", "     - stock LAMMPS"]
+    by = {}
+    for r in rows:
+        by.setdefault(r["case"], []).append(r)
+    for c in cases():
+        ours, theirs = [], []
+        for r in by.get(c.name, []):
+            numbers = dict(p.split(":") for p in r["measures"].split())
+            known = c.known.get(r["method"], {})
+            if r["cannot"]:
+                said = f"*cannot*: {r['cannot']}"
+            elif r["stopped"]:
+                said = f"**stops**: {known.get('run', r['stopped'])}"
+            elif r["missed"]:
+                said = "**misses** " + "; ".join(f"{m} {numbers[m]}" + (f" ({known[m]})" if m in known else "") for m in r["missed"].split())
+            else:
+                said = "lives"
+            (theirs if r["method"].startswith("stock") else ours).append((r["method"].removeprefix("stock "), said))
+
+        def joined(cells):
+            same = {}
+            for method, said in cells:
+                same.setdefault(said, []).append(method)
+            return "; ".join(f"{', '.join(methods)}: {said}" for said, methods in same.items()) or "--"
+
+        out += [f"   * - {c.title}", f"     - {joined(ours)}", f"     - {joined(theirs)}"]
+    return "\n".join(out) + "\n"
+
+
+def read(path=HERE / "verify" / "hard.csv"):
+    with open(path) as f:
+        return list(csv.DictReader(line for line in f if line[0] != "#"))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--lmp", default=HERE.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
+    parser.add_argument("--out", default=HERE.parent / "build" / "verify", type=pathlib.Path)
+    parser.add_argument("--form", choices=("short", "long"), default="long")
+    parser.add_argument("--cases", default="", help="names, by commas")
+    parser.add_argument("--methods", default="", help="names, by commas")
+    parser.add_argument("--add", action="store_true", help="keep what hard.csv in --out has of other cases and methods")
+    parser.add_argument("--criteria", metavar="FILE", help="write the criteria to FILE and stop")
+    parser.add_argument("--table", action="store_true", help="print the table of the Howto and stop")
+    args = parser.parse_args()
+    if args.criteria:
+        return write_criteria(args.criteria)
+    if args.table:
+        return print(table(read()), end="")
+    out = args.out.resolve()
+    out.mkdir(parents=True, exist_ok=True)
+    rows, wrong = [], []
+    if args.add and (out / "hard.csv").exists():
+        rows = [[r[k] for k in COLUMNS] for r in read(out / "hard.csv")]
+    for case in cases():
+        if args.cases and case.name not in args.cases.split(","):
+            continue
+        for method in case.methods if args.form == "long" else case.short:
+            if args.methods and method not in args.methods.split(","):
+                continue
+            folder = out / "hard" / f"{case.name}-{method.replace(' ', '-')}"
+            folder.mkdir(parents=True, exist_ok=True)
+            o = run(case, method, executor(args.lmp, folder), folder)
+            rows = [r for r in rows if r[:2] != [case.name, method]] + [as_row(case, o)]
+            if unexpected(case, o):
+                wrong.append(f"{case.name}, {method}: {unexpected(case, o)}")
+            print(" | ".join(rows[-1]), flush=True)
+            with open(out / "hard.csv", "w", newline="") as f:
+                f.write("# python3 tests/hard.py --form long\n")
+                w = csv.writer(f, lineterminator="\n")
+                w.writerow(COLUMNS), w.writerows(rows)
+    print("\n".join(wrong) or "all as it is said", f"\n{out}/hard.csv", sep="")
+    if wrong:
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,3 @@
+"""Hard cases of gases and liquids, for hard.py: scenes, methods, criteria."""
+
+CASES = []

@@ -1,0 +1,3 @@
+"""Hard cases of solids and impacts, for hard.py: scenes, methods, criteria."""
+
+CASES = []
