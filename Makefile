@@ -91,11 +91,12 @@ doc:
 	@python=$$(cmake/find-python.sh sphinx) && $$python -m sphinx -q -W --keep-going -b html -d $(OUT)/doc/doctrees doc/src $(OUT)/doc/html
 	@echo "documentation: $(OUT)/doc/html/index.html"
 
+# speed against error: a part of the runs, or hours of them; goes on where it stopped. Times count from idle cores only
 bench bench-full:
-	@cmake/deps.sh build demo
+	@cmake/deps.sh build test
 	@$(MAKE) build
-	@python=$$(cmake/find-python.sh numpy matplotlib) && \
-	  cmake/env.sh $$python bench/run.py --size $(if $(filter bench-full,$@),full,small) --build $(OUT) --out $(OUT)/bench
+	@python=$$(cmake/find-python.sh numpy scipy matplotlib yaml pytest MDAnalysis) && \
+	  cmake/env.sh $$python bench/run.py --size $(if $(filter bench-full,$@),full,short) --build $(OUT) --out $(OUT)/bench $(BENCH_ARGS)
 
 clean:
 	rm -rf build build-sanitize build-portable $(BUILD)

@@ -1,274 +1,276 @@
 #!/usr/bin/env python3
-"""Speed of the package beside stock LAMMPS, and speed against error: one report.
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""Speed against error: runs the cases of bench/cases, one record per run, and writes the report.
 
-    bench/run.py --build build --out build/bench [--size small|full] [--ranks 2] [--repeat 3]
+    bench/run.py --build build --out build/bench               the short form (make bench); --size full: make bench-full
+    bench/run.py ... --cases sod,ceg3 --methods riemann        a part
+    bench/run.py ... --dry                                     what would run
+    bench/run.py --publish --out build/bench                   its records into bench/records, the report of them into doc
 
-Times are LAMMPS's own loop times.  The styles of a scene run in turn, A B C A B C ..., and the
-report gives medians and the ratio run by run, so that a machine whose speed drifts does not
-decide the outcome.
+A run that is there (same settings, same binary) is not run again, so that a harness that was stopped goes on; what ran while the
+cores had other things to do is, when they have none (--busy keeps it). Times of busy runs are in no figure.
 """
+
 import argparse
+import datetime
+import hashlib
+import importlib
+import itertools
 import json
+import multiprocessing
 import os
+import pathlib
+import platform
 import re
+import resource
 import shutil
-import statistics
 import subprocess
 import sys
+import threading
 import time
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-ROOT = os.path.dirname(HERE)
+import yaml
 
-# name, input, styles (ours first), variables
-SCENES = [
-    ("intact lattice, rebuild every 10 steps", "dem/in.lattice", ["hvi", "bpm", "lj", "harmonic"],
-     {"T": "0.0001", "every": "10", "check": "no"}),
-    ("hot lattice, bonds break", "dem/in.lattice", ["hvi", "bpm", "lj"],
-     {"T": "0.5", "every": "5", "check": "yes"}),
-    ("sphere on plate, 6.7 km/s", "dem/in.cloud", ["hvi", "bpm"], {}),
-    ("stirred liquid, SPH without strength", "sph/in.tait", ["hvi", "parity", "stock"], {}),
-    ("stirred solid: strength, damage, spall", "sph/in.solid", ["hvi", "riemann", "law", "plain", "ulsph"], {"dir": os.path.join(HERE, "sph")}),
-]
-FULL = {"dem/in.lattice": {"steps": "1000"}, "dem/in.cloud": {"N": "240000", "steps": "12000", "dt": "1.25e-10"},
-        "sph/in.tait": {"steps": "400"}}
-
-# states of the debris cloud at which fragments are timed, and what in.debris has changed there
-STATES = [("start", {}), ("after the impact", {}), ("end", {"skin": "0.8", "bins": "1.8", "C": "0.15"})]
-STOCK = ["fragment", "aggregate", "cluster"]
-SIZES = {"small": {"still": "20", "move": "300"}, "full": {"still": "10", "move": "400"}}
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent
+BUSY = 0.05  # of all cores, used by others: times do not count beyond
 
 
-def lammps(args, script, variables, label, may_fail=False):
-    """Run one input; return its log as text.  If it may fail: None if it did, or took 10 minutes."""
-    log = os.path.join(args.out, "log.%s" % re.sub(r"\W+", "-", label))
-    cmd = ["mpirun", "-np", str(args.ranks), os.path.join(args.build, "lmp"), "-in", script,
-           "-log", log, "-screen", "none"]
-    for key, value in variables.items():
-        cmd += ["-var", key, value]
-    if may_fail:
-        cmd = ["timeout", "600"] + cmd
-    done = subprocess.run(cmd, cwd=args.out, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    if done.returncode and may_fail:
+class Wrong(Exception):
+    """what is wrong with what was asked"""
+
+
+def load_case(path):
+    try:
+        case = yaml.safe_load(path.read_text())
+    except yaml.YAMLError as problem:
+        raise Wrong(f"{path}: not YAML: {' '.join(str(problem).split())}") from None
+    if not isinstance(case, dict):
+        raise Wrong(f"{path}: not a mapping")
+    wanted = {"title", "group", "about", "runner", "methods", "default", "short"} | ({"error", "resolution"} if case.get("group") != "steps" else set())
+    lacking = wanted - set(case)
+    if lacking:
+        raise Wrong(f"{path}: lacks {', '.join(sorted(lacking))}")
+    case["name"] = path.stem
+    return case
+
+
+def settings_of(case, size):
+    """the runs of a case as a list of settings, each once: the products of the lists in its entries"""
+    out, seen = [], set()
+    for entry in [*case["short"], *(case.get("full") or [] if size == "full" else [])]:
+        names = list(entry)
+        for values in itertools.product(*(v if isinstance(v, list) else [v] for v in entry.values())):
+            s = dict(zip(names, values))
+            if s.get("method") not in case["methods"]:
+                raise Wrong(f"{case['name']}: method {s.get('method')} is none of {', '.join(case['methods'])}")
+            key = json.dumps(s, sort_keys=True)
+            if key not in seen:
+                seen.add(key)
+                out.append(s)
+    return out
+
+
+def key_of(name, settings):
+    return hashlib.sha1(json.dumps([name, settings], sort_keys=True).encode()).hexdigest()[:12]
+
+
+class Others:
+    """What the cores do for others: fraction of all of them between start and now, by /proc/stat; None where there is none."""
+
+    def __init__(self):
+        self.began = self.now()
+
+    @staticmethod
+    def now():
+        try:
+            fields = [int(a) for a in pathlib.Path("/proc/stat").read_text().splitlines()[0].split()[1:9]]
+        except (OSError, ValueError):
+            return None
+        total = sum(fields)
+        return total, total - fields[3] - fields[4]  # without idle and waiting for disks
+
+    def used(self, own):
+        """own: core-seconds that were ours"""
+        there = self.now()
+        if there is None or self.began is None or there[0] == self.began[0]:
+            return None
+        tick = 1 / os.sysconf("SC_CLK_TCK")
+        total, busy = ((a - b) * tick for a, b in zip(there, self.began))
+        return max(0.0, (busy - own) / total)
+
+
+class Memory(threading.Thread):
+    """largest resident size of any process below this one, in MB, looked at ten times a second; 0 where /proc is not"""
+
+    def __init__(self):
+        super().__init__(daemon=True)
+        self.most, self.done = 0.0, threading.Event()
+
+    def run(self):
+        while not self.done.wait(0.1):
+            self.most = max([self.most, *self.below(os.getpid())])
+
+    def below(self, pid):
+        try:
+            for task in pathlib.Path(f"/proc/{pid}/task").iterdir():
+                for child in (task / "children").read_text().split():
+                    text = pathlib.Path(f"/proc/{child}/status").read_text()
+                    found = re.search(r"^VmHWM:\s+(\d+)", text, re.M)
+                    if found and re.match(r"Name:\s+lmp", text):
+                        yield int(found.group(1)) / 1024
+                    yield from self.below(child)
+        except OSError:  # it ended meanwhile
+            return
+
+
+def measured(pipe, case, settings, folder, lmp, ranks, timeout):
+    """in a process of its own, whose children are LAMMPS alone: what the runner returns with times, load and memory"""
+    sys.path.insert(0, str(HERE))
+    runner = importlib.import_module(f"runners.{case['runner']}")
+    Cannot = importlib.import_module("runners").Cannot
+    record = {"failed": "", "cannot": ""}
+    memory, others, start = Memory(), Others(), time.time()
+    memory.start()
+    try:
+        record.update(runner.run(case, settings, folder, lmp, ranks=ranks, timeout=timeout))
+    except Cannot as why:
+        record["cannot"] = str(why)
+    record["wall_s"] = round(time.time() - start, 3)
+    memory.done.set()
+    memory.join()
+    who = [resource.getrusage(k) for k in (resource.RUSAGE_CHILDREN, resource.RUSAGE_SELF)]
+    used = [r.ru_utime + r.ru_stime for r in who]
+    load = others.used(sum(used))
+    record.update(core_s=round(used[0], 3), memory_MB=round(memory.most, 1), load=None if load is None else round(load, 4),
+                  idle=load is not None and load < BUSY)
+    pipe.send(record)
+
+
+def run_one(case, settings, folder, lmp):
+    """a record"""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    ranks = int(settings.get("ranks", 1))
+    here, there = multiprocessing.Pipe(duplex=False)
+    job = multiprocessing.get_context("fork").Process(target=measured, args=(there, case, settings, folder, lmp, ranks, case.get("timeout", 1800)))
+    job.start()
+    there.close()
+    try:
+        record = here.recv()
+    except EOFError:
+        raise Wrong(f"{case['name']} {settings}: the runner stopped (above); what it left is in {folder}") from None
+    job.join()
+    record.update(case=case["name"], group=case["group"], method=settings["method"], settings=settings, ranks=ranks, key=key_of(case["name"], settings),
+                  particle_steps=record.get("particles", 0) * record.get("steps", 0))
+    return record
+
+
+def machine():
+    text = {f: pathlib.Path(f).read_text() if pathlib.Path(f).exists() else "" for f in ("/proc/cpuinfo", "/proc/meminfo")}
+    cpu = re.search(r"model name\s*: (.*)", text["/proc/cpuinfo"])
+    memory = re.search(r"MemTotal:\s+(\d+)", text["/proc/meminfo"])
+    return {"cpu": cpu.group(1) if cpu else platform.machine(), "cores": os.cpu_count(), "memory_GiB": round(int(memory.group(1)) / 2**20) if memory else None}
+
+
+def versions(lmp):
+    said = subprocess.run([str(ROOT / "cmake" / "env.sh"), str(lmp), "-h"], capture_output=True, text=True).stdout
+    git = subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--dirty"], capture_output=True, text=True).stdout.strip()
+    find = lambda pattern: (re.search(pattern, said) or ["", ""])[1].strip()  # noqa: E731
+    return {"hvi": git or "unknown", "lammps": find(r"Parallel Simulator - (.*)"), "compiler": re.sub(r" with .*", "", find(r"Compiler: (.*)")),
+            "python": platform.python_version(), "binary": hashlib.sha256(lmp.read_bytes()).hexdigest()[:12]}
+
+
+def kept(file, now, again):
+    """the record in a file, if it stands: of this binary, and timed if that can be had"""
+    if not file.exists() or again:
         return None
-    if done.returncode:
-        sys.exit("failed: %s\n%s" % (" ".join(cmd), done.stdout[-2000:]))
-    with open(log) as f:
-        return f.read()
+    record = json.loads(file.read_text())
+    return record if record["versions"]["binary"] == now["binary"] else None
 
 
-def measure(text):
-    """Loop time, particle-steps per second, memory per particle, rebuilds, use of the cores, breakdown of a log."""
-    loops = re.findall(r"Loop time of (\S+) on (\d+) procs for (\d+) steps with (\d+) atoms", text)
-    time, ranks, steps, atoms = (float(x) for x in loops[-1])
-    memory = re.findall(r"Per MPI rank memory allocation .* = \S+ \| (\S+) \| \S+ Mbytes", text)[-1]
-    parts = dict(re.findall(r"^(Pair|Bond|Neigh|Comm|Modify) +\| \S+ +\| (\S+)", text, re.M))
-    return {"time": time, "rate": atoms * steps / time, "bytes": float(memory) * 2**20 * ranks / atoms,
-            "builds": int(re.findall(r"Neighbor list builds = (\d+)", text)[-1]),
-            "cpu": float(re.findall(r"([\d.]+)% CPU use", text)[-1]),
-            "parts": {k: float(v) for k, v in parts.items()}}
+def show(record):
+    said = record["failed"] or record["cannot"] or " ".join(f"{k} {v:.4g}" for k, v in record["errors"].items())
+    cost = f"{record.get('loop_s', 0) * record['ranks']:.1f} core-s" + ("" if record["idle"] else f", busy (load {record['load']})")
+    return f"{record['case']} {' '.join(f'{k}={v}' for k, v in record['settings'].items())}: {said}; {cost}"
 
 
-def compare(args, lines, data):
-    for name, script, styles, variables in SCENES:
-        runs = {style: [] for style in styles}
-        for n in range(args.repeat):
-            for style in styles:
-                extra = dict(variables, style=style)
-                if args.size == "full":
-                    extra.update(FULL[script])
-                runs[style].append(measure(lammps(args, os.path.join(HERE, script), extra, name + style)))
-        lines += ["", "## " + name, "",
-                  "| style | time s | M particle-steps/s | hvi is faster by (min - max) | rebuilds | bytes/particle |"
-                  " pair | bond | neigh | comm | modify |",
-                  "|---|---|---|---|---|---|---|---|---|---|---|"]
-        for style in styles:
-            med = statistics.median
-            ratios = [b["time"] / a["time"] for a, b in zip(runs[styles[0]], runs[style])]
-            parts = [med(r["parts"].get(k, 0.0) for r in runs[style]) for k in ("Pair", "Bond", "Neigh", "Comm", "Modify")]
-            lines.append("| %s | %.3f | %.2f | %.2f (%.2f - %.2f) | %d | %.0f | %s |" % (
-                style, med(r["time"] for r in runs[style]), med(r["rate"] for r in runs[style]) / 1e6,
-                med(ratios), min(ratios), max(ratios), runs[style][0]["builds"], runs[style][0]["bytes"],
-                " | ".join("%.3f" % p for p in parts)))
-            print(lines[-1], flush=True)
-        data[name] = runs
+def publish(out):
+    """records of a folder, one file per case, into bench/records; the report of them into doc"""
+    target = HERE / "records"
+    target.mkdir(exist_ok=True)
+    for folder in sorted((out / "records").iterdir()):
+        records = [json.loads(f.read_text()) for f in sorted(folder.glob("*.json"))]
+        records.sort(key=lambda r: json.dumps(r["settings"], sort_keys=True))
+        (target / f"{folder.name}.jsonl").write_text("".join(json.dumps(r, sort_keys=True) + "\n" for r in records))
 
 
-def speed_against_error(args, lines, data):
-    """The debris cloud at several time step factors: time against the drift of the ledger."""
-    lines += ["", "## debris cloud: time step against error of the energy ledger", "",
-              "| C | steps | wall s | largest drift | drift at the end | fragmentation F |", "|---|---|---|---|---|---|"]
-    rows = []
-    for c in ("0.2", "0.1", "0.05", "0.025"):
-        out = os.path.join(args.out, "debris-C" + c)
-        os.makedirs(out, exist_ok=True)
-        variables = {"C": c, "out": out, "every": "100"}
-        if args.size == "small":
-            variables.update(tstop="6", N="15000")
-        text = lammps(args, os.path.join(ROOT, "examples/debris-cloud/in.debris"), variables, "debris" + c)
-        result = {}
-        with open(os.path.join(out, "result.yaml")) as f:
-            for line in f:
-                key, _, value = line.partition(":")
-                result[key.strip()] = value.strip()
-        ratios = [float(x) for x in re.findall(r"^ +\d+ .* (\d\.\d{9}) *$", text, re.M)]
-        rows.append({"C": float(c), "steps": int(result["steps"]), "wall": float(result["wall_s"]),
-                     "largest": max(abs(r - 1.0) for r in ratios),
-                     "end": abs(float(result["energy_ratio"]) - 1.0), "F": float(result["fragmentation"])})
-        lines.append("| %(C)g | %(steps)d | %(wall).1f | %(largest).1e | %(end).1e | %(F).3f |" % rows[-1])
-        print(lines[-1], flush=True)
-    data["speed against error"] = rows
+def chosen(args):
+    """the cases asked for"""
+    names = args.cases.split(",") if args.cases else sorted(f.stem for f in (HERE / "cases").glob("*.yaml"))
+    for name in names:
+        if not (HERE / "cases" / f"{name}.yaml").exists():
+            raise Wrong(f"no case {name}; there are {', '.join(sorted(f.stem for f in (HERE / 'cases').glob('*.yaml')))}")
+    return [load_case(HERE / "cases" / f"{name}.yaml") for name in names]
 
 
-def states(args):
-    """Restart files of the debris cloud, made once: 20 steps after the start, at 3 us, at the end."""
-    out = os.path.join(args.out, "fragments-" + args.size)
-    files = [os.path.join(out, "state.%d" % n) for n in range(len(STATES))]
-    a, b = (os.path.join(out, "debris.restart." + x) for x in "ab")
-    variables = {"debris": os.path.join(ROOT, "examples/debris-cloud/in.debris"), "out": out,
-                 "size": "paper" if args.size == "full" else "small", "C": "0.25"}
-    os.makedirs(out, exist_ok=True)
-    start = time.time()
-    if not os.path.exists(files[1]):
-        lammps(args, os.path.join(HERE, "dem/in.states"), dict(variables, tstop="3"), "states-impact")
-        shutil.move(a, files[0])
-        shutil.move(b, files[1])
-    if not os.path.exists(files[2]):
-        shutil.copy(files[1], b)
-        lammps(args, os.path.join(HERE, "dem/in.states"), dict(variables, resume="b"), "states-flight")
-        shutil.move(b, files[2])
-    print("states of the debris cloud: %.0f s" % (time.time() - start), flush=True)
-    for name in os.listdir(out):    # dumps of hundreds of Mbytes
-        if not name.startswith("state."):
-            os.remove(os.path.join(out, name))
-    return files
-
-
-def parse(text):
-    """What in.fragments prints: results by name, and measurements of its runs by name."""
-    results = {k: float(v) for k, v in re.findall(r"^== (\w+) ([-+.\de]+)$", text, re.M)}
-    runs = {}
-    chunks = re.split(r"^== run (\w+)$", text, flags=re.M)
-    for name, chunk in zip(chunks[1::2], chunks[2::2]):
-        runs.setdefault(name, []).append(measure(chunk))
-    return results, runs
-
-
-def cost(runs, name, steps, key=lambda r: r["time"]):
-    """Seconds that one labelling takes: runs with it less the runs without that went before."""
-    return statistics.median(key(a) - key(b) for a, b in zip(runs[name], runs["none"])) / steps
-
-
-def time_fragments(args, name, variables):
-    """One state: ours (a dict of results and costs), and the same for each stock compute."""
-    script = os.path.join(HERE, "dem/in.fragments")
-    still, move = int(variables["still"]), int(variables["move"])
-    runs = {}
-    for n in range(args.repeat):
-        results, once = parse(lammps(args, script, variables, "fragments-" + name))
-        for key in once:
-            runs.setdefault(key, []).extend(once[key])
-    step = statistics.median(r["time"] for r in runs["off"]) / move
-    ours = dict(results, name=name, step=step, cpu=statistics.median(r["cpu"] for r in runs["off"]),
-                rebuilds=100 * statistics.median(r["builds"] for r in runs["off"]) / move,
-                slower=[a["time"] / b["time"] - 1 for a, b in zip(runs["on"], runs["off"])])
-    for what in ("label", "table", "cloud"):
-        ours[what + "_s"] = cost(runs, what, still)
-        ours[what + "_modify_s"] = cost(runs, what, still, lambda r: r["parts"]["Modify"])
-    stock = []
-    for style in STOCK:
-        row = {"name": name, "style": style, "right": results["label"], "step": step}
-        text = lammps(args, script, dict(variables, style=style, still="2"), style + "-" + name,
-                      may_fail=style == "fragment")
-        if text:
-            results_too, runs = parse(text)
-            row.update(found=results_too[style], s=cost(runs, style, 2))
-        stock.append(row)
-    return ours, stock
-
-
-def fragments(args, lines, data):
-    """Cost of labelling and statistics in time steps of the same run, and stock computes beside them."""
-    rows = [time_fragments(args, name, dict(SIZES[args.size], **changed, state=state))
-            for (name, changed), state in zip(STATES, states(args))]
-    ours = [r[0] for r in rows]
-    stock = sorted((s for r in rows for s in r[1]), key=lambda s: STOCK.index(s["style"]))
-    data["fragments"] = {"ours": ours, "stock": stock}
-
-    lines += ["", "## fragments of the debris cloud, %d particles" % ours[0]["atoms"], "",
-              "Idle cores: LAMMPS's CPU use was %.0f %% or more; much less than 100 %% spoils the numbers." % min(r["cpu"] for r in ours), "",
-              "| state | time us | broken bonds | fragments | step ms (rebuilds in 100) | what | ms (LAMMPS's timer) | in steps |"
-              " every 100 steps: slower by | measured (min - max) |",
-              "|---|---|---|---|---|---|---|---|---|---|"]
-    for r in ours:
-        lines.append("| %s | %.2f | %.1f %% | %d | %.2f (%.1f) |" % (
-            r["name"], r["us"], 100 * (1 - r["bonds"] / ours[0]["bonds"]), r["label"], 1e3 * r["step"], r["rebuilds"]))
-        slower = [100 * f(r["slower"]) for f in (statistics.median, min, max)]
-        for what, style in (("label", "hvi/fragment/atom"), ("table", "hvi/fragment"), ("cloud", "hvi/cloud")):
-            steps = r[what + "_s"] / r["step"]
-            lines[-1] += " %s | %.2f (%.2f) | %.2f | %.2f %% | %s |" % (
-                style, 1e3 * r[what + "_s"], 1e3 * r[what + "_modify_s"], steps, steps,
-                "%.1f %% (%.1f - %.1f)" % tuple(slower) if what == "table" else "")
-            print(lines[-1], flush=True)
-            if what != "cloud":
-                lines.append("| | | | | |")
-    lines += ["", "| stock compute | state | fragments found | there are | ms | in steps |", "|---|---|---|---|---|---|"]
-    for r in ours:
-        lines.append("| fragment/atom beside hvi/spring | %s | %d | %d | | |" % (r["name"], r["fragment"], r["label"]))
-    for s in stock:
-        found, ms = "none: it crashed", " | "
-        if "found" in s:
-            found, ms = "%d" % s["found"], "%.0f | %.1f" % (1e3 * s["s"], s["s"] / s["step"])
-        lines.append("| %s/atom | %s | %s | %d | %s |" % (s["style"], s["name"], found, s["right"], ms))
-        print(lines[-1], flush=True)
-
-
-def figure(data, file):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    rows = data["speed against error"]
-    plt.figure(figsize=(5, 4))
-    plt.loglog([r["wall"] for r in rows], [r["largest"] for r in rows], "o-", label="largest")
-    plt.loglog([r["wall"] for r in rows], [r["end"] for r in rows], "s--", label="at the end")
-    for r in rows:
-        plt.annotate("C = %g" % r["C"], (r["wall"], r["largest"]), textcoords="offset points", xytext=(6, 4))
-    plt.axhline(1e-5, color="0.7", lw=1)
-    plt.margins(x=0.2, y=0.1)
-    plt.xlabel("wall time (s)")
-    plt.ylabel("|drift of total energy|")
-    plt.title("debris cloud: speed against error")
-    plt.legend()
-    plt.tight_layout()
-    plt.savefig(file, dpi=120)
+def work(args):
+    now, box = versions(args.lmp), machine()
+    todo = [(case, s) for case in chosen(args) for s in settings_of(case, args.size)
+            if not args.methods or s["method"] in args.methods.split(",")]
+    for number, (case, settings) in enumerate(todo, 1):
+        file = args.out / "records" / case["name"] / f"{key_of(case['name'], settings)}.json"
+        old = kept(file, now, args.again)
+        if old and (old["idle"] or args.busy):
+            continue
+        if args.dry:
+            print(case["name"], settings)
+            continue
+        if args.until and time.time() > args.until:
+            raise Wrong(f"time is up: {len(todo) - number + 1} runs are left; the same command goes on")
+        folder = args.out / "runs" / case["name"] / file.stem
+        record = run_one(case, settings, folder, args.lmp)
+        record.update(date=datetime.date.today().isoformat(), versions=now, machine=box,
+                      command=f"bench/run.py --size {args.size} --cases {case['name']} --methods {settings['method']!r}")
+        if not args.keep:
+            shutil.rmtree(folder, ignore_errors=True)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(json.dumps(record, sort_keys=True, indent=1) + "\n")
+        print(f"[{number}/{len(todo)}] {show(record)}", flush=True)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", required=True, help="folder with lmp")
-    parser.add_argument("--out", required=True, help="folder for logs and the report")
-    parser.add_argument("--size", choices=["small", "full"], default="small")
-    parser.add_argument("--ranks", type=int, default=min(2, os.cpu_count() or 1))
-    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--build", default=ROOT / "build", type=pathlib.Path, help="folder with lmp")
+    parser.add_argument("--lmp", type=pathlib.Path, help="another LAMMPS than the one in --build")
+    parser.add_argument("--out", default=ROOT / "build" / "bench", type=pathlib.Path, help="folder for records and the report")
+    parser.add_argument("--size", choices=("short", "full"), default="short")
+    parser.add_argument("--cases", default="", help="names of bench/cases, by commas")
+    parser.add_argument("--methods", default="", help="names, by commas")
+    parser.add_argument("--again", action="store_true", help="run also what is there")
+    parser.add_argument("--busy", action="store_true", help="keep runs whose times do not count")
+    parser.add_argument("--keep", action="store_true", help="keep the folders of the runs")
+    parser.add_argument("--minutes", type=float, help="begin no run after so many")
+    parser.add_argument("--dry", action="store_true", help="say what would run")
+    parser.add_argument("--publish", action="store_true", help="records of --out into bench/records, the report into doc")
     args = parser.parse_args()
-    args.build, args.out = os.path.abspath(args.build), os.path.abspath(args.out)
-    os.makedirs(args.out, exist_ok=True)
+    args.until = args.minutes and time.time() + 60 * args.minutes
+    args.out, args.lmp = args.out.resolve(), (args.lmp or args.build / "lmp").resolve()
+    try:
+        if args.publish:
+            publish(args.out)
+            records, target = HERE / "records", ROOT / "doc"
+        else:
+            if not args.lmp.exists():
+                raise Wrong(f"{args.lmp} is not there: run make first")
+            work(args)
+            records, target = args.out / "records", args.out
+    except Wrong as problem:
+        sys.exit(f"bench: {problem}")
+    if not args.dry:
+        import report
 
-    cpu = "unknown processor"
-    if os.path.exists("/proc/cpuinfo"):
-        with open("/proc/cpuinfo") as f:
-            cpu = re.search(r"model name\s*: (.*)", f.read() + "model name : unknown").group(1)
-    lines = ["# Benchmark report", "", "%s, %d ranks, size %s, %d runs of each" % (cpu, args.ranks, args.size, args.repeat)]
-    data = {}
-    compare(args, lines, data)
-    speed_against_error(args, lines, data)
-    fragments(args, lines, data)
-    with open(os.path.join(args.out, "report.md"), "w") as f:
-        f.write("\n".join(lines) + "\n")
-    with open(os.path.join(args.out, "report.json"), "w") as f:
-        json.dump(data, f, indent=1)
-    figure(data, os.path.join(args.out, "speed-error.png"))
-    print("\nreport: %s" % os.path.join(args.out, "report.md"))
+        sys.exit(report.main(["--records", str(records), "--out", str(target)]))
 
 
 if __name__ == "__main__":
