@@ -8,6 +8,7 @@ Settings: n, kernel, h (in spacings), variable (h follows the density), C (of fi
 from . import Cannot, answer, machdyn, merged
 
 import shock_runs
+from hard import executor
 from shock_scenes import CASES
 
 WORDS = {"kernel": "kernel", "C": "courant", "skin": "skin", "variable": "variable", "h": "eta", "octant": "mirrors"}
@@ -17,7 +18,8 @@ def run(case, settings, folder, lmp, ranks=1, timeout=600):
     s = merged(case, settings)
     scene, stock = CASES[case["scene"]], s.get("stock")
     if stock in ("ulsph", "tlsph"):
-        return machdyn.shock(scene, s, folder, lmp, ranks, timeout)
+        call = executor(lmp, folder)
+        return machdyn.shock(scene, s, folder, lambda text: call(text, nranks=ranks, timeout=timeout))
     if stock and (why := shock_runs.cannot(scene, "stock")):
         raise Cannot(why)
     how = {} if stock else dict(words=s["words"], **{word: s[name] for name, word in WORDS.items() if name in s})
