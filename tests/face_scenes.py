@@ -97,10 +97,10 @@ def lattice(*counts):
     return np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), -1).reshape(-1, len(counts)) + 0.5
 
 
-def go(lmp, folder, s, words, kernel, h, t_end, frames, name, pair="", jc=JC, **how):
+def go(lmp, folder, s, words, kernel, h, t_end, frames, name, pair="", jc=JC, courant=None, **how):
     """runs to t_end; about so many frames. Result, steps, seconds"""
     path = material(folder / "elastic.hvi", *ELASTIC)
-    every = int(np.ceil(t_end / frames / (COURANT * h / CL)))
+    every = int(np.ceil(t_end / frames / ((courant or COURANT) * h / CL)))
     steps = every * frames
     text = f"pair_style hvi/sph {kernel} dim {s.dim} form sum {words} h constant\npair_coeff * * file {path} h {h:.17g}\n{pair}"
     start = time.time()
@@ -116,7 +116,7 @@ def books(r):
     return dict(drift=np.abs(r.thermo["c_book[9]"] - 1).max(), momentum=max(momentum_error(r.thermo)))
 
 
-def standing(lmp, folder, layers, words, kernel, h, length, shear, amplitude=1e-4, width=1, turned=False, rubble=0, name="w"):
+def standing(lmp, folder, layers, words, kernel, h, length, shear, amplitude=1e-4, width=1, turned=False, rubble=0, name="w", **how):
     """a standing wave in the plane of a wall, v = A sin(k x) along x, or y for shear, a period of it
 
     Momentum, rho dv/dt = b d(sigma)/dx, and the law, d(sigma)/dt = l M dv/dx with the modulus M of theory: b is the part of their stress that
@@ -141,7 +141,7 @@ def standing(lmp, folder, layers, words, kernel, h, length, shear, amplitude=1e-
         if layers:  # it gets thinner as it is stretched
             s.v[:, 2] = -NU / (1 - NU) * amplitude * CL * k * x[:, 2] * np.cos(k * x[:, 0])
     s.v[~sound] = 0.0
-    r, steps, seconds = go(lmp, folder, s, words, kernel, h, 2 * np.pi / w0, 50, name, pair, jc)
+    r, steps, seconds = go(lmp, folder, s, words, kernel, h, 2 * np.pi / w0, 50, name, pair, jc, **how)
     t, x = np.array([f["time"] for f in r.frames]), x[sound]
     v = 2 * np.array([f["v"][sound, int(shear)] @ np.sin(k * x[:, 0]) for f in r.frames]) / len(x)
     sigma = np.array([f["sxy" if shear else "sxx"][sound] for f in r.frames])
@@ -155,11 +155,11 @@ def standing(lmp, folder, layers, words, kernel, h, length, shear, amplitude=1e-
                                       speed=w / w0, loss=1 - np.exp(-2 * np.pi * g / w), noise=noise, misfit=off)
 
 
-def borne(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, length=200, width=1, turned=False):
+def borne(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, length=200, width=1, turned=False, **how):
     """a wall of so many layers, 0: bulk, with a long standing wave in its plane: the part of stress that is borne, the law's part of stress,
     and what they give together, as a factor of stiffness and of speed; the last two for shear, too"""
-    r, s, steps, seconds, o = standing(lmp, folder, layers, words, kernel, h, length, False, width=width, turned=turned)
-    q, _, more, time_, p = standing(lmp, folder, layers, words, kernel, h, length, True, width=width, turned=turned)
+    r, s, steps, seconds, o = standing(lmp, folder, layers, words, kernel, h, length, False, width=width, turned=turned, **how)
+    q, _, more, time_, p = standing(lmp, folder, layers, words, kernel, h, length, True, width=width, turned=turned, **how)
     return dict(head(dict(layers=layers), words, kernel, h, s, steps + more, seconds + time_), **o, shear_borne=p["borne"], shear_law=p["law"],
                 shear_speed=p["speed"], shear_noise=p["noise"], shear_misfit=p["misfit"], drift=max(books(r)["drift"], books(q)["drift"]))
 
@@ -187,7 +187,7 @@ def stairs(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1
     return borne(lmp, folder, layers, words, kernel, h, turned=True, **more)
 
 
-def bending(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, slender=20, width=1):
+def bending(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, slender=20, width=1, **how):
     """a standing bending wave of a wall, as long as 20 thicknesses, for a period, against Rayleigh-Lamb; a lattice of n layers with all its
     stress has sqrt(1 - 1/n^2) of the frequency, since it has that of its layers in their middles, and with
     a gradient that is exact for linear fields only that of levers()"""
@@ -198,7 +198,7 @@ def bending(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=
     up = 1e-3 * w0  # it moves by 1e-3 spacings
     s.v[:, 2] = up * np.sin(k * x[:, 0])
     s.v[:, 0] = -up * k * x[:, 2] * np.cos(k * x[:, 0])
-    r, steps, seconds = go(lmp, folder, s, words, kernel, h, 2 * np.pi / w0, 50, "b")
+    r, steps, seconds = go(lmp, folder, s, words, kernel, h, 2 * np.pi / w0, 50, "b", **how)
     t = np.array([f["time"] for f in r.frames])
     v = 2 * np.array([f["v"][:, 2] @ np.sin(k * x[:, 0]) for f in r.frames]) / len(x)
     a, w, g, off = ring(t, v, w0)
@@ -206,29 +206,30 @@ def bending(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=
                 levers=levers(kernel, h, layers), loss=1 - np.exp(-2 * np.pi * g / w), misfit=off, drift=books(r)["drift"])
 
 
-def wave(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, length=300, wide=15.0):
+def wave(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6, length=300, wide=15.0, **how):
     """a pulse runs along a wall from its free end: speed of the middle of its momentum, which dispersion leaves alone, and of its front, at half of
-    its height; between 0.3 and 0.7 of the length"""
+    its height; between 0.3 and 0.7 of the length; and L1 at the end against the pulse that a string carries, in units of what that has"""
     s, x = wall(length, layers, h, ends=False)
     A = 1e-4 * CL
     s.v[:, 0] = A * np.exp(-0.5 * (x[:, 0] / wide) ** 2)
     if layers:
         s.v[:, 2] = NU / (1 - NU) * x[:, 2] * x[:, 0] / wide**2 * s.v[:, 0]
     c = CP if layers else CL
-    r, steps, seconds = go(lmp, folder, s, words, kernel, h, 0.8 * length / c, 40, "p")
+    r, steps, seconds = go(lmp, folder, s, words, kernel, h, 0.8 * length / c, 40, "p", **how)
     t = np.array([f["time"] for f in r.frames])
     columns = np.array([f["v"][:, 0].reshape(length, -1).mean(1) for f in r.frames])
     place = x[:, 0].reshape(length, -1)[:, 0]
     middle = columns @ place / columns.sum(1)
     front = np.array([(crossings(place, u, 0.5 * u.max()) if u.max() > 0 else [np.nan])[-1] for u in columns])
     tail = 0.5 * (front.max() - 6 * wide)
+    string = 0.5 * A * sum(np.exp(-0.5 * ((place - sign * c * t[-1]) / wide) ** 2) for sign in (1, -1))
 
     def speed(y):
         k = (y > 0.3 * length) & (y < 0.7 * length)
         return np.polyfit(t[k], y[k], 1)[0] / c if k.sum() > 4 else np.nan
 
     return dict(head(dict(layers=layers), words, kernel, h, s, steps, seconds), speed=speed(middle), front=speed(front),
-                height=columns[-1].max() / columns[0].max(), noise=np.abs(columns[-1][place < max(tail, 1)]).max() / A, **books(r))
+                height=columns[-1].max() / columns[0].max(), l1=np.abs(columns[-1] - string).sum() / string.sum(), noise=np.abs(columns[-1][place < max(tail, 1)]).max() / A, **books(r))
 
 
 def block(counts, apart=0.0):
@@ -331,7 +332,7 @@ def contact(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=
                 noise=np.abs(np.diff((u - u1)[near])).max() / top, **book)
 
 
-def verney_cylinder(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="cubic", stop=4.0, t_end=170.0):
+def verney_cylinder(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="cubic", stop=4.0, t_end=170.0, courant=None, skin=0.3):
     """Verney's shell as a cylinder: beryllium (cm, g, us, Mbar), from 8 to 10, plane strain, stops at the inner radius 4
 
     Incompressible: v = u r/x at the radius x, r the inner one, R^2 - r^2 stays; D = diag(-1, 1) v/x in the plane, D_zz = 0, so that the rate of
@@ -349,10 +350,10 @@ def verney_cylinder(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="c
     n = len(x)
     s = Fluid(x + [12, 12, 0], -u0 * 8 / r0[:, None] ** 2 * x, np.full(n, rho), np.zeros(n), np.ones(n, int), {1: rho * dx**2}, {1: h * dx},
               np.array([24.0, 24.0, 20 * dx]), (False, False, True), 2)
-    steps = int(t_end / (COURANT * h * dx / 1.35))
+    steps = int(t_end / ((courant or COURANT) * h * dx / 1.35))
     pair = f"pair_style hvi/sph {kernel} dim 2 form sum {words} h constant\npair_coeff 1 1 file {path} h {h * dx}\n"
     start = time.time()
-    r = run(lmp, folder, s, pair, JC, steps, dt=t_end / steps, frames=max(1, steps // 50), lost="ignore")
+    r = run(lmp, folder, s, pair, JC, steps, dt=t_end / steps, frames=max(1, steps // 50), lost="ignore", skin=skin)
     inner = np.array([np.median(np.sqrt(np.maximum(64 + ((f["x"] - [12, 12, 0]) ** 2).sum(1) - r0**2, 0))) if len(f["x"]) == n else np.inf
                       for f in r.frames])
     k = int(np.argmin(inner))

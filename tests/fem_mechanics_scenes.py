@@ -242,6 +242,26 @@ def standing(lmp, folder, kind, waves=1.0, nt=1, length=40, edge=1e-3, amp=0.1, 
                 drift=np.abs(total / total[0] - 1).max(), momentum=np.abs(r.thermo["c_book[10]"]).max())
 
 
+def pulse(lmp, folder, length, wide, edge=1e-3, factor=0.5, fem=""):
+    """A pulse of velocity runs along a bar in uniaxial strain from its free end, as face_scenes.wave: length, wide in edges
+
+    L1 at the end against the pulse that a string carries, in units of what that has; height in units of the first
+    """
+    m = block(length, 1, 1, n=0, map=lambda p: edge * p, periodic=(False, False, False))
+    m.box = np.array([[-length, -1, -1], [2 * length, 2, 2]]) * edge
+    c, t_end = np.sqrt(M / RHO), 0.8 * length * edge / np.sqrt(M / RHO)
+    v = np.zeros_like(m.nodes)
+    v[:, 0] = 1e-4 * c * np.exp(-0.5 * (m.nodes[:, 0] / edge / wide) ** 2)
+    steps = int(np.ceil(t_end / stable(edge, factor)))
+    flat = "fix flat nodes setforce NULL 0.0 0.0"
+    r = run(lmp, folder, m, v, steps, fem=fem, dt=t_end / steps, dump=steps, more=flat)
+    f = r.frames[-1]
+    x = m.nodes[f["id"] - 1, 0] / edge
+    u, want = f["v"][:, 0] / (1e-4 * c), 0.5 * sum(np.exp(-0.5 * ((x - sign * 0.8 * length) / wide) ** 2) for sign in (1, -1))
+    total = r.thermo["c_book[8]"]
+    return dict(elements=len(m.elements), steps=steps, l1=np.abs(u - want).sum() / want.sum(), height=u.max(), drift=np.abs(total / total[0] - 1).max())
+
+
 def yielding(lmp, folder, nt, over=4.0, Y=3e8, length=20, edge=1e-3, factor=0.5, fem="", thickness=None):
     """A plate that starts to bend as in standing(), at a velocity with which it would yield at its faces over times if it stayed elastic
 

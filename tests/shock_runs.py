@@ -7,7 +7,7 @@ import re
 import subprocess
 
 import numpy as np
-from shock_scenes import COURANT, KERNEL, METHODS, Blasts
+from shock_scenes import COURANT, ETA, KERNEL, METHODS, Blasts
 
 STOCK_ROWS, STOCK_H, STOCK_ALPHA = 8, 4.0, 0.75  # its own example's: examples/PACKAGES/sph/shock_tube
 
@@ -59,8 +59,20 @@ def write_data(scene, path):
             f.write("%d %.17g %.17g %.17g\n" % (i + 1, *scene.v[i]))
 
 
-def script(case, scene, method, n):
-    """LAMMPS input: data file `data`, frames frame.0, frame.1, ..."""
+def octant(scene):
+    """the part of a scene about the origin where x, y, z > 0, between mirrors"""
+    here = (scene.x > 0).all(axis=1)
+    parts = {k: getattr(scene, k)[here] for k in ("x", "v", "rho", "e", "type")}
+    box = scene.box.copy()
+    box[:, 0] = 0.0
+    return dataclasses.replace(scene, **parts, box=box, periodic=["f" + b for b in scene.periodic], mirror=[], measured=np.arange(here.sum()))
+
+
+def script(case, scene, method, n, words=None, kernel=KERNEL, courant=COURANT, skin=0.3, variable=True, mirrors=False):
+    """LAMMPS input: data file `data`, frames frame.0, frame.1, ...
+
+    words: of the pair style, in place of the method's; skin in units of the least h; variable: h follows the density; mirrors: of an octant
+    """
     flat = case.dim == 2 or method == "stock"
     lines = [f"units {scene.units}", f"dimension {2 if flat else 3}", f"boundary {' '.join(scene.periodic)}", "atom_style sph",
              "atom_modify map array"]
@@ -73,13 +85,15 @@ def script(case, scene, method, n):
                   f"pair_coeff * * sph/idealgas {STOCK_ALPHA} {reach:.17g}", "fix move all sph", "fix flat all setforce NULL 0.0 0.0"]
     else:
         lo, hi = case.hlimits()
-        lines.append(f"pair_style hvi/sph {KERNEL} dim {case.dim} {METHODS[method]} h variable {lo:.6g} {hi:.6g}")
+        follow = f"variable {lo:.6g} {hi:.6g}" if variable else "constant"
+        planes = " mirror x 0 lo mirror y 0 lo mirror z 0 lo" if mirrors else ""
+        lines.append(f"pair_style hvi/sph {kernel} dim {case.dim} {words or METHODS[method]} h {follow}{planes}")
         lines += [f"pair_coeff {t + 1} {t + 1} eos {eos} h {h:.17g}" for t, (eos, h) in enumerate(zip(scene.eos, scene.h))]
         if scene.tension:
             k = len(scene.mass)
             lines += [f"pair_coeff {a} {b} tension yes" for a in range(1, k) for b in range(a + 1, k + 1)]
         lines.append("fix move all hvi/sph")
-    lines += [f"neighbor {0.3 * min(scene.h):.17g} bin", "neigh_modify every 1 delay 0 check yes one 10000", "compute book all hvi/energy",
+    lines += [f"neighbor {skin * min(scene.h):.17g} bin", "neigh_modify every 1 delay 0 check yes one 10000", "compute book all hvi/energy",
               "compute s all property/atom rho esph"]
     if method != "stock":
         lines.append("compute p all hvi/atom p")
@@ -91,7 +105,7 @@ def script(case, scene, method, n):
             steps = int(np.ceil(t / stock_step(case, n)))
             lines += [f"timestep {t / steps:.17g}", "run 0", f"run {steps}"]
         else:
-            lines += [f"fix step all hvi/dt {COURANT}", f"variable left equal {t:.17g}-time-4*dt",
+            lines += [f"fix step all hvi/dt {courant}", f"variable left equal {t:.17g}-time-4*dt",
                       "fix halt all halt 1 v_left < 0.0 error continue message no", "run 100000000", "unfix halt", "unfix step",
                       f"variable rest equal ceil(({t:.17g}-time)/dt-1e-9)", "variable count equal ${rest}",
                       f"timestep $(({t:.17g}-time)/v_count)", "run ${count}"]
@@ -158,21 +172,22 @@ def read_log(text):
     return np.array(rows), loops, steps
 
 
-def prepared(case, method, n):
+def prepared(case, method, n, mirrors=False):
     """the row, lattice or strip that LAMMPS gets; the scene it stands for; the strip's number of rows, 1 for others"""
-    scene = case.scene(n, method)
+    scene = octant(case.scene(n, method)) if mirrors else case.scene(n, method)
     if method == "stock":
         return columns(scene, STOCK_ROWS, scene.spacing), scene, STOCK_ROWS
     return scene, scene, 1
 
 
-def run(case, method, n, lmp, folder, ranks=1, timeout=1800):
-    """runs it in a folder; an Outcome. What stopped a run is in its error"""
+def run(case, method, n, lmp, folder, ranks=1, timeout=1800, eta=ETA, mirrors=False, **how):
+    """runs it in a folder; an Outcome. What stopped a run is in its error. eta: h in spacings; mirrors: an octant of a ball; how: see script()"""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    scene = prepared(case, method, n)[0]
+    scene = prepared(case, method, n, mirrors)[0]
+    scene = dataclasses.replace(scene, h=[h * eta / ETA for h in scene.h])
     write_data(scene, folder / "data")
-    (folder / "in.shock").write_text(script(case, scene, method, n))
+    (folder / "in.shock").write_text(script(case, scene, method, n, mirrors=mirrors, **how))
     for old in folder.glob("frame.*"):
         old.unlink()
     command = ([] if ranks == 1 else ["mpirun", "-np", str(ranks)]) + [str(lmp), "-in", "in.shock", "-log", "log", "-screen", "none"]
@@ -181,12 +196,12 @@ def run(case, method, n, lmp, folder, ranks=1, timeout=1800):
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=env, timeout=timeout, stdin=subprocess.DEVNULL)
     except subprocess.TimeoutExpired:
         return Outcome(case.name, method, n, len(scene.x), error=f"no end after {timeout} s")
-    return measure(case, method, n, folder, done.returncode)
+    return measure(case, method, n, folder, done.returncode, mirrors)
 
 
-def measure(case, method, n, folder, returncode=0):
-    """the Outcome of what a run has left in a folder"""
-    scene, thin, rows = prepared(case, method, n)
+def measure(case, method, n, folder, returncode=0, mirrors=False):
+    """the Outcome of what a run has left in a folder; mirrors take up momentum, so that of an octant is not measured"""
+    scene, thin, rows = prepared(case, method, n, mirrors)
     out = Outcome(case.name, method, n, len(scene.x))
     log = (folder / "log").read_text() if (folder / "log").exists() else ""
     found = re.search(r"^ERROR[^:\n]*: *(.*)$", log, re.M)
@@ -200,7 +215,7 @@ def measure(case, method, n, folder, returncode=0):
     last = frames[-1]
     scale = max((mass[:, None] * np.abs(v)).sum() for v in (scene.v, *(f["v"] for f in frames)))
     out.energy = np.abs(table[:, 6] - 1).max()
-    out.momentum = np.abs(table[:, 7:10] - table[0, 7:10]).max() / scale
+    out.momentum = np.nan if mirrors else np.abs(table[:, 7:10] - table[0, 7:10]).max() / scale
     if rows > 1:
         last = {k: a.reshape(-1, rows, *a.shape[1:]).mean(axis=1) for k, a in last.items()}
         frames = [last]

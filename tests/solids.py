@@ -38,23 +38,26 @@ def runner(exe, folder):
     return lmp
 
 
-def verney(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="cubic", t_end=150.0):
+def verney(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="cubic", t_end=150.0, octant=False, courant=0.2, skin=0.3, variable=False):
+    """octant: an eighth of the shell, between mirrors; skin in spacings"""
     path = material(folder / "Be.hvi", "eos gruneisen rho0 1.845 C 0.7998 S1 1.124 g0 1.11 a 0.16 T0 300", "strength perfect G 1.510 Y 0.0033")
     k = int(np.ceil(10 / dx))
     x = dx * (np.stack(np.meshgrid(*[np.arange(-k, k)] * 3, indexing="ij"), -1).reshape(-1, 3) + 0.5)
     r0 = np.sqrt((x**2).sum(1))
-    x = x[(r0 > 8) & (r0 < 10)]
+    x = x[(r0 > 8) & (r0 < 10) & ((x > 0).all(1) | (not octant))]
     r0 = np.sqrt((x**2).sum(1))
-    n = len(x)
-    s = Fluid(x + 12.0, np.zeros((n, 3)), np.full(n, 1.845), np.zeros(n), np.ones(n, int), {1: 1.845 * dx**3}, {1: h * dx}, np.full(3, 24.0), (False,) * 3)
+    n, center = len(x), 0.0 if octant else 12.0
+    s = Fluid(x + center, np.zeros((n, 3)), np.full(n, 1.845), np.zeros(n), np.ones(n, int), {1: 1.845 * dx**3}, {1: h * dx}, np.full(3, 12.0 + center),
+              (False,) * 3)
     s.v = -0.0619787 * (8 / r0**1.5)[:, None] ** 2 * x
-    steps = int(t_end / (0.2 * h * dx / 1.35))
-    pair = f"pair_style hvi/sph {kernel} form sum {words} h constant\npair_coeff 1 1 file {path} h {h * dx}\n"
+    steps = int(t_end / (courant * h * dx / 1.35))
+    how = f"h {'variable' if variable else 'constant'} {'mirror x 0 lo mirror y 0 lo mirror z 0 lo' if octant else ''}"
+    pair = f"pair_style hvi/sph {kernel} form sum {words} {how}\npair_coeff 1 1 file {path} h {h * dx}\n"
     start = time.time()
-    r = run(lmp, folder, s, pair, "strength perfect damage no spall none", steps, dt=t_end / steps, frames=max(1, steps // 50))
+    r = run(lmp, folder, s, pair, "strength perfect damage no spall none", steps, dt=t_end / steps, frames=max(1, steps // 50), skin=skin)
     inner = []
     for f in r.frames:
-        y = f["x"] - 12.0
+        y = f["x"] - center
         rad = np.sqrt((y**2).sum(1))
         inner.append(np.median(np.cbrt(np.maximum(512 + rad**3 - r0**3, 0))))
     k = int(np.argmin(inner))
@@ -92,23 +95,30 @@ def stop(nu, r=8.0, R=10.0, u=0.0619787, rho=1.845, Y=0.0033):
     return r
 
 
-def taylor(lmp, folder, dx, words="viscosity 1 2", root=HERE.parent, h=1.2, V=227.0, L=32.4e-3, R=3.2e-3, t_end=80e-6):
-    """two cylinders meet, each the mirror image of the other: the rigid wall without friction"""
+def taylor(lmp, folder, dx, words="viscosity 1 2", root=HERE.parent, h=1.2, V=227.0, L=32.4e-3, R=3.2e-3, t_end=80e-6,
+           kernel="cubic", laws=None, quarter=False, courant=0.2, skin=0.3, variable=False):
+    """two cylinders meet, each the mirror image of the other: the rigid wall without friction
+
+    laws: sections of a material file in place of Cu-OFHC.hvi; quarter: of each, between mirrors; skin in spacings
+    """
     q = dx * (np.arange(-int(R / dx) - 1, int(R / dx) + 1) + 0.5)
     z = dx * (np.arange(int(round(L / dx))) + 0.5)
     half = np.stack(np.meshgrid(z, q, q, indexing="ij"), -1).reshape(-1, 3)
-    half = half[(half[:, 1] ** 2 + half[:, 2] ** 2) < R * R]
+    half = half[((half[:, 1] ** 2 + half[:, 2] ** 2) < R * R) & ((half[:, 1:] > 0).all(1) | (not quarter))]
     n = len(half)
     x = np.concatenate([half, half * [-1, 1, 1]])
     box = np.array([2.2 * L, 8 * R, 8 * R])
-    s = Fluid(x + box / 2, np.zeros((2 * n, 3)), np.full(2 * n, 8930.0), np.zeros(2 * n), np.repeat([1, 2], n), {1: 8930 * dx**3, 2: 8930 * dx**3},
+    center = box / 2 * ([1, 0, 0] if quarter else 1)
+    s = Fluid(x + center, np.zeros((2 * n, 3)), np.full(2 * n, 8930.0), np.zeros(2 * n), np.repeat([1, 2], n), {1: 8930 * dx**3, 2: 8930 * dx**3},
               {1: h * dx, 2: h * dx}, box, (False,) * 3)
     s.v[:, 0] = np.repeat([-V, V], n)
-    pair = f"pair_style hvi/sph cubic form sum {words} h constant\npair_coeff * * file {root}/potentials/Cu-OFHC.hvi h {h * dx}\n"
+    path = material(folder / "Cu.hvi", *laws, units="si") if laws else f"{root}/potentials/Cu-OFHC.hvi"
+    how = f"h {'variable' if variable else 'constant'} {'mirror y 0 lo mirror z 0 lo' if quarter else ''}"
+    pair = f"pair_style hvi/sph {kernel} form sum {words} {how}\npair_coeff * * file {path} h {h * dx}\n"
     start = time.time()
-    steps = int(t_end / (0.2 * h * dx / 5500))
-    r = run(lmp, folder, s, pair, "damage no spall none", steps, dt=t_end / steps, frames=steps, units="si", lost="ignore")
-    y = r.frames[-1]["x"][:n] - box / 2 if len(r.frames[-1]["x"]) == 2 * n else np.full((n, 3), np.nan)
+    steps = int(t_end / (courant * h * dx / 5500))
+    r = run(lmp, folder, s, pair, "damage no spall none", steps, dt=t_end / steps, frames=steps, units="si", lost="ignore", skin=skin)
+    y = r.frames[-1]["x"][:n] - center if len(r.frames[-1]["x"]) == 2 * n else np.full((n, 3), np.nan)
     rad = np.sqrt(y[:, 1] ** 2 + y[:, 2] ** 2)
     foot = rad[-y[:, 0] < 1e-3] if y[:, 0].mean() < 0 else rad[y[:, 0] < 1e-3]  # of a disc, from its second moment; and the outermost particle
     t = r.thermo

@@ -51,8 +51,8 @@ def sections(s):
 
 
 def flyer(lmp, folder, flying, target, speed, n=LAYERS, across=ACROSS, dim=3, kernel="wendland2", h=1.6, words="viscosity 1 2", variable=False,
-          gap=1.0, jitter=0.0, fill="lattice"):
-    """runs it; lmp(text) runs LAMMPS in the folder. Returns what measure() does, with cost and books; lengths in spacings"""
+          gap=1.0, jitter=0.0, fill="lattice", courant=COURANT, skin=0.3):
+    """runs it; lmp(text) runs LAMMPS in the folder. Returns what measure() does, with cost and books; lengths, skin too, in spacings"""
     joined = flying is PISTON
     units, dx, gap = ("lj", 2.5e-3, 0.0) if joined else ("si", SPACING, gap)
     solid = flying.Y > 0 or target.Y > 0
@@ -91,7 +91,7 @@ pair_style hvi/sph {kernel} dim {dim} {words} h {'variable' if variable else 'co
 pair_coeff 1 1 file {files[0]} h {h * dx:.17g}
 pair_coeff 2 2 file {files[1]} h {h * dx:.17g}
 pair_coeff 1 2 tension {'yes' if joined else 'no'}
-neighbor {0.3 * dx:.17g} bin
+neighbor {skin * dx:.17g} bin
 neigh_modify every 1 delay 0 check yes one 10000
 {'fix jc all hvi/johnson-cook strength perfect damage no spall none' if solid else ''}
 compute book all hvi/energy
@@ -101,7 +101,7 @@ compute R all property/atom rho
 thermo 10
 thermo_style custom step time dt c_book[1] c_book[2] c_book[8] c_book[9] c_book[10] c_book[11] c_book[12] c_book[28]
 thermo_modify format float %.16g
-fix step all hvi/dt {COURANT}
+fix step all hvi/dt {courant}
 """
     for part in (0.5, 1.0):
         text += f"""variable left equal {part * end:.17g}-time
@@ -114,7 +114,7 @@ write_dump all custom f.{part} id type x y z vx vy vz c_R c_S[*] modify time yes
     frames = [read_frames(folder / f"f.{part}")[0] for part in (0.5, 1.0)]
     if dim == 1:
         grid[:, 1:] = 0
-    out = measure(frames, grid[:, 0], n, dx, exact, speed)
+    out = measure(frames, grid[:, 0], n, dx, exact, speed, gap * dx / speed)
     table, out["seconds"], out["steps"] = read_log(r.log)
     out.update(particles=k, drift=np.abs(table[:, 6] - 1).max(), momentum=np.abs(table[:, 7:10] - table[0, 7:10]).max() / (s.m @ s.v[:, 0]))
     return out
@@ -134,8 +134,27 @@ def fronts(x, u, waves):
     return least_squares(lambda q: model(q) - u, start, x_scale=wide / 5, xtol=1e-12, ftol=1e-12).x[::2]
 
 
-def measure(frames, column, n, spacing, exact, speed):
-    """by side (flyer, target): relative errors on the plateau and at the contact, scatter on the plateau, errors of the speeds"""
+def profile(waves, rest, n, spacing, time):
+    """exact fields of n layers from the contact, means over their mass, so long after the impact"""
+    passed = [np.clip(w.m * time / (rest * spacing) - np.arange(n), 0, 1) for w in waves]
+    start = dict(sigma=0.0, rho=rest, u=0.0, e=0.0)
+    states = [start] + [{f: getattr(w, f) for f in FIELDS} for w in waves]
+    return {f: start[f] + sum(part * (b[f] - a[f]) for part, a, b in zip(passed, states, states[1:])) for f in FIELDS}
+
+
+def distance(rows, waves, rest, spacing, time):
+    """L1 of the layers over those that the fastest wave has passed, in units of the last jump, by field"""
+    want = profile(waves, rest, len(rows["u"]), spacing, time)
+    jump = {f: getattr(waves[-1], f) - (rest if f == "rho" else 0.0) for f in FIELDS}
+    passed = waves[0].m * time / (rest * spacing)
+    return {f: np.abs(rows[f] - want[f]).sum() / passed / jump[f] for f in FIELDS}
+
+
+def measure(frames, column, n, spacing, exact, speed, start=0.0):
+    """by side (flyer, target): relative errors on the plateau and at the contact, scatter on the plateau, errors of the speeds, L1
+
+    start: time of the impact
+    """
     out = {}
     for name, k, waves, sign, ours in (("flyer", 0, exact[0], -1, column < n), ("target", 1, exact[1], 1, column >= n)):
         layer = (n - 1 - column if k == 0 else column - n)[ours]  # from the contact
@@ -160,7 +179,8 @@ def measure(frames, column, n, spacing, exact, speed):
         parts = dict(plateau=(layer >= a) & (layer <= b), near=(layer >= CONTACT) & (layer < NEAR), contact=layer < CONTACT)
         out[name] = {part: {f: last[f][k].mean() / wish[f] - 1 for f in FIELDS} for part, k in parts.items()}
         out[name].update(scatter={f: last[f][parts["plateau"]].std() / wish[f] for f in FIELDS}, Us=speeds[-1] / want.D - 1,
-                         precursor=speeds[0] / waves[0].D - 1 if len(waves) > 1 else np.nan, number=number - 1, layers=rows[1], exact=waves)
+                         precursor=speeds[0] / waves[0].D - 1 if len(waves) > 1 else np.nan, number=number - 1, layers=rows[1], exact=waves,
+                         l1=distance(rows[1], waves, rest, spacing, frames[1]["time"] - start))
     return out
 
 
