@@ -51,7 +51,7 @@ def run(case, settings, folder, lmp, ranks=1, timeout=600):
     if "cannot" in method:
         raise Cannot(method["cannot"])
     os.environ.setdefault("LAMMPS_POTENTIALS", os.pathsep.join([str(ROOT / "potentials"), str(ROOT / "examples" / "spall")]))
-    variables = {**({} if "scene" in method else case.get("common", {})), **case.get("base", {}), **{k: v for k, v in method.items() if k not in OWN}, **{k: v for k, v in settings.items() if k not in OURS}}
+    variables = variables_of(case, method, settings)
     source = runs.Input(BENCH / method.get("scene", case["scene"]))
     record = {"particles": 0, "steps": 0, "loop_s": 0.0, "errors": {}, "numbers": {}, "ledger": {}, "failed": ""}
     end, done = time.monotonic() + timeout, []
@@ -80,6 +80,12 @@ def run(case, settings, folder, lmp, ranks=1, timeout=600):
     if not record["failed"] and record["ledger"].get("energy_end", 0.0) > OPEN:
         record["failed"] = f"energy off by {100 * record['ledger']['energy_end']:.2g} %"
     return record
+
+
+def variables_of(case, method, settings):
+    """of the input: what the case says, over that the method, over that the settings"""
+    return {**({} if "scene" in method else case.get("common", {})), **case.get("base", {}), **{k: v for k, v in method.items() if k not in OWN},
+            **{k: v for k, v in settings.items() if k not in OURS}}
 
 
 def parts(case, name, variables, source):
@@ -131,7 +137,11 @@ def make_mesh(path, variables, words):
 
 def one(source, variables, folder, lmp, ranks, timeout):
     """runs the input; (result.yaml, ledger, loop time in s)"""
-    r = executor(lmp, folder)(source.path, nranks=ranks, vars={k: v if isinstance(v, list) else str(v) for k, v in variables.items()}, timeout=timeout)
+    try:
+        r = executor(lmp, folder)(source.path, nranks=ranks, vars={k: v if isinstance(v, list) else str(v) for k, v in variables.items()}, timeout=timeout)
+    except Stopped as why:
+        said = [line for path in folder.glob("log.*") for line in path.read_text().splitlines() if line.strip() and not line.startswith(("quit", "Total wall"))]
+        raise Stopped(f"{why}: {said[-1]}" if said and str(why).startswith("ended with") else str(why)) from None  # what the input printed before it quit
     result = runs.read_yaml(folder / "result.yaml")
     if not result or "particles" not in result or "steps" not in result:
         raise Stopped("no complete result.yaml")
