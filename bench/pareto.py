@@ -1,7 +1,7 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """Records of bench/run.py as points of cost and error: averages over lattice shifts, Pareto fronts, cheapest settings for a bound.
 
-What cases and records are: bench/README.md. Costs are core-seconds of LAMMPS's loops, of runs on idle cores only; errors are magnitudes,
+A case is a file of bench/cases, a record one run of bench/run.py. Costs are core-seconds of LAMMPS's loops, of runs on idle cores only; errors are magnitudes,
 in the unit of the case. A run counts if it came to its end with a finite error and with its books closed (LEDGER).
 """
 
@@ -360,7 +360,8 @@ def standing(case, points):
         return Standing("ledger open")
     if not default.timed:
         return Standing("not timed")
-    better = [p for p in front(points) if p is not default and p.cost <= default.cost and p.error <= default.error and -1 in sides(p, default)]
+    rivals = [p for p in points if p.counts and p.timed and p is not default and p.cost <= default.cost and p.error <= default.error]
+    better = [p for p in rivals if -1 in sides(p, default)]
     if not better:
         return Standing("front" if default in front(points) else "within 5 %")
     by = min(better, key=lambda p: (not p.ours, p.cost / default.cost * (p.error / default.error if default.error else 1.0)))
@@ -398,7 +399,8 @@ def variations(case, points):
         if p is default or len(names) > 1 or base is None or p.error is None or (p.method != default.method and p.fine != default.fine):
             continue
         name = names[0] if names else key
-        old, new = (", ".join(word(q.method if part == "method" else value(case, q.settings, part)) for part in name.split(", ")) for q in (base, p))
+        old, new = ([q.method if part == "method" else value(case, q.settings, part) for part in name.split(", ")] for q in (base, p))
+        old, new = (", ".join(map(word, values)) if any(v is not None for v in values) else "unset" for values in (old, new))
         said = (p.failed and "fails") or (p.open and "ledger open") or WORDS[sides(p, base)]
         found.append(Variation(name, old, new, p, base, said))
     return sorted(found, key=lambda v: (v.name != key, v.name == "method", v.name, v.base.fine or 0.0))

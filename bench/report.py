@@ -134,7 +134,7 @@ class Report:
         costs = list(self.costs())
         if costs:
             self.sections["What a step costs"] = costs
-        failed = sections.failures(self.points)
+        failed = sections.failures(cases, self.points, records)
         self.sections["What failed"] = [failed] if failed.rows else ["Nothing failed."]
         self.sections["Runs behind it"] = [origin(records)]
 

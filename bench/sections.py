@@ -22,7 +22,9 @@ def error_text(p):
         return Number("-")
     if p.scatter is None:
         return number(p.error)
-    return Number(f"{number(p.error)} +- {number(float(f'{p.scatter:.2g}'))} ({p.runs})")
+    text = number(p.error)
+    scatter = number(p.scatter) if "e" in text else f"{p.scatter:.{len(text.partition('.')[2])}f}"
+    return Number(f"{text} +- {scatter} ({p.runs})")
 
 
 def with_unit(p):
@@ -82,14 +84,18 @@ def needs(cases, points, questions=None):
     return Table(["question", "case", *(f"within {bound} %" for bound in pareto.BOUNDS)], rows)
 
 
-def failures(points):
-    """[case, method, settings, why] of what failed, cannot be done, or has an open ledger"""
+def failures(cases, points, records):
+    """what failed, cannot be done, or has an open ledger"""
     rows = []
     for runs in points.values():
         for p in runs:
             why = p.failed or (p.cannot and f"cannot: {p.cannot}") or (p.open and open_text(p))
             if why:
                 rows.append([p.case["title"], p.method, p.text or "-", why])
+    for name, case in cases.items():
+        if case["group"] == "steps":
+            found = step_costs(case, [r for r in records if r["case"] == name])
+            rows += [[case["title"], c["method"], c["text"] or "-", c["why"]] for c in found if c["why"]]
     return Table(["case", "method", "settings", "why"], rows)
 
 
@@ -132,7 +138,7 @@ def variations(case, points):
         text = Bold if v.word == "dominates" else str
         at = pareto.word(pareto.value(case, base.settings, key)) if v.name != key else "-"
         rows.append([text(v.name), text(f"{v.old} to {v.new}"), Number(at), text(cost), error_text(base), error_text(p), text(error), Marks(v.word)])
-    return Table(["setting", "from default", f"at {case['resolution']}", "cost", "error of default", "error", "ratio", "so it"], rows)
+    return Table(["setting", "change", f"at {case['resolution']}", "cost", "error of default", "error", "ratio", "so it"], rows)
 
 
 def others(case):
@@ -143,32 +149,37 @@ def others(case):
 
 
 # ---------------------------------------------------------------------- the cost of a step
-def steps(case, records):
-    """Medians over repetitions of core-seconds per particle and step, with the least and the most, beside the default's. records: of this case"""
+def step_costs(case, records):
+    """A dict for each method and settings but for repetitions: method, settings, text, particles, why (it failed), rates (us of a core per
+    particle and step, of idle runs), bytes per particle. records: of this case"""
     groups = {}
     for r in records:
-        settings = {"ranks": r.get("ranks", 1), **r["settings"], "method": r["method"]}
-        others = tuple((name, pareto.plain(v)) for name, v in sorted(settings.items(), key=str) if name not in ("method", "repeat"))
+        settings = {"ranks": r.get("ranks", 1), **r["settings"]}
+        others = tuple((name, pareto.plain(v)) for name, v in sorted(settings.items()) if name not in ("method", "repeat"))
         groups.setdefault((others, r["method"]), []).append(r)
-    order, default, usual = list(case["methods"]), (case.get("default") or {}).get("method"), {}
-    made = []
+    order, found = list(case["methods"]), []
     for settings, method in sorted(groups, key=lambda key: (str(key[0]), order.index(key[1]) if key[1] in order else -1)):
         group = pareto.latest(groups[settings, method])
         whys = [pareto.without_folders(r.get("failed") or r.get("cannot")) for r in group if r.get("failed") or r.get("cannot")]
         idle = [r for r in group if r.get("idle") and not whys]
-        rates = [1e6 * r["loop_s"] * r.get("ranks", 1) / (r["particles"] * r["steps"]) for r in idle]
-        if rates and method == default:
-            usual[settings] = statistics.median(rates)
-        size = pareto.largest(r.get("numbers", {}).get("bytes_per_particle") for r in group)
-        made.append((settings, method, group, "; ".join(dict.fromkeys(whys)), rates, size))
+        found.append({"method": method, "settings": settings, "text": ", ".join(f"{name} {pareto.word(v)}" for name, v in settings),
+                      "particles": None if whys else group[0]["particles"], "why": "; ".join(dict.fromkeys(whys)),
+                      "rates": [1e6 * r["loop_s"] * r.get("ranks", 1) / (r["particles"] * r["steps"]) for r in idle],
+                      "bytes": pareto.largest(r.get("numbers", {}).get("bytes_per_particle") for r in group)})
+    return found
+
+
+def steps(case, records):
+    """medians of step_costs with the least and the most, beside the default's in the same settings"""
+    found, default = step_costs(case, records), (case.get("default") or {}).get("method")
+    usual = {c["settings"]: statistics.median(c["rates"]) for c in found if c["method"] == default and c["rates"]}
     rows = []
-    for settings, method, group, why, rates, size in made:
+    for c in found:
+        rates, unit = c["rates"], usual.get(c["settings"])
         middle = statistics.median(rates) if rates else None
-        text = ", ".join(f"{name} {pareto.word(v)}" for name, v in settings)
         spread = f"{number(min(rates))} to {number(max(rates))}" if len(rates) > 1 else "-"
-        against = Number(f"{middle / usual[settings]:.2f}") if rates and settings in usual else Number("-")
-        particles = None if why else group[0]["particles"]
-        rows.append([Marks("default") if method == default else "", method, text, number(particles), number(middle), spread, against,
-                     number(size and round(size)), why or ("" if rates else "not timed: cores were busy")])
+        rows.append([Marks("default") if c["method"] == default else "", c["method"], c["text"], number(c["particles"]), number(middle), spread,
+                     Number(f"{middle / unit:.2f}") if rates and unit else Number("-"), number(c["bytes"] and round(c["bytes"])),
+                     c["why"] or ("" if rates else "not timed: cores were busy")])
     names = ["mark", "method", "settings", "particles", "us per particle-step", "least to most", "of the default's", "bytes per particle", "remark"]
     return Table(names, rows)

@@ -11,12 +11,15 @@ from hvi.page import Html, tag
 
 WORDS = {"front": "holds", "default": "accent", "dominates": "holds", "dominated": "fails", "fails": "fails",
          "ledger open": "fails", "trade": "undecided"}
+# a space within "3 s", "2 %", "x 0.5", ", n 400" is no place for a new line
+KEEP = re.compile(r"\d (?=[s%](?!\w))|\bx (?=\d)|(?<=, )\w+ (?=[-\d.]+(?:[,:]|$))")
 # dark where the reader's system is; figures stay on white
 STYLE = """
 .word { font-size: .85em; padding: 0 7px; } .word + .word { margin-left: 4px; } .word.accent { --said: #2f62a8; } .word.soft { --said: #6b6b6b; }
 figure img { max-width: 840px; background: #fff; border-radius: 8px; }
 table { font-size: .86rem; } tbody tr.front { background: color-mix(in srgb, var(--accent) 9%, transparent); } th, td { padding-left: 6px; }
-td.n, th.n { white-space: nowrap; } .scroll { margin: 10px 0 14px; } nav { font-size: .85rem; }
+td.n { white-space: nowrap; } thead th { white-space: normal; vertical-align: bottom; } td:not(.n) { min-width: 5.5em; }
+main { max-width: 1440px; } header.top > div { max-width: 1400px; } .scroll { margin: 10px 0 14px; } nav { font-size: .85rem; }
 @media (prefers-color-scheme: dark) and (not print) {
   :root { --ink: #dfe5ea; --soft: #9aa7b2; --line: #333d46; --back: #12171c; --card: #1b2229; --accent: #86b0ea; }
   pre { background: #151b21; } thead th { border-bottom-color: #4a5661; }
@@ -27,6 +30,7 @@ td.n, th.n { white-space: nowrap; } .scroll { margin: 10px 0 14px; } nav { font-
 def inline(cell):
     """a cell or a text of the report"""
     text = str(cell).replace("+-", "\u00b1")
+    text = KEEP.sub(lambda m: m[0][:-1] + "\u00a0", text)
     if isinstance(cell, blocks.Marks):
         return page.join([tag("span", word, class_=f"word {WORDS.get(word, 'soft')}") for word in cell.words])
     if isinstance(cell, blocks.Bold):
@@ -37,7 +41,7 @@ def inline(cell):
 def table(block):
     """page.table, with its columns to the right by what the report says they are"""
     right = block.numeric()
-    head = tag("tr", *(tag("th", name, scope="col", class_="n" if r else None) for name, r in zip(block.names, right)))
+    head = tag("tr", *(tag("th", name.replace("core-s", "core\u2011s"), scope="col", class_="n" if r else None) for name, r in zip(block.names, right)))
     rows = [tag("tr", *(tag("td", inline(cell), class_="n" if r else None) for cell, r in zip(row, right)),
                 class_="front" if any(isinstance(cell, blocks.Marks) and "front" in cell.words for cell in row) else None) for row in block.rows]
     caption = [tag("caption", block.caption)] if block.caption else []
