@@ -11,7 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-from pareto import GROUPS, front
+from pareto import GROUPS, QUESTIONS, front
 from PIL import Image
 
 WIDTH = 7.0  # inches
@@ -21,7 +21,7 @@ SIZE, SMALL = 9, 7.5  # of letters, points
 INK, SOFT = "#1c2329", "#5a6670"
 HERE = {"font.family": "DejaVu Sans", "axes.edgecolor": SOFT, "xtick.color": SOFT, "ytick.color": SOFT, "xtick.labelcolor": INK,
         "ytick.labelcolor": INK, "axes.labelcolor": INK, "text.color": INK}
-COST, WORK = "core-seconds", "particle-steps (no times: the cores were busy)"
+COST, WORK = "core-seconds", "million particle-steps (no times: the cores were busy)"
 
 
 def png(figure, dpi):
@@ -136,7 +136,7 @@ def of_case(case, points):
     if not positive:
         return None
     floor = 0.5 * min(positive)  # where errors of zero are drawn
-    at = {id(p): (p.cost if timed else p.particles * p.steps, max(p.error, floor)) for p in drawn}
+    at = {id(p): (p.cost if timed else 1e-6 * p.particles * p.steps, max(p.error, floor)) for p in drawn}
     theirs = [(float(o["core_s"]), max(float(o["error"]), floor)) for o in others]
     figure, (ax,) = new([4.3])
     handles = []
@@ -188,6 +188,17 @@ def of_case(case, points):
     return figure
 
 
+def split(groups):
+    """(title, fronts) of panels with as many cases as there are colors at most, those of one question together; groups: {group: fronts}"""
+    for group in (g for g in GROUPS if g in groups):
+        asked = [*QUESTIONS, None]
+        fronts = sorted(groups[group], key=lambda found: asked.index(next((q for q in found[0]["question"] if q in asked), None)))
+        number = math.ceil(len(fronts) / len(COLORS))
+        for k in range(number):
+            part = fronts[k * len(fronts) // number:(k + 1) * len(fronts) // number]
+            yield GROUPS[group] + (f" ({k + 1} of {number})" if number > 1 else ""), part
+
+
 def headline(cases, points):
     """The front of the package's methods in each case, a panel per group; rings: defaults. None if no run has a time."""
     groups = {}
@@ -198,16 +209,16 @@ def headline(cases, points):
             groups.setdefault(cases[name]["group"], []).append((cases[name], best, default))
     if not groups:
         return None
-    heights = [max(2.3, 0.55 + 0.19 * sum(len(textwrap.wrap(case["title"], 30)) for case, *_ in groups[g])) for g in GROUPS if g in groups]
+    panels = list(split(groups))
+    heights = [max(2.3, 0.55 + 0.175 * sum(len(textwrap.wrap(case["title"], 30)) for case, *_ in fronts)) for _, fronts in panels]
     figure, axes = new(heights, sharex=True)
-    every = [p.cost for fronts in groups.values() for _, best, default in fronts for p in [*best, *([default] if default else [])]]
-    for ax, group in zip(axes, (g for g in GROUPS if g in groups)):
-        units = {str(case["error"].get("unit", "")) for case, *_ in groups[group]}
+    every = [p.cost for _, fronts in panels for _, best, default in fronts for p in [*best, *([default] if default else [])]]
+    for ax, (title, fronts) in zip(axes, panels):
+        units = {str(case["error"].get("unit", "")) for case, *_ in fronts}
         handles, errors = [], []
-        for k, (case, best, default) in enumerate(groups[group]):
+        for k, (case, best, default) in enumerate(fronts):
             unit = str(case["error"].get("unit", ""))
-            how = {"color": COLORS[k % len(COLORS)], "marker": MARKERS[k % len(MARKERS)], "ms": 4.5, "lw": 1.3}
-            how["ls"] = ("-", (0, (4, 2)))[k // len(COLORS) % 2]
+            how = {"color": COLORS[k], "marker": MARKERS[k], "ms": 4.5, "lw": 1.3, "ls": "-"}
             ax.plot([p.cost for p in best], [p.error for p in best], **how)
             handles.append(key(case["title"] + (f" ({unit})" if len(units) > 1 and unit else ""), 30, **how))
             errors += [p.error for p in best]
@@ -220,7 +231,7 @@ def headline(cases, points):
         log_axis(ax.yaxis, *ax.get_ylim())
         unit = units.pop() if len(units) == 1 else ""
         ax.set_ylabel(f"error ({unit})" if unit and unit != "1" else "error", fontsize=SIZE)
-        ax.set_title(GROUPS[group], fontsize=SIZE, loc="left", weight="bold")
+        ax.set_title(title, fontsize=SIZE, loc="left", weight="bold")
         if ax is axes[-1]:
             handles.append(key("default", color="black", marker="o", ms=9, mfc="none", mew=1.2, ls=""))
         legend(ax, handles)

@@ -1,8 +1,8 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """Records of bench/run.py as points of cost and error: averages over lattice shifts, Pareto fronts, cheapest settings for a bound.
 
-A case is a file of bench/cases, a record one run of bench/run.py. Costs are core-seconds of LAMMPS's loops, of runs on idle cores only; errors are magnitudes,
-in the unit of the case. A run counts if it came to its end with a finite error and with its books closed (LEDGER).
+A case is a file of bench/cases, a record one run of bench/run.py. Costs are core-seconds of LAMMPS's loops, of runs on idle cores only; errors
+are magnitudes, in the unit of the case. A run counts if it came to its end with a finite error and with its books closed (LEDGER).
 """
 
 import dataclasses

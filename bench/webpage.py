@@ -41,7 +41,8 @@ def inline(cell):
 def table(block):
     """page.table, with its columns to the right by what the report says they are"""
     right = block.numeric()
-    head = tag("tr", *(tag("th", name.replace("core-s", "core\u2011s"), scope="col", class_="n" if r else None) for name, r in zip(block.names, right)))
+    names = [name.replace("core-s", "core\u2011s") for name in block.names]
+    head = tag("tr", *(tag("th", name, scope="col", class_="n" if r else None) for name, r in zip(names, right)))
     rows = [tag("tr", *(tag("td", inline(cell), class_="n" if r else None) for cell, r in zip(row, right)),
                 class_="front" if any(isinstance(cell, blocks.Marks) and "front" in cell.words for cell in row) else None) for row in block.rows]
     caption = [tag("caption", block.caption)] if block.caption else []
