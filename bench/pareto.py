@@ -239,7 +239,7 @@ def point(case, records):
             p.cost, p.cost_scatter = float(np.mean(costs)), spread(costs)
             p.rate = 1e6 * sum(costs) / sum(work) if sum(work) else None
         p.particles, p.steps = (round(float(np.mean([r[key] for r in ended]))) for key in ("particles", "steps"))
-        p.memory = largest(r.get("memory_MB") for r in ended)
+        p.memory = largest(r.get("memory_MB") or None for r in ended)  # 0: it was too short to be seen
         p.energy, p.momentum = (largest(r.get("ledger", {}).get(key) for r in ended) for key in ("energy", "momentum"))
     return p
 

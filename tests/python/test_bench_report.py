@@ -39,7 +39,7 @@ CASES = {"sod": SOD, "hole": HOLE, "drift": DEM, "lattice": STEP}
 
 
 def record(case, error=None, cost=1.0, method="riemann", idle=True, failed="", cannot="", energy=1e-6, **settings):
-    """a record as bench/run.py writes it; cost: core-seconds; a setting ranks holds for the run, too"""
+    """a record as bench/run.py writes it; cost: core-seconds; ranks is a setting"""
     ranks, measure = settings.get("ranks", 1), CASES[case].get("error", {}).get("main")
     settings = {"method": method, **settings}
     n = settings.get("n", 100)
