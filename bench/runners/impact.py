@@ -2,19 +2,20 @@
 """Impacts of the examples beside experiments: an input that writes result.yaml, run with -var settings. What a case file has for it:
 
 scene: input that is run, from the folder bench on; a method may have one of its own. Settings are its variables.
-base: variables of all runs; common: those of runs of scene only, not of a method's own; methods: those of each, over base; with cannot: why in place of them
+base: variables of all runs; common: those of runs of scene only, not of a method's own; methods: those of each, over base; or cannot: why
 measures: {name of a number: key of result.yaml}, or in one of methods (stock inputs)
 reference: {name: measured value}, or targets: {method: {name: value}}; errors: "mean error" over these and one of each, %
 finest: {numbers: {name: value}}, our own finest run, or in one of methods: error "to finest", %
 parts: runs that are one point together, each with variables and reference of its own; errors are means over them
 divide: {dx: [t, layers]}: a variable as the quotient of two, of which the second is none of the input
 table: {file: CSV, names: [...], variables: [columns], reference: {name: column}}: rows of a table are the parts
-crossing: {of: name, at: value, over: variable, scale: factor, as: name, reference: value}: the variable at which a number falls through a value, from the parts
+crossing: {of: name, at: value, over: variable, scale: factor, as: name, reference: value}: the variable at which a number of the parts falls
+  through a value
 shots: {study: FILE, names: [...]}: the parts are published shots of hvi shots, and the error is the share of wrong verdicts, %;
   setting finer divides the spacings that the study's rule gives
 meshes: {file: words of hvi mesh}: walls of elements for methods that have them, of 2 or 3 particles each way
 drift: true: the error is the largest and the last deviation of the books of energy, %
-Ledgers have energy_end, too: energy is the largest deviation in the output of the run.
+Of parts, steps are the sum and particles the mean over them. Ledgers have energy_end, too: energy is the largest deviation in the output of the run.
 """
 
 import csv
@@ -54,7 +55,7 @@ def run(case, settings, folder, lmp, ranks=1, timeout=600):
     variables = variables_of(case, method, settings)
     source = runs.Input(BENCH / method.get("scene", case["scene"]))
     record = {"particles": 0, "steps": 0, "loop_s": 0.0, "errors": {}, "numbers": {}, "ledger": {}, "failed": ""}
-    end, done = time.monotonic() + timeout, []
+    end, done, moved = time.monotonic() + timeout, [], 0
     for number, (part, given, reference) in enumerate(parts(case, name, variables, source)):
         where = folder / str(number)
         where.mkdir(parents=True)
@@ -70,8 +71,9 @@ def run(case, settings, folder, lmp, ranks=1, timeout=600):
             for pattern in BIG:
                 for path in where.glob(pattern):
                     path.unlink()
-        record["particles"] = max(record["particles"], found["particles"])
-        record["steps"] += found["steps"]
+        record["steps"] += int(found["steps"])
+        moved += int(found["steps"]) * int(found["particles"])
+        record["particles"] = round(moved / max(record["steps"], 1))
         record["loop_s"] = round(record["loop_s"] + seconds, 4)
         for key, value in ledger.items():
             record["ledger"][key] = max(value, record["ledger"].get(key, 0.0))
@@ -111,7 +113,8 @@ def of_shots(words, variables, source):
     study = shots.Study(BENCH / words["study"], source)
     study.rule = {name: value * (1.0 if name == "ratio" else finer) for name, value in study.rule.items()}
     named = shots.named(study.shots, words["names"], words["study"])
-    return [(shot.name, {**study.case(shot).variables(0, study.shifts[0]), **variables}, {"verdict": shots.OBSERVED[shot.observed]}) for shot in named]
+    return [(shot.name, {**study.case(shot).variables(0, study.shifts[0]), **variables}, {"verdict": shots.OBSERVED[shot.observed]})
+            for shot in named]
 
 
 def from_table(words, variables):
@@ -137,11 +140,13 @@ def make_mesh(path, variables, words):
 
 def one(source, variables, folder, lmp, ranks, timeout):
     """runs the input; (result.yaml, ledger, loop time in s)"""
+    words = {k: v if isinstance(v, list) else str(v) for k, v in variables.items()}
     try:
-        r = executor(lmp, folder)(source.path, nranks=ranks, vars={k: v if isinstance(v, list) else str(v) for k, v in variables.items()}, timeout=timeout)
-    except Stopped as why:
-        said = [line for path in folder.glob("log.*") for line in path.read_text().splitlines() if line.strip() and not line.startswith(("quit", "Total wall"))]
-        raise Stopped(f"{why}: {said[-1]}" if said and str(why).startswith("ended with") else str(why)) from None  # what the input printed before it quit
+        r = executor(lmp, folder)(source.path, nranks=ranks, vars=words, timeout=timeout)
+    except Stopped as why:  # an input that refuses something prints it before it quits
+        lines = [line for path in folder.glob("log.*") for line in path.read_text().splitlines()]
+        said = [line for line in lines if line.strip() and not line.startswith(("quit", "Total wall"))]
+        raise Stopped(f"{why}: {said[-1]}" if said and str(why).startswith("ended with") else str(why)) from None
     result = runs.read_yaml(folder / "result.yaml")
     if not result or "particles" not in result or "steps" not in result:
         raise Stopped("no complete result.yaml")
@@ -207,4 +212,5 @@ def crossing(words, done, measures, record, errors):
             record["numbers"][words["as"]] = value
             errors.setdefault(words["as"], []).append(100 * abs(value / words["reference"] - 1.0))
             return
-    record["failed"] = f"{words['of']} does not fall through {words['at']} from {rows[0][0]:g} to {rows[-1][0]:g}: {', '.join(f'{y:.3g}' for _, y in rows)}"
+    record["failed"] = (f"{words['of']} does not fall through {words['at']} from {rows[0][0]:g} to {rows[-1][0]:g}: "
+                        + ", ".join(f"{y:.3g}" for _, y in rows))

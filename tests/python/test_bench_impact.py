@@ -9,9 +9,9 @@ import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "bench"))
-impact = pytest.importorskip("runners.impact")
+from runners import Cannot, impact  # noqa: E402
+
 from hvi.errors import HVIError  # noqa: E402
-from runners import Cannot  # noqa: E402
 
 CASES = {path.stem: yaml.safe_load(path.read_text()) for path in (ROOT / "bench" / "cases").glob("*.yaml")}
 CASES = {name: case for name, case in CASES.items() if case["runner"] == "impact"}
