@@ -2,8 +2,10 @@
 """Runners of bench/run.py: each module has run(case, settings, folder, lmp, ranks=1, timeout=600) and returns what answer() makes.
 
 case: the dict of a file in bench/cases; settings: dict of method, resolution and what is varied; folder: an empty pathlib.Path.
+SETTINGS of a module: names that it knows, for methods, base and runs.
 """
 
+import os
 import pathlib
 import re
 import sys
@@ -15,6 +17,8 @@ for folder in (ROOT / "python", ROOT / "tests"):
     if str(folder) not in sys.path:
         sys.path.insert(0, str(folder))
 
+os.environ.setdefault("LAMMPS_POTENTIALS", str(ROOT / "potentials"))
+
 OFF = 0.05  # a run whose energy is off by more has failed, whatever its error
 
 
@@ -22,12 +26,17 @@ class Cannot(Exception):
     """the method has no such law, dimension or boundary; str: why"""
 
 
-def merged(case, settings):
+def merged(case, settings, known):
     """the case's base, the method's settings, then those of the run"""
     method = settings["method"]
     if method not in case["methods"]:
-        raise KeyError(f"{case['title']}: no method {method}")
-    return {**case.get("base", {}), **(case["methods"][method] or {}), **settings}
+        raise ValueError(f"{case['title']}: there is no method {method}")
+    whole = {**case.get("base", {}), **(case["methods"][method] or {}), **settings}
+    if unknown := set(whole) - known - {"method", "ranks", "cannot"}:
+        raise ValueError(f"{case['title']}: runner {case['runner']} has no setting {', '.join(sorted(unknown))}")
+    if "cannot" in whole:
+        raise Cannot(whole["cannot"])
+    return whole
 
 
 def logs(folder):
