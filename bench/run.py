@@ -28,6 +28,7 @@ import subprocess
 import sys
 import threading
 import time
+import traceback
 
 import yaml
 
@@ -136,6 +137,9 @@ def measured(pipe, case, settings, folder, lmp, ranks, timeout):
         record.update(runner.run(case, settings, folder, lmp, ranks=ranks, timeout=timeout))
     except Cannot as why:
         record["cannot"] = str(why)
+    except Exception as problem:  # the others go on; main() ends with an error
+        traceback.print_exc()
+        record.update(failed=f"bench: {type(problem).__name__}: {problem}", errors={}, numbers={}, ledger={})
     record["wall_s"] = round(time.time() - start, 3)
     memory.done.set()
     memory.join()
@@ -215,7 +219,8 @@ def chosen(args):
 
 
 def work(args):
-    now, box = versions(args.lmp), machine()
+    """runs what is not there; how many runs the harness itself could not do"""
+    now, box, broken = versions(args.lmp), machine(), 0
     todo = [(case, s) for case in chosen(args) for s in settings_of(case, args.size)
             if not args.methods or s["method"] in args.methods.split(",")]
     for number, (case, settings) in enumerate(todo, 1):
@@ -237,6 +242,8 @@ def work(args):
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(json.dumps(record, sort_keys=True, indent=1) + "\n")
         print(f"[{number}/{len(todo)}] {show(record)}", flush=True)
+        broken += record["failed"].startswith("bench: ")
+    return broken
 
 
 def main():
@@ -255,6 +262,7 @@ def main():
     parser.add_argument("--publish", action="store_true", help="records of --out into bench/records, the report into doc")
     args = parser.parse_args()
     args.until = args.minutes and time.time() + 60 * args.minutes
+    broken = 0
     args.out, args.lmp = args.out.resolve(), (args.lmp or args.build / "lmp").resolve()
     try:
         if args.publish:
@@ -263,14 +271,15 @@ def main():
         else:
             if not args.lmp.exists():
                 raise Wrong(f"{args.lmp} is not there: run make first")
-            work(args)
+            broken = work(args)
             records, target = args.out / "records", args.out
     except Wrong as problem:
         sys.exit(f"bench: {problem}")
     if not args.dry:
         import report
 
-        sys.exit(report.main(["--records", str(records), "--out", str(target)]))
+        code = report.main(["--records", str(records), "--out", str(target)])
+        sys.exit(f"bench: {broken} runs stopped in the harness itself: see above" if broken else code)
 
 
 if __name__ == "__main__":

@@ -6,8 +6,10 @@ run(case, settings, folder, lmp, ranks=1, timeout=600) -> dict
     particles, steps: int; loop_s: LAMMPS's loop times (s of wall, all runs of it); errors, numbers: {name: number};
     ledger: {"energy": largest |E/E0 - 1|, "momentum": relative}; failed: "" or what went wrong
 A method that cannot do a case raises Cannot. answer() makes the dict from a folder with LAMMPS's logs.
+SETTINGS of a module: names that it knows, for methods, base and runs.
 """
 
+import os
 import pathlib
 import re
 import sys
@@ -19,6 +21,8 @@ for folder in (ROOT / "python", ROOT / "tests"):
     if str(folder) not in sys.path:
         sys.path.insert(0, str(folder))
 
+os.environ.setdefault("LAMMPS_POTENTIALS", str(ROOT / "potentials"))
+
 OFF = 0.05  # a run whose energy is off by more has failed, whatever its error
 
 
@@ -26,12 +30,17 @@ class Cannot(Exception):
     """the method has no such law, dimension or boundary; str: why"""
 
 
-def merged(case, settings):
+def merged(case, settings, known):
     """the case's base, the method's settings, then those of the run"""
     method = settings["method"]
     if method not in case["methods"]:
-        raise KeyError(f"{case['title']}: no method {method}")
-    return {**case.get("base", {}), **(case["methods"][method] or {}), **settings}
+        raise ValueError(f"{case['title']}: there is no method {method}")
+    whole = {**case.get("base", {}), **(case["methods"][method] or {}), **settings}
+    if unknown := set(whole) - known - {"method", "ranks", "cannot"}:
+        raise ValueError(f"{case['title']}: runner {case['runner']} has no setting {', '.join(sorted(unknown))}")
+    if "cannot" in whole:
+        raise Cannot(whole["cannot"])
+    return whole
 
 
 def logs(folder):

@@ -8,18 +8,17 @@ dissipation, alpha_rho, eta (named h here), kernel, hvar, a, b, gap; C is the st
 import numpy as np
 import yaml
 
-from . import ROOT, Cannot, answer, merged
+from . import ROOT, answer, merged
 
 from hard import Stopped, executor
 from reference import fronts, layers, measures
 
 VARIABLES = ("n", "dissipation", "alpha_rho", "kernel", "hvar", "a", "b", "gap")
+SETTINGS = {"h", "C", *VARIABLES}
 
 
 def run(case, settings, folder, lmp, ranks=1, timeout=600):
-    s = merged(case, settings)
-    if "cannot" in s:
-        raise Cannot(s["cannot"])
+    s = merged(case, settings, SETTINGS)
     which = case["scene"]
     words = {k: s[k] for k in VARIABLES if k in s}
     words.update({"case": which, "out": folder}, **({"eta": s["h"]} if "h" in s else {}), **({"dt": s["C"] / s["n"]} if "C" in s else {}))

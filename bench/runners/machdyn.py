@@ -4,7 +4,7 @@
 tlsph: kernel radius 2.01 spacings (aluminum_strip_pull), hourglass control 10, smd/adjust_dt 0.1. Its neighbors are wrong across periodic
 boundaries, so a strip in uniaxial strain has free sides and forces along x only. Bodies that meet are one from the start, as it has no other
 contact than springs. ulsph: kernel radius 2.5 spacings, adjust_radius 1.01 10 15 (fluid_structure_interaction).
-Settings: q1, q2 (viscosity), rows (of the strip), C (of smd/adjust_dt). One run each: it keeps its reference from the start of the first.
+Settings: q1, q2 (viscosity), rows (of the strip), smd_C (of smd/adjust_dt). One run each: it keeps its reference from the start of the first.
 """
 
 import copy
@@ -20,6 +20,7 @@ from state_scenes import LAYERS, SPACING, distance
 
 SUPPORT = {"tlsph": 2.01, "ulsph": 2.5}
 HOURGLASS = 10.0
+SETTINGS = {"q1", "q2", "rows", "smd_C"}
 
 
 def write_data(path, x, v, volume, mass, radius, box):

@@ -12,10 +12,11 @@ from hard import executor
 from shock_scenes import CASES
 
 WORDS = {"kernel": "kernel", "C": "courant", "skin": "skin", "variable": "variable", "h": "eta", "octant": "mirrors"}
+SETTINGS = {"n", "words", "stock", *WORDS, *machdyn.SETTINGS}
 
 
 def run(case, settings, folder, lmp, ranks=1, timeout=600):
-    s = merged(case, settings)
+    s = merged(case, settings, SETTINGS)
     scene, stock = CASES[case["scene"]], s.get("stock")
     if stock in ("ulsph", "tlsph"):
         call = executor(lmp, folder)

@@ -8,7 +8,7 @@ Settings: layers (through a thickness) or n (per radius, per width of a pulse), 
 
 import numpy as np
 
-from . import Cannot, answer, machdyn, merged
+from . import answer, machdyn, merged
 
 import face_scenes
 import fem_mechanics_scenes as fem
@@ -18,6 +18,7 @@ from hard import Stopped, executor
 LENGTH, FOOT = (21.4, 21.7), (6.97, 7.24)  # mm, of Taylor's cylinder by other codes
 RADIUS = 3.2e-3
 HOW = {"words": "words", "kernel": "kernel", "h": "h", "C": "courant", "skin": "skin", "variable": "variable"}
+SETTINGS = {"kind", "n", "layers", "fem", "element_C", *HOW, *machdyn.SETTINGS}
 
 
 def of_particles(s):
@@ -96,9 +97,7 @@ SCENES = {"verney": shell, "verney-cylinder": cylinder, "taylor": taylor, "wall"
 
 
 def run(case, settings, folder, lmp, ranks=1, timeout=600):
-    s = {"kind": "particles", **merged(case, settings)}
-    if "cannot" in s:
-        raise Cannot(s["cannot"])
+    s = {"kind": "particles", **merged(case, settings, SETTINGS)}
     call = executor(lmp, folder)
     try:
         o, errors, numbers = SCENES[case["scene"]](lambda text, **_: call(text, nranks=ranks, timeout=timeout), folder, s)

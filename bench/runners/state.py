@@ -15,10 +15,11 @@ from hard import Stopped, executor
 from state_scenes import CASES, FIELDS, flyer
 
 HOW = {"kernel": "kernel", "h": "h", "words": "words", "variable": "variable", "C": "courant", "skin": "skin", "dim": "dim", "gap": "gap"}
+SETTINGS = {"n", "stock", *HOW, *machdyn.SETTINGS}
 
 
 def run(case, settings, folder, lmp, ranks=1, timeout=600):
-    s = merged(case, settings)
+    s = merged(case, settings, SETTINGS)
     flying, target, speed = CASES[case["scene"]]
     execute = executor(lmp, folder)
     call = lambda text: execute(text, nranks=ranks, timeout=timeout)  # noqa: E731

@@ -1,0 +1,131 @@
+"""Cases of the bench (bench/cases) and their runners: consistent, and right in size where a run takes less than a second."""
+
+import csv
+import importlib
+import itertools
+import sys
+
+import pytest
+import yaml
+from conftest import ROOT
+
+sys.path.insert(0, str(ROOT / "bench"))
+import runners  # noqa: E402
+
+CASES = {path.stem: yaml.safe_load(path.read_text()) for path in sorted((ROOT / "bench" / "cases").glob("*.yaml"))}
+NEEDED = {"title", "group", "question", "about", "runner", "error", "resolution", "methods", "default", "short", "full"}
+QUESTIONS = {"wave", "hole", "cloud", "verdict", "fragments", "shock", "strength"}
+
+
+def expand(entries):
+    """the product of the lists of each entry"""
+    for entry in entries:
+        lists = [value if isinstance(value, list) else [value] for value in entry.values()]
+        yield from (dict(zip(entry, values)) for values in itertools.product(*lists))
+
+
+def runner(case):
+    return importlib.import_module(f"runners.{case['runner']}")
+
+
+def run(name, folder, lmp, ranks=1, **settings):
+    case = CASES[name]
+    r = runner(case).run(case, settings, folder, lmp, ranks=ranks, timeout=120)
+    assert set(r) == {"particles", "steps", "loop_s", "errors", "numbers", "ledger", "failed"}
+    assert r["failed"] == "" and r["particles"] > 0 and r["steps"] > 0 and r["loop_s"] > 0
+    assert case["error"]["main"] in r["errors"] and all(type(v) is float for d in (r["errors"], r["numbers"], r["ledger"]) for v in d.values())
+    assert set(r["ledger"]) <= {"energy", "momentum"} and r["ledger"]["energy"] < 0.02
+    return r["errors"][case["error"]["main"]]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_case_file(name):
+    case = CASES[name]
+    assert NEEDED <= set(case), NEEDED - set(case)
+    assert case["group"] in ("exact", "measured", "dem")
+    questions = case["question"] if isinstance(case["question"], list) else [case["question"]]
+    assert questions and set(questions) <= QUESTIONS
+    assert set(case["error"]) <= {"main", "unit", "uncertainty"} and case["error"]["unit"]
+    module, short, full = runner(case), list(expand(case["short"])), list(expand(case["full"]))
+    known = getattr(module, "SETTINGS", None)
+    for settings in [*short, *full]:
+        assert settings["method"] in case["methods"] and case["resolution"] in settings, settings
+        if known:
+            try:
+                runners.merged(case, settings, known)
+            except runners.Cannot as why:
+                assert str(why)
+    assert case["default"] in short or case["default"] in full
+    for form in (short, full):
+        assert all(form.count(s) == 1 for s in form), "the same run twice"
+    unused = set(case["methods"]) - {s["method"] for s in [*short, *full]}
+    assert not unused, f"methods without runs: {unused}"
+
+
+def test_wrong_settings():
+    case = CASES["sod"]
+    known = runner(case).SETTINGS
+    with pytest.raises(ValueError, match="no setting kernal"):
+        runners.merged(case, dict(method="riemann", n=100, kernal="cubic"), known)
+    with pytest.raises(ValueError, match="no method roe"):
+        runners.merged(case, dict(method="roe", n=100), known)
+    with pytest.raises(runners.Cannot, match="gamma 1.4"):
+        runner(case).run(CASES["noh-1d"], dict(method="stock sph", n=100), None, None)
+
+
+def test_failures_are_told(tmp_path):
+    """energy that is off, numbers that are none, LAMMPS's own errors"""
+    assert runners.answer(tmp_path, 1, {"L1": 1.0}, energy=0.4)["failed"] == "energy off by 40 %"
+    assert runners.answer(tmp_path, 1, {"L1": float("nan")})["failed"] == "not finite"
+    (tmp_path / "log.1").write_text("Loop time of 1.5 on 2 procs for 10 steps with 4 atoms\nLoop time of 0.25 on 2 procs for 3 steps with 4 atoms\n")
+    r = runners.answer(tmp_path, 4, {"L1": 1.0}, energy=1e-4)
+    assert (r["loop_s"], r["steps"], r["failed"]) == (1.75, 13, "")
+
+
+def test_sod(tmp_path, lmp_exe):
+    """as tests/verify/shocks.csv has it, on one rank and on two; another step, kernel and h make differences, but no large ones"""
+    with open(ROOT / "tests" / "verify" / "shocks.csv") as f:
+        rows = list(csv.DictReader(line for line in f if line[0] != "#"))
+    known = {r["method"]: 100 * float(r["l1_p"]) for r in rows if r["case"] == "sod" and r["n"] == "200"}
+
+    def error(k, **settings):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        return run("sod", folder, lmp_exe, **{"n": 200, **settings})
+
+    for method in ("monaghan", "interface", "riemann"):
+        assert error(method, method=method) == pytest.approx(known[method], rel=1e-3)
+    base = error("ranks", method="riemann", ranks=2)
+    assert base == pytest.approx(known["riemann"], rel=1e-3)
+    others = dict(C=0.1, kernel="cubic", h=1.5, variable=False, skin=1.0)
+    found = {k: error(k, method="riemann", **{k: v}) for k, v in others.items()}
+    assert all(0.5 < v / base < 2.5 for v in found.values()), found
+    assert found["skin"] == pytest.approx(base, rel=1e-6)
+    assert all(abs(found[k] / base - 1) > 1e-3 for k in ("kernel", "h", "variable")), found
+
+
+# case, settings, bounds of the main error in percent
+
+SIZES = [("noh-3d", dict(method="riemann", n=8), 20, 25), ("layered", dict(method="riemann", n=100), 2, 4),
+         ("flyer-1000", dict(method="machdyn ulsph", n=25), 5, 15), ("flyer-1000", dict(method="machdyn tlsph", n=25), 5, 15),
+         ("piston", dict(method="corrected", n=32), 3, 12), ("solid-flyer-1000", dict(method="machdyn tlsph", n=32), 5, 25),
+         ("wall-wave", dict(method="corrected", layers=2), 0, 0.3), ("wall-wave", dict(method="plain", layers=2), 20, 40),
+         ("wall-wave", dict(method="elements", layers=2), 0, 0.1), ("bending", dict(method="elements", layers=2), 0, 0.5),
+         ("elastic-pulse", dict(method="elements", n=4), 1, 20), ("elastic-pulse", dict(method="machdyn tlsph", n=4), 5, 50),
+         ("verney-shell", dict(method="corrected", layers=2), 1, 10), ("verney-cylinder", dict(method="corrected", layers=4), 0, 3),
+         ("taylor", dict(method="elements", n=2), 1, 10), ("spall", dict(method="riemann", n=16), 5, 15)]
+
+
+@pytest.mark.parametrize("name,settings,least,most", SIZES, ids=[f"{name}-{s['method']}".replace(" ", "-") for name, s, *_ in SIZES])
+def test_size_of_errors(tmp_path, lmp_exe, name, settings, least, most):
+    assert least < run(name, tmp_path, lmp_exe, **settings) < most
+
+
+def test_octant(tmp_path, lmp_exe):
+    """an eighth of a ball between mirrors is the whole ball"""
+    found = []
+    for octant in (True, False):
+        folder = tmp_path / str(octant)
+        folder.mkdir()
+        found.append(run("noh-3d", folder, lmp_exe, method="riemann", n=6, octant=octant))
+    assert found[0] == pytest.approx(found[1], rel=1e-6)
