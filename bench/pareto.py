@@ -53,6 +53,7 @@ def load_cases(folder):
         questions = case.get("question") or []
         cases[path.stem] = {**case, "name": path.stem, "base": case.get("base") or {},
                             "question": [questions] if isinstance(questions, str) else list(questions),
+                            "asked": dict(questions) if isinstance(questions, dict) else {},  # which error answers it, if not the main one
                             "methods": {str(method): own or {} for method, own in dict(case["methods"]).items()}}
     if not cases:
         raise HVIError(f"{folder}: no case (*.yaml)")
@@ -127,7 +128,7 @@ class Point:
     """Runs of one case that differ in the shift of the lattice (and the number of the repetition) alone, as means.
 
     settings: with method and ranks, without shift.  error, scatter: main error and its standard deviation (None of one run);
-    errors: {name: mean}.  cost, cost_scatter: core-seconds, None if no run was on idle cores.  rate: microseconds of a core per particle
+    errors: {name: mean}, scatters: of each.  cost, cost_scatter: core-seconds, None if no run was on idle cores.  rate: microseconds of a core per particle
     and step.  memory: MB, the largest.  energy, momentum: of the ledger, the largest; None if it was not kept.  fine: the resolution, the
     larger the finer.  extra: what differs from the default beyond method and resolution.  text: settings in words, without the method.
     """
@@ -141,6 +142,7 @@ class Point:
     error: float = None
     scatter: float = None
     errors: dict = dataclasses.field(default_factory=dict)
+    scatters: dict = dataclasses.field(default_factory=dict)
     cost: float = None
     cost_scatter: float = None
     rate: float = None
@@ -232,7 +234,8 @@ def point(case, records):
     if ended:
         idle = [r for r in ended if r.get("idle")]
         p.errors = {name: float(np.mean([magnitude(r["errors"].get(name)) for r in ended])) for name in ended[0]["errors"]}
-        p.error, p.scatter = p.errors[main], spread([magnitude(r["errors"][main]) for r in ended])
+        p.scatters = {name: spread([magnitude(r["errors"].get(name)) for r in ended]) for name in p.errors}
+        p.error, p.scatter = p.errors[main], p.scatters[main]
         if idle:
             costs = [r["loop_s"] * r.get("ranks", 1) for r in idle]
             work = [r.get("particle_steps") or r["particles"] * r["steps"] for r in idle]
@@ -446,10 +449,12 @@ def answer(points, bound):
 
 @dataclasses.dataclass
 class Need:
-    """A line of the table What does a scene need: answers: {bound: Answer or None}; best: the Point of the least error, None if no run counts"""
+    """A line of the table What does a scene need: of: the error that answers it; answers: {bound: Answer or None}; best: the Point of the
+    least error, None if no run counts"""
 
     question: str
     case: dict
+    of: str
     answers: dict
     best: Point
 
@@ -461,6 +466,8 @@ def scene_needs(cases, points, bounds=BOUNDS, questions=None):
     for question in asked:
         for name, runs in points.items():
             if question in cases[name]["question"]:
-                best = min((p for p in runs if p.counts and p.ours), key=lambda p: p.error, default=None)
-                found.append(Need(question, cases[name], {bound: answer(runs, bound) for bound in bounds}, best))
+                of = cases[name]["asked"].get(question) or cases[name]["error"]["main"]
+                seen = [dataclasses.replace(p, error=p.errors.get(of), scatter=p.scatters.get(of)) for p in runs]
+                best = min((p for p in seen if p.counts and p.ours and p.error is not None), key=lambda p: p.error, default=None)
+                found.append(Need(question, cases[name], of, {bound: answer(seen, bound) for bound in bounds}, best))
     return found

@@ -102,24 +102,23 @@ class Others:
 
 
 class Memory(threading.Thread):
-    """largest resident size of any process below this one, in MB, looked at ten times a second; 0 where /proc is not"""
+    """largest resident size of a process of LAMMPS below this one, in MB, looked at 25 times a second; 0 where /proc is not"""
 
-    def __init__(self):
+    def __init__(self, program):
         super().__init__(daemon=True)
-        self.most, self.done = 0.0, threading.Event()
+        self.program, self.most, self.done = str(program), 0.0, threading.Event()
 
     def run(self):
-        while not self.done.wait(0.1):
+        while not self.done.wait(0.04):
             self.most = max([self.most, *self.below(os.getpid())])
 
     def below(self, pid):
         try:
             for task in pathlib.Path(f"/proc/{pid}/task").iterdir():
                 for child in (task / "children").read_text().split():
-                    text = pathlib.Path(f"/proc/{child}/status").read_text()
-                    found = re.search(r"^VmHWM:\s+(\d+)", text, re.M)
-                    if found and re.match(r"Name:\s+lmp", text):
-                        yield int(found.group(1)) / 1024
+                    if os.readlink(f"/proc/{child}/exe") == self.program:
+                        found = re.search(r"^VmHWM:\s+(\d+)", pathlib.Path(f"/proc/{child}/status").read_text(), re.M)
+                        yield int(found.group(1)) / 1024 if found else 0.0
                     yield from self.below(child)
         except OSError:  # it ended meanwhile
             return
@@ -131,7 +130,7 @@ def measured(pipe, case, settings, folder, lmp, ranks, timeout):
     runner = importlib.import_module(f"runners.{case['runner']}")
     Cannot = importlib.import_module("runners").Cannot
     record = {"failed": "", "cannot": ""}
-    memory, others, start = Memory(), Others(), time.time()
+    memory, others, start = Memory(lmp), Others(), time.time()
     memory.start()
     try:
         record.update(runner.run(case, settings, folder, lmp, ranks=ranks, timeout=timeout))
@@ -232,7 +231,8 @@ def work(args):
             print(case["name"], settings)
             continue
         if args.until and time.time() > args.until:
-            raise Wrong(f"time is up: {len(todo) - number + 1} runs are left; the same command goes on")
+            print(f"time is up: {len(todo) - number + 1} runs are left at most; the same command goes on")
+            break
         folder = args.out / "runs" / case["name"] / file.stem
         record = run_one(case, settings, folder, args.lmp)
         record.update(date=datetime.date.today().isoformat(), versions=now, machine=box,

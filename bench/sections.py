@@ -79,7 +79,8 @@ def needs(cases, points, questions=None):
     found, rows, last = pareto.scene_needs(cases, points, questions=questions), [], None
     for need in found:
         title = pareto.QUESTIONS.get(need.question, need.question)
-        rows.append(["" if title == last else title, need.case["title"], *(need_cell(need, bound) for bound in pareto.BOUNDS)])
+        name = need.case["title"] if need.of == need.case["error"]["main"] else f"{need.case['title']}: {need.of}"
+        rows.append(["" if title == last else title, name, *(need_cell(need, bound) for bound in pareto.BOUNDS)])
         last = title
     return Table(["question", "case", *(f"within {bound} %" for bound in pareto.BOUNDS)], rows)
 
