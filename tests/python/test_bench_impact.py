@@ -54,7 +54,7 @@ def test_case_files(name):
 def test_plate(lmp_exe, tmp_path):
     """errors are those of the numbers, by hand; the ledger is closed; a part of the particles are elements in the hybrid"""
     sph = run(lmp_exe, tmp_path / "sph", "ceg3", {"method": "riemann", "dx": 1.25})
-    assert not sph["failed"] and sph["ledger"]["energy_end"] < 1e-5 and sph["ledger"]["momentum"] < 1e-12
+    assert not sph["failed"] and sph["ledger"]["energy"] < 1e-5 and sph["ledger"]["momentum"] < 1e-12
     measured = {"hole_mm": 18.90, "front_m_s": 5296, "length_mm": 81.1, "diameter_mm": 65.6}
     off = [abs(sph["numbers"][k] / v - 1) for k, v in measured.items()]
     assert sph["errors"]["mean error"] == pytest.approx(25 * sum(off)) and sph["errors"]["hole"] == pytest.approx(100 * off[0])
@@ -74,7 +74,7 @@ def test_stock(lmp_exe, tmp_path):
 
 def test_debris(lmp_exe, tmp_path):
     r = run(lmp_exe, tmp_path / "sc", "debris", {"method": "sc", "layers": 3, "tstop": 2})
-    assert 0 < r["numbers"]["F"] <= 1 and r["ledger"]["energy_end"] < 1e-3
+    assert 0 < r["numbers"]["F"] <= 1 and r["ledger"]["energy"] < 1e-3
     r = run(lmp_exe, tmp_path / "bpm", "debris", {"method": "stock bpm/spring", "layers": 3, "tstop": 2})
     assert 0 < r["numbers"]["F"] <= 1 and not r["ledger"]
     coarse, fine = (run(lmp_exe, tmp_path / str(c), "debris-step", {"method": "sc", "C": c, "N": 3000, "tstop": 2})["errors"] for c in (0.2, 0.05))
