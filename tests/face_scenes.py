@@ -229,7 +229,8 @@ def wave(lmp, folder, layers, words="viscosity 0.1 0", kernel="wendland2", h=1.6
         return np.polyfit(t[k], y[k], 1)[0] / c if k.sum() > 4 else np.nan
 
     return dict(head(dict(layers=layers), words, kernel, h, s, steps, seconds), speed=speed(middle), front=speed(front),
-                height=columns[-1].max() / columns[0].max(), l1=np.abs(columns[-1] - string).sum() / string.sum(), noise=np.abs(columns[-1][place < max(tail, 1)]).max() / A, **books(r))
+                height=columns[-1].max() / columns[0].max(), l1=np.abs(columns[-1] - string).sum() / string.sum(),
+                noise=np.abs(columns[-1][place < max(tail, 1)]).max() / A, **books(r))
 
 
 def block(counts, apart=0.0):

@@ -38,7 +38,8 @@ def runner(exe, folder):
     return lmp
 
 
-def verney(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="cubic", t_end=150.0, octant=False, courant=0.2, skin=0.3, variable=False):
+def verney(lmp, folder, dx, words="viscosity 0.1 0.5", h=1.2, kernel="cubic", t_end=150.0, octant=False, courant=0.2, skin=0.3,
+           variable=False):
     """octant: an eighth of the shell, between mirrors; skin in spacings"""
     path = material(folder / "Be.hvi", "eos gruneisen rho0 1.845 C 0.7998 S1 1.124 g0 1.11 a 0.16 T0 300", "strength perfect G 1.510 Y 0.0033")
     k = int(np.ceil(10 / dx))

@@ -39,7 +39,8 @@ def shell(lmp, folder, s):
         o = fem.verney(lmp, folder, s["layers"], t_end=115.0, **of_elements(s))
     else:
         o = solids.verney(lmp, folder, 2.0 / s["layers"], t_end=115.0, octant=True, **of_particles(s))
-    return o, {"inner radius": off(o["inner"] / 4), "strength": off(solids.strength(o["inner"]))}, {"inner_cm": o["inner"], "stops_at_us": o["stops_at"]}
+    errors = {"inner radius": off(o["inner"] / 4), "strength": off(solids.strength(o["inner"]))}
+    return o, errors, {"inner_cm": o["inner"], "stops_at_us": o["stops_at"]}
 
 
 def cylinder(lmp, folder, s):
@@ -71,7 +72,8 @@ def wall(lmp, folder, s):
         k = 2 * np.pi / 40
         return o, {"speed": off(o["frequency"] * face_scenes.CP * k / face_scenes.lamb(k, 1.0, False))}, {"amplitude": o["amplitude"]}
     o = face_scenes.borne(lmp, folder, n, length=40 * n, **of_particles(s))
-    return o, {"speed": off(o["speed"]), "speed of shear": off(o["shear_speed"]), "borne": off(o["borne"]), "loss": 100 * o["loss"]}, {"noise": o["noise"]}
+    errors = {"speed": off(o["speed"]), "speed of shear": off(o["shear_speed"]), "borne": off(o["borne"]), "loss": 100 * o["loss"]}
+    return o, errors, {"noise": o["noise"]}
 
 
 def bending(lmp, folder, s):
