@@ -35,7 +35,7 @@ def run(lmp_exe, folder, name, settings, **changes):
 def test_case_files(name):
     """what a case file says is there: methods, inputs and their variables, all settings of both forms"""
     case = CASES[name]
-    assert {"title", "group", "question", "about", "runner", "scene", "error", "resolution", "methods", "default", "short"} <= set(case)
+    assert {"title", "group", "about", "runner", "scene", "error", "resolution", "methods", "default", "short"} <= set(case)
     assert case["group"] in ("measured", "dem") and case["default"]["method"] in case["methods"]
     used = set()
     for entry in [*case["short"], *case.get("full", [])]:
