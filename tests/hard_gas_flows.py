@@ -64,7 +64,7 @@ def go(lmp, folder, s, words, t, laws=None, kernel=KERNEL, boundary=None, fastes
     if boundary:
         text = text.replace(f"boundary {' '.join('p' if a else 'f' for a in s.periodic)}", f"boundary {boundary} {boundary} p")
     text += "compute book all hvi/energy\ncompute R all property/atom rho esph\n" + ("" if stock else "compute P all hvi/atom p\n")
-    text += "thermo 20\n" + BOOK + "thermo_modify format float %.17g lost ignore\n" + end
+    text += "thermo 1\n" + BOOK + "thermo_modify format float %.17g lost ignore\n" + end
     text += f"write_dump all custom {name}.last id type mass x y vx vy c_R[1] c_R[2]{'' if stock else ' c_P'} modify sort id format float %.17g\n"
     r = lmp(text, timeout=timeout)
     a = np.loadtxt(folder / f"{name}.last", skiprows=9, ndmin=2)
@@ -179,11 +179,13 @@ def twins(apart, n=20):
 
 
 def shear(lmp, folder, words, n=32):
-    """v_x = sin(2 pi y/n) at Mach 0.1, until the fastest have crossed the box once: kinetic energy that is lost, error of v"""
+    """v_x = sin(2 pi y/n) at Mach 0.1, until the fastest have crossed the box once: kinetic energy that is lost, error of v; settings: words of the
+    pair style, or as of vortices()"""
+    kernel, eta, words = words if isinstance(words, tuple) else (KERNEL, ETA, words)
     x = (grid(n, n) + np.random.default_rng(1).uniform(-0.1, 0.1, (n * n, 2))) % n
     wave = lambda x: np.stack([np.sin(2 * np.pi * x[:, 1] / n), 0 * x[:, 1]], 1)  # noqa: E731
-    s = fluid(x, wave(x), (n, n), e=100 / (GAMMA * (GAMMA - 1)))  # c = 10
-    o = go(lmp, folder, s, words, n, fastest=11.0)
+    s = fluid(x, wave(x), (n, n), e=100 / (GAMMA * (GAMMA - 1)), eta=eta)  # c = 10
+    o = go(lmp, folder, s, words, n, kernel=kernel, fastest=11.0)
     kinetic = lambda v: (v**2).sum()  # noqa: E731
     return {"lost": 1 - kinetic(o["v"]) / kinetic(s.v), "v": np.abs(o["v"] - wave(o["x"])).mean(), **o["books"], **pairing(o)}
 
@@ -291,7 +293,7 @@ def faces(lmp, folder, words, n=10):
 
 
 def impact(fill):
-    """plates of liquid aluminum meet at 5 km/s in three dimensions, particles on a lattice or like glass: errors of the shocked state of the target"""
+    """plates of liquid aluminum meet at 5 km/s in three dimensions, particles on a lattice or like glass: errors of the target's shocked state"""
 
     def run(lmp, folder, words):
         if words == "stock":
