@@ -194,14 +194,14 @@ def kelvin_helmholtz(lmp, folder, words, n=48):
     """layers of density 1 and 2 at the same pressure, velocities -1/2 and 1/2 at a Mach number of 0.27 and 0.38; two waves of 0.02 n/4
 
     Chandrasekhar's growth of a wave on a vortex sheet between incompressible fluids: cosh(s t), s = k sqrt(rho1 rho2)/(rho1 + rho2); until s t = 2.
-    grows: ln of what the wave of v_y has grown by over that of theory. turned: the scene is its own image under half a turn.
+    grows: ln of what the wave of v_y has grown by over that of theory. symmetry: of the mirror images about the middle of the dense layer.
     """
     dense = lambda x: np.abs(x[:, 1] - 0.5 * n) < 0.25 * n  # noqa: E731
     x = grid(n, n)
     heavy, k, p = dense(x), 4 * np.pi / n, 2.5
     rho = np.where(heavy, 2.0, 1.0)
     phase = np.sin(k * x[:, 0])
-    decay = lambda y: sum(np.exp(-k * np.abs(y - a * n)) for a in (0.25, 0.75))  # noqa: E731
+    decay = lambda y: np.exp(-k * np.abs(y - 0.75 * n)) - np.exp(-k * np.abs(y - 0.25 * n))  # noqa: E731
     v = np.stack([np.where(heavy, 0.5, -0.5), 0.02 * phase * decay(x[:, 1])], 1)
     s = fluid(x, v, (n, n), rho, 2.5 * p / rho, np.where(heavy, 2, 1), {1: 1.0, 2: 2.0})
     rate = k * np.sqrt(2.0) / 3.0
@@ -212,10 +212,9 @@ def kelvin_helmholtz(lmp, folder, words, n=48):
         w = decay(x[:, 1])
         return np.hypot(*(2 * (w * v[:, 1] * f(k * x[:, 0])).sum() / (w * decay(x[:, 1])).sum() for f in (np.sin, np.cos)))
 
-    image = ((n - 1 - np.arange(n))[:, None] * n + (n - 1 - np.arange(n))[None, :]).ravel()
-    order = np.argsort(o["id"])
-    y = o["x"][order]
-    d = y + y[image] - n
+    image = (np.arange(n)[:, None] * n + (n - 1 - np.arange(n))[None, :]).ravel()
+    y = o["x"]
+    d = np.stack([y[:, 0] - y[image, 0], y[:, 1] + y[image, 1] - n], 1)
     d -= n * np.round(d / n)
     return {"grows": np.log(wave(o["x"], o["v"]) / wave(x, v)) / np.log(np.cosh(rate * t)), "symmetry": np.abs(d).max(), **o["books"], **pairing(o)}
 
