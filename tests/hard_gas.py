@@ -7,6 +7,7 @@ spacing. Paired: at most 1 % of the particles have a neighbor nearer than half o
 
 from hard import BOOKS, Case
 from hard_gas_flows import contrast, faces, impact, kelvin_helmholtz, random_rest, shear, spacings, spinning, twins, vortices
+from hard_gas_known import KNOWN
 from hard_gas_rows import ColdBlast, ColdNoh, Dome, HotGas, Release, Spaced, SpacedRest, Spalled, bounds_of, long_step, on_row, table_edges
 from shock_scenes import CASES as SHOCKS
 from shock_scenes import Interface
@@ -16,6 +17,7 @@ FLOW = {"monaghan": "viscosity 1 2", "interface": "viscosity 1 2 interface auto"
 KERNELS = {"cubic": 1.2, "quartic": 1.2, "quintic": 1.2, "gauss": 1.2, "wendland2": 1.6, "wendland4": 2.0}
 DISSIPATIONS = {"monaghan": "viscosity 0.1 0.2", "riemann": "dissipation riemann"}
 WENDLAND4 = {f"{k} wendland4": ("wendland4", 2.0, FLOW[k]) for k in ("monaghan", "riemann")}
+FINER = {"monaghan 0.1 0.2": "viscosity 0.1 0.2", "riemann finer": (FLOW["riemann"], 96)}
 HVI_ROW = {k: v for k, v in ROW.items() if v != "stock"}
 MIRROR, PAIRS = {"symmetry": 1e-6}, {"paired": 0.01}
 
@@ -33,17 +35,17 @@ def rounded(bounds):
     return {k: float(f"{b:.4g}") for k, b in bounds.items()}
 
 
-def standard(name, title, methods, short=(), known=None):
+def standard(name, title, methods, short=()):
     """of shock_scenes.py"""
     n, bounds = bounds_of(name)
-    return Case(name, title, on_row(SHOCKS[name], n), methods, {**bounds, **BOOKS, **MIRROR, **PAIRS}, short, known or {})
+    return Case(name, title, on_row(SHOCKS[name], n), methods, {**bounds, **BOOKS, **MIRROR, **PAIRS}, short)
 
 
 THOUSAND = Interface(1000, (200,), (200,))
 
 
-def on_row_case(case, title, criteria, methods, short=("riemann",), known=None, n=200, at_rest=None):
-    return Case(case.name, title, on_row(case, n, at_rest), methods, {**criteria, **BOOKS, **MIRROR, **PAIRS}, short, known or {})
+def on_row_case(case, title, criteria, methods, short=("riemann",), n=200, at_rest=None):
+    return Case(case.name, title, on_row(case, n, at_rest), methods, {**criteria, **BOOKS, **MIRROR, **PAIRS}, short)
 
 
 CASES = [
@@ -78,9 +80,9 @@ CASES = [
     *[Case(f"spacing-{k}-shock-2d", f"spacing {k} : 1 in a plane, a shock of Mach 1.2 passes", spacings(k, 1.2), FLOW,
            {"p_fine": 0.05, "u_fine": 0.05, "p_coarse": 0.05, "u_coarse": 0.05, **BOOKS, **PAIRS}, ("riemann",)) for k in (2, 4)],
     Case("shear", "shear layer, Mach 0.1, one crossing", shear, {**one_body(FLOW), **WENDLAND4}, {"lost": 0.2, "v": 0.1, **BOOKS, **PAIRS}, ("riemann",)),
-    Case("kelvin-helmholtz", "layers of density 1 and 2 slide on each other (Kelvin and Helmholtz)", kelvin_helmholtz, FLOW,
+    Case("kelvin-helmholtz", "layers of density 1 and 2 slide on each other (Kelvin and Helmholtz)", kelvin_helmholtz, {**FLOW, **FINER},
          {"grows": (0.5, 1.2), **MIRROR, **BOOKS, **PAIRS}),
-    Case("spinning-disc", "disc of liquid, free, one turn", spinning("disc"), one_body(FLOW),
+    Case("spinning-disc", "disc of liquid, free, one turn", spinning("disc"), {**one_body(FLOW), **WENDLAND4},
          {"angular": 1e-10, "v": 0.1, "pieces": 1, **BOOKS, **PAIRS}, ("riemann",)),
     Case("spinning-square", "square of liquid, free, a quarter turn", spinning("square", turns=0.25), one_body(FLOW),
          {"angular": 1e-10, "pieces": 1, **BOOKS, **PAIRS}, ("riemann",)),
@@ -101,3 +103,6 @@ CASES = [
          {f"{k} {w}": (k, h, words) for k, h in KERNELS.items() for w, words in DISSIPATIONS.items()},
          {"rho": 0.1, **BOOKS, **PAIRS}, ("wendland2 riemann",)),
 ]
+
+for _case in CASES:
+    _case.known = KNOWN.get(_case.name, {})
