@@ -195,7 +195,8 @@ def kelvin_helmholtz(lmp, folder, words, n=48):
     """layers of density 1 and 2 at the same pressure, velocities -1/2 and 1/2 at a Mach number of 0.27 and 0.38; two waves of v_y = 0.02
 
     Chandrasekhar's growth of a wave on a vortex sheet between incompressible fluids: cosh(s t), s = k sqrt(rho1 rho2)/(rho1 + rho2); until s t = 2.
-    Settings: words of the pair style, or these and n. grows: ln of what the wave of v_y has grown by over that of theory. symmetry: of the mirror images about the middle of the dense layer.
+    Settings: words of the pair style, or these and n. grows: ln of what the wave of v_y has grown by over that of theory.
+    symmetry: of the mirror images about the middle of the dense layer.
     """
     words, n = words if isinstance(words, tuple) else (words, n)
     dense = lambda x: np.abs(x[:, 1] - 0.5 * n) < 0.25 * n  # noqa: E731
