@@ -15,8 +15,8 @@ import numpy as np
 from hard import Cannot, Stopped
 from scipy.optimize import brentq
 from scipy.spatial import cKDTree
-from shock_runs import cannot, prepared, read_frame, read_log, run, script, write_data
-from shock_scenes import ETA, REACH, Interface, NohRow, Plates, Row, Tube, mean_around, row
+from shock_runs import cannot, prepared, read_frame, read_log, run, script, stock_step, write_data
+from shock_scenes import COURANT, ETA, REACH, Interface, NohRow, Plates, Row, Tube, mean_around, row
 from shock_scenes import CASES as SHOCKS
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -374,26 +374,30 @@ def table_edges(lmp, folder, method):
 
 
 def long_step(lmp, folder, method):
-    """SOD with three times the step that the formula of fix hvi/dt has with C = 1, the limit of stability. silent: 1 if the answer is wrong, beyond
-    bounds or twice what it is with C = 0.2, and neither an error, nor a warning, nor an energy that drifts by more than 1e-3 says so"""
+    """SOD with three times the step that the formula of fix hvi/dt (for stock: of the fastest signal) has with C = 1, the limit of stability.
+    silent: 1 if the answer is wrong, beyond bounds or twice what it is with C = 0.2, and neither an error, nor a warning, nor an energy that drifts by more than 1e-3 says so"""
     n, words = SOD.bound_n, "fix step all hvi/dt"
     right = run(SOD, method, n, lmp.exe, folder / "right")
     if right.error:
         raise Stopped(right.error)
-    scene = SOD.scene(n)
+    scene, _, rows = prepared(SOD, method, n)
     write_data(scene, folder / "data")
-    head, _, _ = script(SOD, scene, method, n).partition(words)
-    dt = 2 * float(lmp(head + f"{words} 0.5\nrun 0\n").thermo["Dt"][0])
+    if method == "stock":
+        head, dt = script(SOD, scene, method, n).partition("timestep")[0], stock_step(SOD, n) / COURANT
+    else:
+        head = script(SOD, scene, method, n).partition(words)[0]
+        dt = 2 * float(lmp(head + f"{words} 0.5\nrun 0\n").thermo["Dt"][0])
     frame, steps = folder / "frame.0", int(np.ceil(SOD.times[0] / (3 * dt)))
     frame.unlink(missing_ok=True)
     try:
-        r = lmp(head + f"timestep {SOD.times[0] / steps:.17g}\nrun {steps}\nwrite_dump all custom frame.0 id x y z vx vy vz c_s[1] c_s[2] c_p "
-                       "modify sort id format float %.17g\n")
+        r = lmp(head + f"timestep {SOD.times[0] / steps:.17g}\nrun {steps}\nwrite_dump all custom frame.0 id x y z vx vy vz c_s[1] c_s[2]"
+                       f"{'' if method == 'stock' else ' c_p'} modify sort id format float %.17g\n")
     except Stopped:
         return {"silent": 0.0}
     drift = np.abs(r.thermo["c_book[9]"] - 1).max()
     last = read_frame(frame, np.array(scene.mass)[scene.type - 1])
     finite = all(np.isfinite(a).all() for a in last.values())
-    l1 = SOD.errors(n, scene, last)[0] if finite else {}
+    last = {k: a.reshape(-1, rows, *a.shape[1:]).mean(axis=1) for k, a in last.items()}
+    l1 = SOD.errors(n, SOD.scene(n, method), last)[0] if finite else {}
     wrong = not finite or any(l1[f] > max(SOD.bounds(n)[f], 2 * right.l1[f]) for f in l1)
     return {"silent": float(wrong and not (r.warnings or not drift <= 1e-3))}
