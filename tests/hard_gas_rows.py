@@ -375,7 +375,8 @@ def table_edges(lmp, folder, method):
 
 def long_step(lmp, folder, method):
     """SOD with three times the step that the formula of fix hvi/dt (for stock: of the fastest signal) has with C = 1, the limit of stability.
-    silent: 1 if the answer is wrong, beyond bounds or twice what it is with C = 0.2, and neither an error, nor a warning, nor an energy that drifts by more than 1e-3 says so"""
+    silent: 1 if the answer is wrong, beyond bounds or twice what it is with C = 0.2, and neither an error, nor a warning, nor an energy that
+    drifts by more than 1e-3 says so"""
     n, words = SOD.bound_n, "fix step all hvi/dt"
     right = run(SOD, method, n, lmp.exe, folder / "right")
     if right.error:
