@@ -17,6 +17,8 @@ FLOW = {"monaghan": "viscosity 1 2", "interface": "viscosity 1 2 interface auto"
 KERNELS = {"cubic": 1.2, "quartic": 1.2, "quintic": 1.2, "gauss": 1.2, "wendland2": 1.6, "wendland4": 2.0}
 DISSIPATIONS = {"monaghan": "viscosity 0.1 0.2", "riemann": "dissipation riemann"}
 WENDLAND4 = {f"{k} wendland4": ("wendland4", 2.0, FLOW[k]) for k in ("monaghan", "riemann")}
+LUCY = {"monaghan lucy": ("lucy", 3.2, FLOW["monaghan"])}  # the same reach, but twice the viscosity, as h is the reach
+ULSPH = {"stock ulsph": "ulsph"}
 FINER = {"monaghan 0.1 0.2": "viscosity 0.1 0.2", "riemann finer": (FLOW["riemann"], 96)}
 HVI_ROW = {k: v for k, v in ROW.items() if v != "stock"}
 MIRROR, PAIRS = {"symmetry": 1e-6}, {"paired": 0.01}
@@ -84,9 +86,9 @@ CASES = [
          {"lost": 0.2, "v": 0.1, **BOOKS, **PAIRS}, ("riemann",)),
     Case("kelvin-helmholtz", "layers of density 1 and 2 slide on each other (Kelvin and Helmholtz)", kelvin_helmholtz, {**FLOW, **FINER},
          {"grows": (0.5, 1.2), **MIRROR, **BOOKS, **PAIRS}),
-    Case("spinning-disc", "disc of liquid, free, one turn", spinning("disc"), {**one_body(FLOW), **WENDLAND4},
+    Case("spinning-disc", "disc of liquid, free, one turn", spinning("disc"), {**one_body(FLOW), **ULSPH, **WENDLAND4, **LUCY},
          {"angular": 1e-10, "v": 0.1, "pieces": 1, **BOOKS, **PAIRS}, ("riemann",)),
-    Case("spinning-square", "square of liquid, free, a quarter turn", spinning("square", turns=0.25), one_body(FLOW),
+    Case("spinning-square", "square of liquid, free, a quarter turn", spinning("square", turns=0.25), {**one_body(FLOW), **ULSPH, **LUCY},
          {"angular": 1e-10, "pieces": 1, **BOOKS, **PAIRS}, ("riemann",)),
     *[Case(f"twins-{d:g}", f"two particles {d:g} spacings apart, in a gas at rest", twins(d), one_body(FLOW),
            {"u": 0.5, "rho": 0.05, **BOOKS}, ("monaghan", "riemann"))

@@ -1,7 +1,8 @@
 """Hard cases in two dimensions: gas and liquid that shear, spin, leave the box, or whose particles lie unevenly; for hard_gas.py.
 
 Spacing 1 (of the finer particles), gas of gamma 1.4 with rho = p = 1, so c = 1.18, unless said otherwise. Settings of the methods are words of the
-pair style, or "stock" for the package SPH (sums of density over a reach of 3.2 spacings, viscosity 0.75, fixed step).
+pair style, or "stock" for the package SPH (sums of density over a reach of 3.2 spacings, viscosity 0.75, fixed step), or "ulsph" for smd/ulsph of
+MACHDYN (the same reach and step, viscosity 1): liquids only, since its gas has p = (1 - gamma) rho e, the wrong sign.
 """
 
 import dataclasses
@@ -44,6 +45,8 @@ def go(lmp, folder, s, words, t, laws=None, kernel=KERNEL, boundary=None, fastes
     """
     laws = laws or {k: f"idealgas {GAMMA}" for k in s.mass}
     stock = words == "stock"
+    if words == "ulsph":
+        return ulsph(lmp, folder, s, t, next(iter(laws.values())).split(), fastest, timeout)
     if stock:
         law, reach = next(iter(laws.values())).split(), REACH * spacing
         if law[0] == "idealgas":
@@ -73,9 +76,57 @@ def go(lmp, folder, s, words, t, laws=None, kernel=KERNEL, boundary=None, fastes
     m = a[:, 2]
     out = dict(id=a[:, 0].astype(int), type=a[:, 1].astype(int), m=m, x=a[:, 3:5], v=a[:, 5:7], rho=a[:, 7], e=a[:, 8] / m, thermo=r.thermo)
     out["p"] = a[:, 9] if not stock else (GAMMA - 1) * out["rho"] * out["e"]
+    return closed(out, s, at_rest)
+
+
+def closed(out, s, at_rest=None):
+    """with its books"""
+    m, thermo = out["m"], out["thermo"]
     total = m.sum() * at_rest if at_rest else max((m[:, None] * np.abs(out["v"])).sum(), (s.m[:, None] * np.abs(s.v)).sum())
-    out["books"] = {"energy": np.abs(r.thermo["c_book[9]"] - 1).max(), "momentum": max(momentum_error(r.thermo)) / total}
+    out["books"] = {"energy": np.abs(thermo["c_book[9]"] - 1).max(), "momentum": max(momentum_error(thermo)) / total}
     return out
+
+
+ULSPH = """units lj
+dimension 2
+boundary f f p
+newton off
+atom_style smd
+atom_modify map array
+comm_modify vel yes
+read_data smd.data
+pair_style smd/ulsph *DENSITY_CONTINUITY *VELOCITY_GRADIENT *NO_GRADIENT_CORRECTION
+pair_coeff 1 1 *COMMON {rho} {c} 1.0 1.0 0.0 *EOS_TAIT {gamma} *END
+neighbor 0.3 bin
+neigh_modify every 1 delay 0 check yes
+fix smd all smd/integrate_ulsph
+compute book all hvi/energy
+compute R all smd/rho
+thermo 1
+""" + BOOK + """thermo_modify format float %.17g lost ignore
+timestep {dt:.17g}
+run {steps}
+write_dump all custom smd.last id type mass x y vx vy c_R modify sort id format float %.17g
+"""
+
+
+def ulsph(lmp, folder, s, t, law, fastest, timeout):
+    """go() with smd/ulsph, for one type of liquid"""
+    if law[0] != "tait":
+        raise Cannot("its gas has p = (1 - gamma) rho e, the wrong sign")
+    n, m, half = len(s.x), s.mass[1], 0.5 * REACH
+    head = ["smd", "", f"{n} atoms", "1 atom types", ""] + [f"{lo:.17g} {hi:.17g} {a}lo {a}hi" for a, lo, hi in
+                                                             (("x", 0, s.box[0]), ("y", 0, s.box[1]), ("z", -0.5, 0.5))]
+    place = [" ".join(f"{a:.17g}" for a in x) for x in s.x]
+    rows = [f"{i + 1} 1 1 {m / s.rho[i]:.17g} {m:.17g} {half} 0.5 {place[i]} {place[i]}" for i in range(n)]
+    speeds = [f"{i + 1} " + " ".join(f"{a:.17g}" for a in v) for i, v in enumerate(s.v)]
+    (folder / "smd.data").write_text("\n".join([*head, "", "Atoms # smd", "", *rows, "", "Velocities", "", *speeds, ""]))
+    steps = int(np.ceil(t / (COURANT * half / (1.5 * fastest))))
+    r = lmp(ULSPH.format(rho=law[1], c=law[2], gamma=law[3], dt=t / steps, steps=steps), timeout=timeout)
+    a = np.loadtxt(folder / "smd.last", skiprows=9, ndmin=2)
+    if not np.isfinite(a).all():
+        raise Stopped("numbers that are none")
+    return closed(dict(id=a[:, 0].astype(int), type=a[:, 1].astype(int), m=a[:, 2], x=a[:, 3:5], v=a[:, 5:7], rho=a[:, 7], thermo=r.thermo), s)
 
 
 def pairing(o):
