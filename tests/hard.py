@@ -167,7 +167,10 @@ def table(rows):
             elif r["stopped"]:
                 said = f"**stops**: {known.get('run', r['stopped'])}"
             elif r["missed"]:
-                said = "**misses** " + "; ".join(f"{m} {numbers[m]}" + (f" ({known[m]})" if m in known else "") for m in r["missed"].split())
+                causes = {}
+                for m in r["missed"].split():
+                    causes.setdefault(known.get(m, ""), []).append(f"{m} {numbers[m]}")
+                said = "**misses** " + "; ".join(", ".join(what) + (f" ({why})" if why else "") for why, what in causes.items())
             else:
                 said = "lives"
             (theirs if r["method"].startswith("stock") else ours).append((r["method"].removeprefix("stock "), said))
