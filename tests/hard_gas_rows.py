@@ -24,7 +24,7 @@ sys.path.insert(0, str(HERE.parent / "python"))
 from hvi import material  # noqa: E402
 from hvi.curves import Eos  # noqa: E402
 from hvi.eos_table import write_eos_table  # noqa: E402
-from reference import gas, impedance  # noqa: E402
+from reference import impedance  # noqa: E402
 
 PARTICLE_MEANS = ("rho", "u", "p")
 
