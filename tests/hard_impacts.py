@@ -3,7 +3,6 @@
 Settings of in.plate are further words of pair hvi/sph, or dicts of variables; "stock STYLE" is hard_stock.py.
 """
 
-import functools
 import pathlib
 
 import hvi
@@ -21,6 +20,7 @@ ALUMINUM = ROOT / "potentials" / "Al6061-T6.hvi"
 DENSITY = 2703.0
 WORDS = {"corrected riemann": "dissipation riemann", "corrected viscosity": "viscosity 1 2", "law": "gradient law viscosity 1 2",
          "plain": "gradient plain viscosity 1 2"}
+ART = {"riemann artificial stress": "dissipation riemann artstress 0.3 4"}
 SPEEDS = {"Al6061-T6": (2703, 5240), "Cu-OFHC": (8930, 3940), "tungsten": (19235, 4029)}  # density, speed of sound, SI
 TUNGSTEN = ("eos gruneisen rho0 19235 C 4029 S1 1.237 g0 1.54 a 0 cp 134 T0 300",  # of its weight: what matters here is the contrast
             "strength johnson-cook G 160e9 A 1506e6 B 177e6 n 0.12 C 0.016 m 1 epsdot0 1 Tref 300 Tm 1723",
@@ -62,34 +62,22 @@ def single_plate(lmp, folder, setting, v0=7000, t=2.0, p="Al6061-T6", body=None,
                 sideways=abs(x[ball, 1].mean()) / (1e-3 * v["D"]))
 
 
-def of(scene, *measures):
-    """a scene that says only these of its measures"""
-    @functools.wraps(scene)
-    def few(lmp, folder, setting):
-        o = scene(lmp, folder, setting)
-        return {m: o[m] for m in measures}
-
-    return few
+BOOKED = {**BOOKS, "mass": 1e-12}
+EVEN = {**BOOKED, "pairs": 0.01}
+HOLE = {**EVEN, "hole": (1.0, np.inf), "fit": (0.7, 1.3)}
+BODY = {**EVEN, "hole": (1.0, 1.3 * fit(7000, 0.2))}
+OBLIQUE = {**EVEN, "sideways": 0.05}
 
 
-BOOKED = ("energy", "momentum", "mass")
-BOOKED_CRITERIA = {**BOOKS, "mass": 1e-12}
-HOLE = {**BOOKED_CRITERIA, "pairs": 0.01, "hole": (1.0, np.inf), "fit": (0.7, 1.3)}
-
-
-def impact(**how):
-    measures = tuple(HOLE) if how.pop("holes", True) else (*BOOKED, "pairs")
-    measures = (*measures, *how.pop("more", ()))
+def impact(criteria=HOLE, **how):
+    """a scene of single_plate() that says what the criteria ask for"""
     def scene(lmp, folder, setting):
         if isinstance(setting, str) and setting.startswith("stock"):
-            return stock(lmp, folder, "plate", setting, v0=how["v0"])
-        return single_plate(lmp, folder, setting, **how)
+            return stock(lmp, folder, "plate", setting, v0=how.get("v0", 7000))
+        o = single_plate(lmp, folder, setting, **how)
+        return {m: o[m] for m in criteria}
 
-    def few(lmp, folder, setting):
-        o = scene(lmp, folder, setting)
-        return {m: o[m] for m in measures if m in o}
-
-    return few
+    return scene
 
 
 # bodies
@@ -99,7 +87,7 @@ def ball(fill, inner=0.0, jitter=0.0):
     """makes the file of a sphere of 10 mm; jitter: places off those of the lattice, in spacings, at random"""
     def write(path, dx, quarter):
         body = bodies.make(bodies.sphere(5e-3, inner, quarter), dx, fill)
-        body.x += jitter * dx * np.random.default_rng(5).uniform(-1, 1, body.x.shape)
+        body.x[:] += jitter * dx * np.random.default_rng(5).uniform(-1, 1, body.x.shape)
         bodies.write(path, body, DENSITY)
         return path
 
@@ -180,32 +168,46 @@ run 3000
 
 
 STOCK = {"stock tlsph": "stock tlsph", "stock ulsph": "stock ulsph"}
-SPEED = [(1, 30, 1), (3, 20, 0), (7, 16, 1), (12, 14, 0), (20, 14, 0)]  # km/s, us, beside stock
+BOTH = {**WORDS, **ART}
+RIEMANN = ("corrected riemann",)
+
+# causes, each tried
+
+CLUMPS = {"pairs": "hot fragments in tension clump: artificial stress keeps them apart"}
+STRETCHES = {"fit": "without a law of damage the plate stretches and does not plug: damage yes has 1.08"}
+FACES = {"fit": "forces at faces are not corrected: plates of few layers are weak and their holes wide"}
+TIED = {"run": "elements that are tied never fail, and one is crushed: refused by an error that names it"}
 
 CASES = [
-    *[Case(f"impact-{v}", f"a sphere on a plate of t/D 0.2, {v} km/s", impact(v0=1000 * v, tstop=t), {**WORDS, **(STOCK if beside else {})}, HOLE,
-           ("corrected riemann",) if v in (1, 7, 20) else ()) for v, t, beside in SPEED],
-    Case("thin-0.02", "t/D 0.02: a plate of 1 layer, 7 km/s", impact(t=0.2, dx=0.2, Rplate=12, tstop=6), WORDS, HOLE),
-    Case("thin-0.1", "t/D 0.1, 7 km/s", impact(t=1.0, dx=0.5, Rplate=25), WORDS, HOLE),
-    Case("thick-0.5", "t/D 0.5, 7 km/s", impact(t=5.0, dx=0.625), WORDS, HOLE),
-    Case("thick-2", "t/D 2, 7 km/s", impact(t=20.0, dx=1, Rplate=35, tstop=20, holes=False), WORDS, {**BOOKED_CRITERIA, "pairs": 0.01}),
-    *[Case(f"oblique-{a}", f"{a} degrees from the normal, 7 km/s", impact(angle=a, quarter="no", dx=1, Rplate=25, tstop=12, holes=False, more=("sideways",)),
-           WORDS, {**BOOKED_CRITERIA, "pairs": 0.01, "sideways": 0.05}, ("corrected riemann",) if a == 75 else ()) for a in (45, 75)],
-    Case("hollow", "a hollow sphere, 7 km/s", impact(dx=0.5, Rplate=20, tstop=10, body=ball("glass", 3.5e-3), holes=False, more=("hole",)), WORDS,
-         {**BOOKED_CRITERIA, "pairs": 0.01, "hole": (1.0, 1.3 * fit(7000, 0.2))}, ("corrected riemann",)),
-    Case("end-on", "a cylinder end-on, 7 km/s", impact(shape="cylinder", holes=False, more=("hole",)), WORDS,
-         {**BOOKED_CRITERIA, "pairs": 0.01, "hole": (1.0, 1.3 * fit(7000, 0.2))}, ("corrected riemann",)),
-    Case("copper", "copper on aluminum, 3 km/s", impact(p="Cu-OFHC", v0=3000, tstop=20), WORDS, HOLE, ("corrected riemann",)),
-    Case("tungsten", "tungsten on aluminum, 3 km/s", impact(p="tungsten", v0=3000, tstop=20), WORDS, HOLE, ("corrected riemann",)),
-    Case("glass", "a sphere like glass on a plate of a lattice, 7 km/s", impact(body=ball("glass")), WORDS, HOLE, ("corrected riemann",)),
-    Case("random", "a sphere of places at random, by half a spacing, on a lattice, 7 km/s", impact(body=ball("lattice", jitter=0.25)), WORDS, HOLE,
-         ("corrected riemann",)),
-    Case("step-factor", "fix hvi/dt with three times the factor", too_long, WORDS, {"caught": (1, np.inf)}, ("corrected riemann",)),
+    Case("impact-1", "a sphere on a plate of t/D 0.2, 1 km/s", impact(v0=1000, tstop=30),
+         {**WORDS, "corrected viscosity damage": {"pair": WORDS["corrected viscosity"], "damage": "yes"}, **STOCK}, HOLE, RIEMANN,
+         {"corrected viscosity": STRETCHES, "law": STRETCHES}),
+    Case("impact-3", "the same, 3 km/s", impact(v0=3000, tstop=20), BOTH, HOLE, (), {"corrected riemann": CLUMPS, "law": FACES, "plain": FACES}),
+    Case("impact-7", "the same, 7 km/s", impact(), {**WORDS, **STOCK}, HOLE, RIEMANN),
+    Case("impact-12", "the same, 12 km/s", impact(v0=12000, tstop=14), WORDS, HOLE),
+    Case("impact-20", "the same, 20 km/s", impact(v0=20000, tstop=14), WORDS, HOLE, RIEMANN),
+    Case("thin-0.02", "t/D 0.02: a plate of 1 layer, 7 km/s", impact(t=0.2, dx=0.2, Rplate=12, tstop=6), WORDS, HOLE, (),
+         {"corrected riemann": CLUMPS, "law": FACES, "plain": FACES}),
+    Case("thin-0.1", "t/D 0.1, 7 km/s", impact(t=1.0, dx=0.5, Rplate=25), BOTH, HOLE, (), {"corrected riemann": CLUMPS, "corrected viscosity": CLUMPS}),
+    Case("thick-0.5", "t/D 0.5, 7 km/s", impact(t=5.0, dx=0.625), BOTH, HOLE, (), {"corrected riemann": CLUMPS}),
+    Case("thick-2", "t/D 2, 7 km/s", impact(EVEN, t=20.0, dx=1, Rplate=35, tstop=20), BOTH, EVEN, (),
+         {"corrected riemann": CLUMPS, "corrected viscosity": CLUMPS}),
+    *[Case(f"oblique-{a}", f"{a} degrees from the normal, 7 km/s", impact(OBLIQUE, angle=a, quarter="no", dx=1, Rplate=25, tstop=12), BOTH, OBLIQUE,
+           RIEMANN if a == 75 else (), {"corrected riemann": CLUMPS}) for a in (45, 75)],
+    Case("hollow", "a hollow sphere, 7 km/s", impact(BODY, dx=0.5, Rplate=20, tstop=10, body=ball("glass", 3.5e-3)), BOTH, BODY, RIEMANN,
+         {"corrected riemann": CLUMPS}),
+    Case("end-on", "a cylinder end-on, 7 km/s", impact(BODY, shape="cylinder"), WORDS, BODY),
+    Case("copper", "copper on aluminum, 3 km/s", impact(p="Cu-OFHC", v0=3000, tstop=20), WORDS, HOLE),
+    Case("tungsten", "tungsten on aluminum, 3 km/s", impact(p="tungsten", v0=3000, tstop=20), WORDS, HOLE, RIEMANN),
+    Case("glass", "a sphere like glass on a plate of a lattice, 7 km/s", impact(body=ball("glass")), WORDS, HOLE),
+    Case("random", "a sphere of places at random, by half a spacing, on a lattice, 7 km/s", impact(body=ball("lattice", jitter=0.25)), WORDS, HOLE, RIEMANN),
+    Case("step-factor", "fix hvi/dt with three times the factor", too_long, WORDS, {"caught": (1, np.inf)}, RIEMANN),
     Case("elements", "elements within the hole, 7 km/s", impact(dx=0.5, Rplate=20, tstop=10, wall=elements),
-         {"hybrid": {"method": "hybrid"}, "tied": {"method": "tied"}}, HOLE, ("hybrid",)),
-    Case("crumple", "blocks of elements meet at 7 km/s", crumpled, {"hybrid": "yes", "tied": "no"},
-         {**BOOKS, "hourglass": 0.1, "step": 1.0}, ("hybrid", "tied")),
-    Case("debris", "bonded discrete elements at 20 km/s", debris, {"discrete sc": "sc", "discrete fcc": "fcc"},
-         {**BOOKED_CRITERIA, "fragmentation": (0.3, 1.0)}, ("discrete sc",)),
+         {"hybrid": {"method": "hybrid"}, "hybrid artificial stress": {"method": "hybrid", "pair": "dissipation riemann artstress 0.3 4"},
+          "tied": {"method": "tied"}}, HOLE, ("hybrid",), {"hybrid": CLUMPS, "tied": TIED}),
+    Case("crumple", "blocks of elements meet at 7 km/s", crumpled, {"hybrid": "yes", "tied": "no"}, {**BOOKS, "hourglass": 0.1, "step": 1.0},
+         ("hybrid", "tied"), {"tied": TIED}),
+    Case("debris", "bonded discrete elements at 20 km/s", debris, {"discrete sc": "sc", "discrete fcc": "fcc"}, {**BOOKED, "fragmentation": (0.3, 1.0)},
+         ("discrete sc",)),
     Case("overlap", "discrete elements that begin in each other", overlapping, {"two lattices": "lattices", "random": "random"},
          {**BOOKS, "apart": 0.01}, ("two lattices", "random"))]
