@@ -173,8 +173,8 @@ RIEMANN = ("corrected riemann",)
 
 # causes, each tried
 
-CLUMPS = {"pairs": "hot fragments in tension clump: artificial stress keeps them apart"}
-STRETCHES = {"fit": "without a law of damage the plate stretches and does not plug: damage yes has 1.08"}
+CLUMPS = {"pairs": "neighbors in fragments in tension clump: artificial stress leaves 0.3 % at most"}
+STRETCHES = {"fit": "without a law of damage the plate stretches and does not plug: damage yes has 1.1"}
 FACES = {"fit": "forces at faces are not corrected: plates of few layers are weak and their holes wide"}
 TIED = {"run": "elements that are tied never fail, and one is crushed: refused by an error that names it"}
 
@@ -186,7 +186,7 @@ CASES = [
     Case("impact-7", "the same, 7 km/s", impact(), {**WORDS, **STOCK}, HOLE, RIEMANN),
     Case("impact-12", "the same, 12 km/s", impact(v0=12000, tstop=14), WORDS, HOLE),
     Case("impact-20", "the same, 20 km/s", impact(v0=20000, tstop=14), WORDS, HOLE, RIEMANN),
-    Case("thin-0.02", "t/D 0.02: a plate of 1 layer, 7 km/s", impact(t=0.2, dx=0.2, Rplate=12, tstop=6), WORDS, HOLE, (),
+    Case("thin-0.02", "t/D 0.02: a plate of 1 layer, 7 km/s", impact(t=0.2, dx=0.2, Rplate=12, tstop=6), BOTH, HOLE, (),
          {"corrected riemann": CLUMPS, "law": FACES, "plain": FACES}),
     Case("thin-0.1", "t/D 0.1, 7 km/s", impact(t=1.0, dx=0.5, Rplate=25), BOTH, HOLE, (), {"corrected riemann": CLUMPS, "corrected viscosity": CLUMPS}),
     Case("thick-0.5", "t/D 0.5, 7 km/s", impact(t=5.0, dx=0.625), BOTH, HOLE, (), {"corrected riemann": CLUMPS}),
