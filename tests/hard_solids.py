@@ -12,7 +12,7 @@ from hard_impacts import CASES as IMPACTS
 from hard_stock import stock
 from solid_runs import Gruneisen, bisect, material, momentum_error, run
 from sph_scenes import Fluid
-from tensile_scenes import nearest, pieces, rings, strip
+from tensile_scenes import nearest, rings, strip
 
 ART = "artstress 0.3 4"
 TENSILE = {**WORDS, "artificial stress": f"viscosity 1 2 {ART}"}
@@ -103,7 +103,8 @@ def tensile_bar(lmp, folder, words, n=5, length=20, dx=0.5e-3, V=100.0, strain=0
     top, e = force.argmax(), 2 * V * 0.5 * (t["Time"][1:] + t["Time"][:-1]) / L
     fallen = np.flatnonzero(force[top:] < 0.5 * force[top])
     return dict(books(r, s.m @ np.abs(s.v[:, 0])), strength=force[top] / (n * dx) ** 2 / considere(2 * V / L),
-                elongation=e[top + fallen[0]] if len(fallen) else e[-1], load_end=np.abs(force[-10:]).max() / force[top], pairs=paired(r.frames[-1], dx))
+                elongation=e[top + fallen[0]] if len(fallen) else e[-1], load_end=np.abs(force[-10:]).max() / force[top],
+                pairs=paired(r.frames[-1], dx))
 
 
 # spin and shear
@@ -154,7 +155,8 @@ def shear_layer(lmp, folder, words, length=24, high=12, rate=0.01, Y=0.06, strai
     x = block([length, grid])
     k, ends = len(x), np.abs(x[:, 1]) > 0.5 * high
     box = np.array([length, 2.0 * grid, 1.0])
-    s = Fluid(x + 0.5 * box * [1, 1, 0], np.zeros((k, 3)), np.full(k, RHO), np.zeros(k), np.where(ends, 2, 1), {1: RHO, 2: RHO}, {1: 1.2, 2: 1.2}, box,
+    s = Fluid(x + 0.5 * box * [1, 1, 0], np.zeros((k, 3)), np.full(k, RHO), np.zeros(k), np.where(ends, 2, 1), {1: RHO, 2: RHO}, {1: 1.2, 2: 1.2},
+              box,
               (True, False, True), 2)
     s.v[:, 0] = rate * np.clip(x[:, 1], -0.5 * high, 0.5 * high)
     pair = (f"pair_style hvi/sph cubic dim 2 {words}\npair_coeff * * file {path} h 1.2\npair_coeff 1 2 tension yes\ngroup ends type 2\n")
@@ -210,12 +212,12 @@ def long_step(lmp, folder, words):
 
 
 def cold_start(lmp, folder, words):
-    """a free block of aluminum at rest, at its density, without energy: nothing moves, on a lattice or like a glass; largest speed over that of sound"""
+    """a free block of aluminum at rest, without energy, on a lattice or like a glass: largest speed over that of sound"""
     return {fill: rest(lmp, folder, fill, words, kernel="cubic", h=1.2, end=2e-6)["largest"] / SOUND for fill in ("lattice", "glass")}
 
 
 def glass_noise(lmp, folder, words):
-    """the same, periodic, pressed by 5 % at the same places: kinetic energy it makes of itself over that of compression, scatter of stress, of pressure"""
+    """like a glass, periodic, pressed by 5 %: kinetic energy it makes of itself over that of compression, scatter of stress over pressure"""
     o = rest(lmp, folder, "glass", words, kernel="cubic", h=1.2, compressed=0.05, end=2e-6)
     return dict(noise=o["energy"], scatter=o["scatter"] / (2703 * 5240.0**2 * 0.05 / 1e9))
 
@@ -318,15 +320,19 @@ MET = {"pairs": "8 of 248, one place and its mirror images, where the spheres me
 
 SOLIDS = [
     Case("rings", "rubber rings that meet", rubber_rings, {**TENSILE, **WIDER, **STOCK},
-         {**BOOKS, **NEAR, "pieces": 1, "nearest": (0.5, np.inf), "rebound": (0.5, 1.0), "mirror": 1e-6}, ("corrected riemann", "riemann artificial stress h 1.5"),
+         {**BOOKS, **NEAR, "pieces": 1, "nearest": (0.5, np.inf), "rebound": (0.5, 1.0), "mirror": 1e-6},
+         ("corrected riemann", "riemann artificial stress h 1.5"),
          {**dict.fromkeys(WORDS, TORN), "artificial stress": BUCKLES}),
     Case("strip", "a strip that is stretched by 10 %", stretched_strip, {**TENSILE, **WIDER},
-         {**BOOKS, **NEAR, "nearest": (0.9, np.inf), "farthest": 1.1}, (*TENSILE, *WIDER), {**dict.fromkeys(WORDS, UNEVEN), "artificial stress": NARROW}),
+         {**BOOKS, **NEAR, "nearest": (0.9, np.inf), "farthest": 1.1}, (*TENSILE, *WIDER),
+         {**dict.fromkeys(WORDS, UNEVEN), "artificial stress": NARROW}),
     Case("bar", "a tensile bar to fracture", tensile_bar, {**TENSILE, **STOCK},
-         {**BOOKS, "strength": (0.85, 1.15), "elongation": (0.03, 0.6), "load_end": 0.05, "pairs": 0.01}, ("corrected riemann", "corrected viscosity"),
+         {**BOOKS, "strength": (0.85, 1.15), "elongation": (0.03, 0.6), "load_end": 0.05, "pairs": 0.01},
+         ("corrected riemann", "corrected viscosity"),
          {"corrected riemann": VISCOUS, "corrected viscosity": VISCOUS}),
     Case("square", "a square that spins", spinning_square, {**WORDS, **STOCK},
-         {**BOOKS, "spin": 1e-10, "kinetic": (0.97, 1.001), "turned": (0.98, 1.001), "shape": 0.1}, ("corrected riemann", "corrected viscosity", "law"),
+         {**BOOKS, "spin": 1e-10, "kinetic": (0.97, 1.001), "turned": (0.98, 1.001), "shape": 0.1},
+         ("corrected riemann", "corrected viscosity", "law"),
          {"law": TORQUE, "plain": {**STIFF, **dict.fromkeys(("turned", "shape"), "as that of spin")}}),
     Case("disc", "a disc that spins", spinning_disc, WORDS,
          {**BOOKS, "spin": 1e-10, "kinetic": (0.97, 1.001), "von_mises": (0.85, 1.15)}, ("corrected riemann",),
@@ -340,7 +346,8 @@ SOLIDS = [
     Case("noise", "a glass under pressure, at rest", glass_noise, WORDS, {"noise": 1e-3, "scatter": 0.1}, ("corrected riemann",)),
     Case("hot-cold", "hot aluminum beside cold, then hit by it", hot_cold, WORDS,
          {**BOOKS, "rest": 1e-6, "contact": (0.97, 1.03)}, ("corrected riemann", "corrected viscosity")),
-    Case("head-on", "two spheres head on, 4 km/s", head_on, {**WORDS, **ARTIFICIAL}, {**BOOKS, "mirror": 1e-3, "axes": 1e-6, "pairs": 0.01}, tuple(WORDS),
+    Case("head-on", "two spheres head on, 4 km/s", head_on, {**WORDS, **ARTIFICIAL}, {**BOOKS, "mirror": 1e-3, "axes": 1e-6, "pairs": 0.01},
+         tuple(WORDS),
          {**dict.fromkeys(WORDS, SQUEEZED), **dict.fromkeys(ARTIFICIAL, MET)}),
     Case("face", "a face crossed by the cloud", crossed_face, WORDS, {**BOOKS, "gone": (0.05, 1.0), "count": 0}, ("corrected riemann", "plain"))]
 

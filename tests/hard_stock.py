@@ -1,4 +1,4 @@
-"""The scenes of hard_solids.py and hard_impacts.py with LAMMPS's own solids, package MACHDYN: smd/tlsph, with smd/hertz between bodies, and smd/ulsph.
+"""The scenes of hard_solids.py and hard_impacts.py with LAMMPS's package MACHDYN: smd/tlsph, with smd/hertz between bodies, and smd/ulsph.
 
 They stand beside those of this package; nothing is asked of them. Kernels reach 2.4 spacings, as ours; viscosity, hourglass control and the factor of
 the time step (0.1) are those of MACHDYN's examples. Energy is what they say of it: kinetic, internal, contacts (pe).
@@ -6,7 +6,7 @@ the time step (0.1) are those of MACHDYN's examples. Energy is what they say of 
 
 import hvi
 import numpy as np
-from face_scenes import CL, ELASTIC, G, K, RHO, block
+from face_scenes import CL, RHO, G, K, block
 from tensile_scenes import RING, nearest, pieces
 
 AL = dict(rho=2703.0, K=2703 * 5240.0**2, G=27.6e9)
@@ -44,8 +44,8 @@ write_dump all custom end.dump id type mass x y z vx vy vz modify sort id format
 """
 
 
-def smd(lmp, folder, style, x, v, kind, dx, law, t_end, *, rho, K, G, dim=3, every=50, failure="", more="", columns="", box=None, units="lj", steps=200000,
-        timeout=300):
+def smd(lmp, folder, style, x, v, kind, dx, law, t_end, *, rho, K, G, dim=3, every=50, failure="", more="", columns="", box=None, units="lj",
+        steps=200000, timeout=300):
     """kind: types, bodies of their own with tlsph; law: what follows *COMMON. Result; frames with x, v, mass, type of those that are there"""
     n, E, nu = len(x), 9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)
     size = np.ptp(x, axis=0)
@@ -53,11 +53,11 @@ def smd(lmp, folder, style, x, v, kind, dx, law, t_end, *, rho, K, G, dim=3, eve
     if dim == 2:
         low[2], high[2] = -0.5, 0.5
     volume = dx**dim
-    types = int(kind.max()) if style == "tlsph" else 1
-    lines = ["smd", "", f"{n} atoms", f"{max(types, int(kind.max()))} atom types", ""] + [f"{low[k]:.17g} {high[k]:.17g} {c}lo {c}hi" for k, c in enumerate("xyz")]
+    lines = ["smd", "", f"{n} atoms", f"{int(kind.max())} atom types", ""]
+    lines += [f"{low[k]:.17g} {high[k]:.17g} {c}lo {c}hi" for k, c in enumerate("xyz")]
     lines += ["", "Atoms # smd", ""]
-    lines += [f"{i + 1} {kind[i]} {kind[i]} {volume:.17g} {rho * volume:.17g} {1.2 * dx:.17g} {0.5 * dx:.17g} " + " ".join(f"{a:.17g}" for a in [*x[i], *x[i]])
-              for i in range(n)]
+    radii = f"{volume:.17g} {rho * volume:.17g} {1.2 * dx:.17g} {0.5 * dx:.17g}"
+    lines += [f"{i + 1} {kind[i]} {kind[i]} {radii} " + " ".join(f"{a:.17g}" for a in [*x[i], *x[i]]) for i in range(n)]
     lines += ["", "Velocities", ""] + [f"{i + 1} " + " ".join(f"{a:.17g}" for a in v[i]) for i in range(n)]
     (folder / "smd.data").write_text("\n".join(lines) + "\n")
     t = range(1, int(kind.max()) + 1)
@@ -69,11 +69,11 @@ def smd(lmp, folder, style, x, v, kind, dx, law, t_end, *, rho, K, G, dim=3, eve
         pair += "".join(f"pair_coeff {k} {k} *COMMON {rho} {np.sqrt(K / rho):.17g} 1.0 1.0 0.0 {law} *END\n" for k in t)
         pair += "".join(f"pair_coeff {a} {b} *CROSS\n" for a in t for b in t if a < b)
     c = np.sqrt((K + 4 / 3 * G) / rho)
-    r = lmp(SCENE.format(units=units, dim=dim, boundary="f f p" if dim == 2 else "f f f", skin=0.3 * dx, pair=pair, more=more, style=style, dt=0.05 * dx / c,
-                         every=every, t_end=t_end, columns=columns, steps=steps), timeout=timeout)
+    r = lmp(SCENE.format(units=units, dim=dim, boundary="f f p" if dim == 2 else "f f f", skin=0.3 * dx, pair=pair, more=more, style=style,
+                         dt=0.05 * dx / c, every=every, t_end=t_end, columns=columns, steps=steps), timeout=timeout)
     dumps = (hvi.Dump(folder / name, mirror=["none"]) for name in ("smd.dump", "end.dump"))
-    return r, [dict(type=f["type"].astype(int), m=f.m, x=np.column_stack([f[k] for k in "xyz"]), v=np.column_stack([f[k] for k in ("vx", "vy", "vz")]))
-               for dump in dumps for f in dump]
+    return r, [dict(type=f["type"].astype(int), m=f.m, x=np.column_stack([f[k] for k in "xyz"]),
+                    v=np.column_stack([f[k] for k in ("vx", "vy", "vz")])) for dump in dumps for f in dump]
 
 
 def books(r, frames, first):
@@ -101,7 +101,8 @@ def stock_rings(lmp, folder, style):
     how = elastic(style, rho=RING["rho0"], K=RING["rho0"], G=RING["mu"] * RING["rho0"])
     r, frames = smd(lmp, folder, style, x, v, kind, dx, how.pop("law"), 160.0, dim=2, **how)
     left = [f["type"] == 1 for f in frames]
-    return dict(books(r, frames, RING["rho0"] * dx**2 * 2 * n * u), pieces=max(pieces(f["x"][a, :2], 1.7 * dx) for f, k in zip(frames, left) for a in (k, ~k)),
+    return dict(books(r, frames, RING["rho0"] * dx**2 * 2 * n * u),
+                pieces=max(pieces(f["x"][a, :2], 1.7 * dx) for f, k in zip(frames, left) for a in (k, ~k)),
                 nearest=min(np.quantile(nearest(f["x"][:, :2]), 0.01) / dx for f in frames),
                 pairs=max((nearest(f["x"][:, :2]) < 0.5 * dx).mean() for f in frames), rebound=-frames[-1]["v"][left[-1], 0].mean() / u)
 
@@ -113,7 +114,8 @@ def stock_square(lmp, folder, style, turns=3.0):
     how = elastic(style, rho=RHO, K=K, G=G)
     r, frames = smd(lmp, folder, style, x, v, np.ones(len(x), int), 1.0, how.pop("law"), turns * 2 * np.pi / w, dim=2, **how)
     J = np.array([np.cross(f["x"], f["v"])[:, 2].sum() for f in frames])
-    return dict(books(r, frames, np.hypot(v[:, 0], v[:, 1]).sum()), spin=np.abs(J / J[0] - 1).max(), kinetic=(frames[-1]["v"] ** 2).sum() / (v**2).sum())
+    return dict(books(r, frames, np.hypot(v[:, 0], v[:, 1]).sum()), spin=np.abs(J / J[0] - 1).max(),
+                kinetic=(frames[-1]["v"] ** 2).sum() / (v**2).sum())
 
 
 def stock_bar(lmp, folder, style, considere, n=5, length=20, dx=0.5e-3, V=100.0, strain=0.8):
@@ -126,8 +128,8 @@ def stock_bar(lmp, folder, style, considere, n=5, length=20, dx=0.5e-3, V=100.0,
     ends = np.abs(x[:, 0]) > 0.5 * L
     groups = [" ".join(str(i + 1) for i in np.flatnonzero(ends & (s * x[:, 0] > 0))) for s in (-1, 1)]
     more = f"group lo id {groups[0]}\ngroup hi id {groups[1]}\nfix lo lo setforce 0 0 0\nfix hi hi setforce 0 0 0\n"
-    r, frames = smd(lmp, folder, style, x, v, kind, dx, AL_TL if style == "tlsph" else AL_UL, strain * L / (2 * V), more=more, columns="f_lo[1] f_hi[1]", units="si",
-                    failure="*FAILURE_MAX_PLASTIC_STRAIN 0.47", **AL)
+    r, frames = smd(lmp, folder, style, x, v, kind, dx, AL_TL if style == "tlsph" else AL_UL, strain * L / (2 * V), more=more,
+                    columns="f_lo[1] f_hi[1]", units="si", failure="*FAILURE_MAX_PLASTIC_STRAIN 0.47", **AL)
     t = r.thermo
     force = 0.5 * (t["f_lo[1]"] - t["f_hi[1]"])
     force = np.convolve(force, np.ones(5) / 5, "same")
@@ -148,8 +150,8 @@ def stock_plate(lmp, folder, style, v0, dx=1e-3, D=10e-3, t=2e-3, Rplate=20e-3):
     v = np.where((kind == 1)[:, None], [0.0, 0.0, v0], 0.0)
     t_end = 30e-3 / v0 + 4e-6
     reach = 1.5 * v0 * t_end + 2 * Rplate
-    r, frames = smd(lmp, folder, style, x, v, kind, dx, AL_TL if style == "tlsph" else AL_UL, t_end, units="si", failure="*FAILURE_MAX_PLASTIC_STRAIN 1.0",
-                    box=(np.full(3, -reach), np.full(3, reach)), **AL)
+    r, frames = smd(lmp, folder, style, x, v, kind, dx, AL_TL if style == "tlsph" else AL_UL, t_end, units="si",
+                    failure="*FAILURE_MAX_PLASTIC_STRAIN 1.0", box=(np.full(3, -reach), np.full(3, reach)), **AL)
     return dict(books(r, frames, 2703 * dx**3 * len(ball) * v0), mass=abs(len(frames[-1]["x"]) / len(x) - 1))
 
 
