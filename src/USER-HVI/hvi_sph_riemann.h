@@ -196,9 +196,10 @@ static inline Vec limited(const Vec &a, const Vec &b)
      K = 2 U_i U_j/(U_i + U_j) (grad W(r, h_i) + grad W(r, h_j))
 
    Without delta, drho_i/rho_i is dn_i/n_i with the changes of h; what delta moves is
-   antisymmetric, times the weights w.  These are constants of types, 1 but with SPH_SPACINGS.  So density behind a shock is that of the particles there, however sharp
-   the shock, which is not so with volumes V_j as weights; and forces and energies follow from
-   it (Hu & Adams, J. Comput. Phys. 213 (2006) 844, have them for h = const).
+   antisymmetric, times the weights w.  These are constants of types, 1 but with SPH_SPACINGS.
+   So density behind a shock is that of the particles there, however sharp the shock, which is
+   not so with volumes V_j as weights; and forces and energies follow from it (Hu & Adams,
+   J. Comput. Phys. 213 (2006) 844, have them for h = const).
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
