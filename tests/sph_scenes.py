@@ -173,8 +173,24 @@ def rates(s, eos, kernel, form="sum", visc=(1.0, 2.0), alpha=0.0, tension=True, 
     return dict(f=f, de=de, drho=drho, heat=(q * g).sum(), heats=heats, virial=virial, p=p, c=c)
 
 
-def riemann_rates(s, eos, kernel, tension=True, h=None, follows=None, A=1.2, steep=1.5):
-    """as rates(), for dissipation riemann; follows (n,): h of which particles is a function of their density (dh/drho = -h/(dim rho))"""
+def weight_ratio(s, a, b, rho0=None):
+    """by how much particles of type b count more than those of type a in the density of a; rho0: {type: of materials that have one}
+
+    The ratio of volumes at rho0. A gas has none: that of h^dim or that of masses, whichever is nearer to 1, and 1 if one is above and one below.
+    """
+    masses, volumes = s.mass[b] / s.mass[a], (s.h[b] / s.h[a]) ** s.dim
+    if rho0 and a in rho0 and b in rho0:
+        volumes = masses * rho0[a] / rho0[b]
+        return 1.0 if abs(np.log(volumes)) < 0.01 else volumes
+    ratio = float(np.median([1.0, masses, volumes]))
+    return 1.0 if abs(np.log(ratio)) < 0.01 else ratio
+
+
+def riemann_rates(s, eos, kernel, tension=True, h=None, follows=None, A=1.2, steep=1.5, rho0=None):
+    """as rates(), for dissipation riemann; follows (n,): h of which particles is a function of their density (dh/drho = -h/(dim rho))
+
+    rho0: {type: of materials that have one}, see weight_ratio()
+    """
     p, c = np.empty(len(s.x)), np.empty(len(s.x))
     for t in set(s.type):
         k = s.type == t
@@ -187,12 +203,17 @@ def riemann_rates(s, eos, kernel, tension=True, h=None, follows=None, A=1.2, ste
         if s.periodic[a]:
             d[:, a] -= s.box[a] * np.round(d[:, a] / s.box[a])
     r = np.sqrt((d**2).sum(1))
-    near = r < SUPPORT[kernel] * np.maximum(h[i], h[j])
-    i, j, d, r = i[near], j[near], d[near], r[near]
+    # kernels of types of different h: as wide as their mean
+    H = np.array([s.h[t] for t in s.type])
+    h_i, h_j = (0.5 * h[k] * (H[i] + H[j]) / H[k] for k in (i, j))
+    near = r < SUPPORT[kernel] * np.maximum(h_i, h_j)
+    i, j, d, r, h_i, h_j = i[near], j[near], d[near], r[near], h_i[near], h_j[near]
     e = d / r[:, None]
+    counts = {(a, b): weight_ratio(s, a, b, rho0) for a in s.mass for b in s.mass}
+    more = np.array([counts[s.type[a], s.type[b]] for a, b in zip(i, j)])  # w_j/w_i
 
-    def dW(k):  # dW/dr(r, h_k)
-        return norm(kernel, s.dim) / h[k] ** (s.dim + 1) * shape(kernel, r / h[k])[1]
+    def dW(wide):  # dW/dr
+        return norm(kernel, s.dim) / wide ** (s.dim + 1) * shape(kernel, r / wide)[1]
 
     def total(values):
         out = np.zeros((n,) + values.shape[1:])
@@ -200,13 +221,13 @@ def riemann_rates(s, eos, kernel, tension=True, h=None, follows=None, A=1.2, ste
         return out
 
     # numbers of particles, and h dW/dh = -norm/h^dim (dim w + q dw/dq); the particle itself included
-    w, dw = shape(kernel, r / h[i])
+    w, dw = shape(kernel, r / h_i)
     center = norm(kernel, s.dim) / h**s.dim * shape(kernel, np.zeros(n))[0]
-    number = total(norm(kernel, s.dim) / h[i] ** s.dim * w) + center
-    spread = total(-norm(kernel, s.dim) / h[i] ** s.dim * (s.dim * w + r / h[i] * dw)) - s.dim * center
+    number = total(more * norm(kernel, s.dim) / h_i**s.dim * w) + center
+    spread = total(-more * norm(kernel, s.dim) / h_i**s.dim * (s.dim * w + r / h_i * dw)) - s.dim * center
     omega = np.where(np.zeros(n, bool) if follows is None else follows, np.maximum(1 + spread / (s.dim * number), 0.25), 1.0)
 
-    weight = (-V[j] * 0.5 * (dW(i) + dW(j)))[:, None]
+    weight = (-V[j] * 0.5 * (dW(h_i) + dW(h_j)))[:, None]
     grad_v = total(weight[:, :, None] * np.einsum("ka,kb->kab", s.v[i] - s.v[j], e))
     grad_p = total(weight * ((p[i] - p[j])[:, None] * e))
 
@@ -231,11 +252,12 @@ def riemann_rates(s, eos, kernel, tension=True, h=None, follows=None, A=1.2, ste
     star_p, delta = star_p * open_, delta * open_
     stretch = u * (open_ | (u < 0))
 
-    G_i, G_j = (V[k] / (number[k] * omega[k]) * dW(k) for k in (i, j))
-    K = 2 * V[i] * V[j] / (V[i] + V[j]) * (dW(i) + dW(j))
+    G_i, G_j = (V[k] / (number[k] * omega[k]) * dW(wide) * w for k, wide, w in ((i, h_i, more), (j, h_j, 1 / more)))
+    U_j = V[j] / more  # volumes over weights, in units in which w_i = 1
+    K = 2 * V[i] * U_j / (V[i] + U_j) * (dW(h_i) + dW(h_j))
     pair = -(star_p * (G_i + G_j))[:, None] * e
     de = star_p * (G_i * u - (G_i + G_j) * delta)
-    drho = s.rho[i] / omega[i] * (dW(i) * stretch / number[i] - K * delta)
+    drho = s.rho[i] / omega[i] * more * (dW(h_i) * stretch / number[i] - K * delta)
     heats = 0.5 * viscous * (G_i + G_j) * u
     return dict(f=total(pair), de=total(de), drho=total(drho), heat=heats.sum(), heats=total(heats),
                 virial=0.5 * np.einsum("ka,kb->ab", d, pair), p=p, c=c)

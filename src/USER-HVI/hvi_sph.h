@@ -24,7 +24,8 @@ enum SphScene {
   SPH_RIEMANN = 8,       // Riemann problems instead of viscosity and that
   SPH_STRENGTH = 16,     // deviatoric stress; with SPH_RIEMANN only if corrected
   SPH_ARTSTRESS = 32,    // artificial stress; with SPH_STRENGTH only
-  SPH_CORRECTED = 64     // forces of stress with M^-1; with SPH_STRENGTH only
+  SPH_CORRECTED = 64,    // forces of stress with M^-1; with SPH_STRENGTH only
+  SPH_SPACINGS = 128     // types differ in spacing; with SPH_RIEMANN without SPH_STRENGTH only
 };
 
 // laws of pairs: uniform, or from tables of type pairs (row of one type) in a scene with SPH_BODIES
@@ -41,6 +42,7 @@ struct SphLaws {
   double art_eps, art_n;                        // artificial stress
   double half;                                  // of the time step, with SPH_CORRECTED only
   const double *row_a, *row_b, *row_tension;    // by type of the neighbor; tension: 0 or 1
+  const double *row_ratio, *row_weight;         // with SPH_SPACINGS only: see sph_spacings()
 };
 
 // LANES pairs, from the loop over them for the one after it, with SPH_STRENGTH only

@@ -90,8 +90,8 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     const int i = list.ilist[ii], itype = atom->type[i];
     for (int jj = 0; jj < list.numneigh[i]; jj++) {
       const int j = list.firstneigh[i][jj] & NEIGHMASK, jtype = atom->type[j];
-      const double h = set.riemann || set.whole ? MAX(set.h[itype], set.h[jtype])
-                                                : 0.5 * (set.h[itype] + set.h[jtype]);
+      const double h = set.whole ? MAX(set.h[itype], set.h[jtype])
+                                 : 0.5 * (set.h[itype] + set.h[jtype]);
       const double reach = set.support * h;
       const double d[3] = {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]};
       if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] >= reach * reach) continue;

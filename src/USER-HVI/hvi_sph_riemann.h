@@ -15,7 +15,8 @@
 
 namespace HVI {
 
-// each particle has its own kernel here: grad W(r, h_i) = F_i d, and grad W(r, h_j) = F_j d
+// each particle has its own kernel here: grad W(r, h_i) = F_i d, and grad W(r, h_j) = F_j d.  Between
+// types whose h are as 1 to ratio, either is as wide as the mean of both: h_i (1 + ratio)/2.
 
 template <class Kernel, int SCENE> class SphTwoKernels {
  public:
@@ -24,8 +25,16 @@ template <class Kernel, int SCENE> class SphTwoKernels {
       scale_i(scale(hinv_i))
   {
   }
-  inline void F(const Vec &r, const Vec &dh, Vec &F_i, Vec &F_j) const
+  inline void F(const Vec &r, const Vec &dh, Vec &F_i, Vec &F_j,
+                const Vec &ratio = Vec{} + 1.0) const
   {
+    if (SCENE & SPH_SPACINGS) {
+      Vec inv_i, inv_j;
+      widen(dh, ratio, inv_i, inv_j);
+      F_i = scale(inv_i) * inv_i * inv_i * Kernel::template dw_q<Vec>(r * inv_i);
+      F_j = scale(inv_j) * inv_j * inv_j * Kernel::template dw_q<Vec>(r * inv_j);
+      return;
+    }
     F_i = scale_i * hinv_i * hinv_i * Kernel::template dw_q<Vec>(r * hinv_i);
     F_j = F_i;
     if (SCENE & SPH_OWN_H) {
@@ -36,8 +45,16 @@ template <class Kernel, int SCENE> class SphTwoKernels {
 
   // W, and h dW/dh = - (dim W + norm/h^dim q dw/dq)
 
-  inline void W(const Vec &r, const Vec &dh, Vec &W_i, Vec &W_j, Vec &s_i, Vec &s_j) const
+  inline void W(const Vec &r, const Vec &dh, Vec &W_i, Vec &W_j, Vec &s_i, Vec &s_j,
+                const Vec &ratio = Vec{} + 1.0) const
   {
+    if (SCENE & SPH_SPACINGS) {
+      Vec inv_i, inv_j;
+      widen(dh, ratio, inv_i, inv_j);
+      both(r * inv_i, scale(inv_i), W_i, s_i);
+      both(r * inv_j, scale(inv_j), W_j, s_j);
+      return;
+    }
     const Vec q_i = r * hinv_i;
     W_i = scale_i * Kernel::template w<Vec>(q_i);
     W_j = W_i;
@@ -53,11 +70,37 @@ template <class Kernel, int SCENE> class SphTwoKernels {
  private:
   const double norm, two, three, h_i, hinv_i, scale_i;
 
+  inline void widen(const Vec &dh, const Vec &ratio, Vec &inv_i, Vec &inv_j) const
+  {
+    const Vec narrower = 2.0 / (1.0 + ratio);
+    inv_i = hinv_i * narrower;
+    inv_j = narrower * ratio / (h_i - dh);
+  }
+  inline void both(const Vec &q, const Vec &scale, Vec &W, Vec &spread) const
+  {
+    W = scale * Kernel::template w<Vec>(q);
+    spread = -((1.0 + two + three) * W + scale * q * q * Kernel::template dw_q<Vec>(q));
+  }
   template <class T> inline T scale(const T &hinv) const    // norm/h^dim, without a choice
   {
     return norm * hinv * (two * hinv + (1.0 - two)) * (three * hinv + (1.0 - three));
   }
 };
+
+// of types of the neighbors: their h to that of i's, and by how much they count more than i itself in
+// its density, w_j/w_i: see PairHVISPH::find_weights()
+
+template <int SCENE>
+inline void sph_spacings(const SphLaws &laws, const Vec &type_j, Vec &ratio, Vec &weight)
+{
+  ratio = weight = Vec{} + 1.0;
+  if (SCENE & SPH_SPACINGS)
+    for (int k = 0; k < LANES; k++) {
+      const int jtype = static_cast<int>(type_j[k]);
+      ratio[k] = laws.row_ratio[jtype];
+      weight[k] = laws.row_weight[jtype];
+    }
+}
 
 /* ----------------------------------------------------------------------
    Sums for the gradients of particle i and its n near neighbors, as sph_interact:
@@ -84,8 +127,10 @@ inline void sph_slopes(int i, const SphPlace &pi, const SphState *state, int n, 
     read_columns(state, j, 1, second);
     const Vec r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     Vec F_i, F_j, W_i, W_j, spread_i = {}, spread_j = {};
-    kernels.F(r, d[3], F_i, F_j);
-    kernels.W(r, d[3], W_i, W_j, spread_i, spread_j);
+    Vec ratio, weight;
+    sph_spacings<SCENE>(laws, second[3], ratio, weight);
+    kernels.F(r, d[3], F_i, F_j, ratio);
+    kernels.W(r, d[3], W_i, W_j, spread_i, spread_j, ratio);
     const Vec F = -0.5 * (F_i + F_j);
     const Vec vx = F * (si.vx - first[0]), vy = F * (si.vy - first[1]), vz = F * (si.vz - first[2]);
     const Vec p = F * (si.p - second[0]);
@@ -107,6 +152,13 @@ inline void sph_slopes(int i, const SphPlace &pi, const SphState *state, int n, 
     add_columns(slopes, j, 0, on_j);
     add_columns(slopes, j, 1, on_j + 4);
     add_column(slopes, j, &SphSlopes::pz, on_j[8]);
+    if (SCENE & SPH_SPACINGS) {
+      const Vec less = 1.0 / weight;
+      W_i *= weight;
+      W_j *= less;
+      spread_i *= weight;
+      spread_j *= less;
+    }
     sum_i[9] += W_i;
     add_column(slopes, j, &SphSlopes::volume, W_j);
     if (SCENE & SPH_OWN_H) {
@@ -135,18 +187,19 @@ static inline Vec limited(const Vec &a, const Vec &b)
    Half-way between i and j meet the states which either extrapolates: U, velocity
    along d, and p.  Of their acoustic Riemann problem, with impedances
    z = rho (c + A |speed into the shock|), come p* and v*.  With delta = v* - (v_i + v_j)/2 along
-   d, and with G_i = V_i/(n_i Omega_i) grad W(r, h_i), n_i = sum_j W(x_ij, h_i),
-   Omega_i = 1 + h_i/(dim n_i) sum_j dW/dh(x_ij, h_i):
+   d, and with G_i = w_j V_i/(n_i Omega_i) grad W(r, h_i), n_i = sum_j w_j W(x_ij, h_i),
+   Omega_i = 1 + h_i/(dim n_i) sum_j w_j dW/dh(x_ij, h_i), volumes U_i = V_i/w_i:
 
      f_i = - p* (G_i + G_j)
      dE_i = p* (G_i.v_ij - (G_i + G_j).delta)
-     drho_i/rho_i = (G_i/V_i).v_ij - K.delta/Omega_i
-     K = 2 V_i V_j/(V_i + V_j) (grad W(r, h_i) + grad W(r, h_j))
+     drho_i/rho_i = (G_i/V_i).v_ij - w_j K.delta/Omega_i
+     K = 2 U_i U_j/(U_i + U_j) (grad W(r, h_i) + grad W(r, h_j))
 
    Without delta, drho_i/rho_i is dn_i/n_i with the changes of h; what delta moves is
-   antisymmetric.  So density behind a shock is that of the particles there, however sharp
-   the shock, which is not so with volumes V_j as weights; and forces and energies follow from
-   it (Hu & Adams, J. Comput. Phys. 213 (2006) 844, have them for h = const).
+   antisymmetric, times the weights w.  These are constants of types, 1 but with SPH_SPACINGS.
+   So density behind a shock is that of the particles there, however sharp the shock, which is
+   not so with volumes V_j as weights; and forces and energies follow from it (Hu & Adams,
+   J. Comput. Phys. 213 (2006) 844, have them for h = const).
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
@@ -182,8 +235,9 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     const Vec rsq = dx * dx + dy * dy + dz * dz;
     const Vec r = sqrt(rsq);
     overlaps += rsq > 0.0 ? zero : one;
-    Vec F_i, F_j;
-    kernels.F(r, d[3], F_i, F_j);
+    Vec F_i, F_j, ratio, weight;
+    sph_spacings<SCENE>(laws, second[3], ratio, weight);
+    kernels.F(r, d[3], F_i, F_j, ratio);
 
     const Vec h = SCENE & SPH_OWN_H ? pi.h - 0.5 * d[3] : zero + laws.h;
 
@@ -213,11 +267,12 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
 
     const Vec c = r * (c_i < c_j ? zero + c_i : c_j);
     const Vec steep = c + STEEP * closing, z_sum = z_i + z_j;
-    const Vec left = steep * z_sum, right = rsq * (V_i + V_j), inverse = 1.0 / (left * right);
+    const Vec V_sum = SCENE & SPH_SPACINGS ? weight * V_i + V_j : V_i + V_j;
+    const Vec left = steep * z_sum, right = rsq * V_sum, inverse = 1.0 / (left * right);
     const Vec keep = 0.5 * c * inverse * right * z_sum;    // c/steep
     const Vec zinv = inverse * right * steep;              // 1/z_sum
-    const Vec squareinv = inverse * left * (V_i + V_j);    // 1/r^2
-    const Vec Vinv = inverse * left * rsq;                 // 1/(V_i + V_j)
+    const Vec squareinv = inverse * left * V_sum;          // 1/r^2
+    const Vec Vinv = inverse * left * rsq;                 // 1/V_sum
 
     const Vec u_i = keep * limited(u, ahead_i - u), u_j = keep * limited(u, ahead_j - u);
     const Vec dp_i = 0.5 * limited(p, ahead_pi - p), dp_j = 0.5 * limited(p, ahead_pj - p);
@@ -244,7 +299,9 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     const Vec volume_j = read_column(slopes, j, &SphSlopes::volume);
     const Vec omega_j = SCENE & SPH_OWN_H ? read_column(slopes, j, &SphSlopes::omega) : one;
     const double omega_i = SCENE & SPH_OWN_H ? own.omega : 1.0;
-    const Vec G_i = V_i * own.volume * F_i, G_j = V_j * volume_j * F_j, G = G_i + G_j;
+    const Vec counts_i = SCENE & SPH_SPACINGS ? weight * F_i : F_i;
+    const Vec counts_j = SCENE & SPH_SPACINGS ? F_j / weight : F_j;
+    const Vec G_i = V_i * own.volume * counts_i, G_j = V_j * volume_j * counts_j, G = G_i + G_j;
     const Vec force = -pstar * G;
     *(Vec *) (near.force + m) = force;
     const Vec E_i = pstar * (G_i * u - G * delta), E_j = pstar * (G_j * u + G * delta);
@@ -255,12 +312,13 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     fy += f[1];
     fz += f[2];
     de += E_i;
-    drho += rho_i * (own.volume * F_i * stretch - omega_i * flow);
+    const Vec flow_i = SCENE & SPH_SPACINGS ? weight * flow : flow;
+    drho += rho_i * (own.volume * counts_i * stretch - omega_i * flow_i);
     heat += qheat;
 
     for (int k = 0; k < 3; k++) first[k] = -f[k];
     first[3] = E_j;
-    second[0] = rho_j * (volume_j * F_j * stretch + omega_j * flow);
+    second[0] = rho_j * (volume_j * counts_j * stretch + omega_j * flow);
     second[1] = qheat;
     second[2] = second[3] = zero;
     add_columns(rates, j, 0, first);

@@ -36,8 +36,8 @@ namespace {
     template <class Record, class Law>
     static void each_particle(SphWork &, Pass, Record *, const Law &);
     template <class Record>
-    static int within_reach(const SphWork &, const SphPlace &, const int *, int, const Record *,
-                            SphNear &);
+    static int within_reach(const SphWork &, const SphLaws &, const SphPlace &, const int *, int,
+                            const Record *, SphNear &);
     static int all_of(const SphWork &, const SphPlace &, const int *, int, SphNear &);
   };
 
@@ -61,8 +61,8 @@ namespace {
 
   template <class Kernel, int SCENE>
   template <class Record>
-  inline int Sweeps<Kernel, SCENE>::within_reach(const SphWork &work, const SphPlace &pi,
-                                                 const int *jlist, int number,
+  inline int Sweeps<Kernel, SCENE>::within_reach(const SphWork &work, const SphLaws &laws,
+                                                 const SphPlace &pi, const int *jlist, int number,
                                                  const Record *records, SphNear &near)
   {
     const SphPlace *const place = work.records.place;
@@ -78,10 +78,14 @@ namespace {
       near.d[n] = d;
       const Vec4 square = d * d;
       const double rsq = square[0] + square[2] + square[1];
-      if (SCENE & SPH_OWN_H) {
+      if (SCENE & SPH_SPACINGS) {
+        const double ratio = laws.row_ratio[static_cast<int>(state[j].type)];
+        const double h = 0.5 * (1.0 + ratio) * std::max(pi.h, (pi.h - d[3]) / ratio);
+        n += rsq < Kernel::support * Kernel::support * h * h;
+      } else if (SCENE & SPH_OWN_H) {
         const double h = SCENE & (SPH_RIEMANN | SPH_CORRECTED) ? std::max(pi.h, pi.h - d[3])
                                                                : pi.h - 0.5 * d[3];
-        n += rsq < Kernel::support * Kernel::support * h * h;
+        n += (SCENE & SPH_SPACINGS) || rsq < Kernel::support * Kernel::support * h * h;
       } else
         n += rsq < reachsq;
     }
@@ -161,6 +165,10 @@ namespace {
         laws.row_b = work.visc_b[work.type[i]];
         laws.row_tension = work.tension[work.type[i]];
       }
+      if (SCENE & SPH_SPACINGS) {
+        laws.row_ratio = work.ratio[work.type[i]];
+        laws.row_weight = work.weight[work.type[i]];
+      }
 
       // images are near those who are near: they are looked for anew in a second sweep
 
@@ -170,7 +178,7 @@ namespace {
           const int nvisit = std::min(+SphNear::MAX, number - jfirst);
           const int n = how == SECOND
               ? all_of(work, pi, jvisit + jfirst, nvisit, near)
-              : within_reach(work, pi, jvisit + jfirst, nvisit, records, near);
+              : within_reach(work, laws, pi, jvisit + jfirst, nvisit, records, near);
           if (how == FIRST) std::copy_n(near.j, n, kept.j.data() + nkept + found);
           found += n;
           law(i, pi, n, laws, near, sum);
@@ -244,12 +252,12 @@ namespace {
   ------------------------------------------------------------------------- */
 
   constexpr int H = SPH_OWN_H, B = SPH_BODIES, D = SPH_DENSITY, R = SPH_RIEMANN, S = SPH_STRENGTH,
-                A = SPH_ARTSTRESS, C = SPH_CORRECTED | SPH_STRENGTH;
+                A = SPH_ARTSTRESS, C = SPH_CORRECTED | SPH_STRENGTH, W = SPH_SPACINGS;
 
   using Scenes =
-      std::integer_sequence<int, 0, H, B, H | B, H | B | D, R, R | H, R | H | B, S, S | B,
-                            S | H | B, S | H | B | D, S | H | B | A, S | H | B | D | A, C, C | B,
-                            C | H | B, C | H | B | D, C | H | B | D | A, C | R, C | R | B,
+      std::integer_sequence<int, 0, H, B, H | B, H | B | D, R, R | H, R | H | B, R | H | B | W, S,
+                            S | B, S | H | B, S | H | B | D, S | H | B | A, S | H | B | D | A, C,
+                            C | B, C | H | B, C | H | B | D, C | H | B | D | A, C | R, C | R | B,
                             C | R | H | B, C | R | H | B | A>;
 
   template <class Kernel, int... SCENE>

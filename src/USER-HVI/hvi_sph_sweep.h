@@ -51,6 +51,7 @@ struct SphWork {
   SphList list;
   SphLaws laws;
   const double *const *visc_a, *const *visc_b, *const *tension;    // by types, with SPH_BODIES
+  const double *const *ratio, *const *weight;                      // and with SPH_SPACINGS
   const int *type;
   Images *images;    // null: no mirror planes
   SphKept *kept;

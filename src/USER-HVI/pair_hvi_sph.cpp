@@ -22,6 +22,7 @@
 #include "force.h"
 #include "hvi_interface.h"
 #include "hvi_sph_report.h"
+#include "math_special.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -36,9 +37,9 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 PairHVISPH::PairHVISPH(LAMMPS *lmp) :
-    Pair(lmp), visc_a(nullptr), visc_b(nullptr), tension(nullptr), store(nullptr),
-    integrator(nullptr), lists(nullptr), mesh(nullptr), strength(nullptr), placed(false),
-    fastest(0.0), narrowest(HVI::NO_BOUND), halo()
+    Pair(lmp), visc_a(nullptr), visc_b(nullptr), tension(nullptr), ratio(nullptr), weight(nullptr),
+    store(nullptr), integrator(nullptr), lists(nullptr), mesh(nullptr), strength(nullptr),
+    placed(false), fastest(0.0), narrowest(HVI::NO_BOUND), halo()
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
@@ -83,6 +84,7 @@ void PairHVISPH::compute(int eflag, int vflag)
       records,    {(int) rows.size(), rows.data(), list->numneigh, list->firstneigh},
       set.laws,   visc_a,
       visc_b,     tension,
+      ratio,      weight,
       atom->type, mirrored ? &images : nullptr,
       &kept,      fields.embedded.empty() ? nullptr : fields.embedded.data(),
       this,       evflag != 0,
@@ -243,7 +245,44 @@ int PairHVISPH::choose_scene()
     set.laws.a = visc_a[first][first];
     set.laws.b = visc_b[first][first];
   }
+  if (set.riemann && !set.whole && find_weights()) scene |= HVI::SPH_SPACINGS;
   return scene;
+}
+
+/* ----------------------------------------------------------------------
+   By how much a particle counts more than another in the density of that, with dissipation riemann: the
+   ratio of their volumes, of those at rho0 if both have one.  A gas has none: what is large
+   because it is thin now will be as small as others of its mass when pressures are even.  So of
+   volumes, by h, and masses that ratio counts which is nearer to 1; and 1 if they do not agree
+   on who is larger.  Volumes that nearly agree are the same.  Returns whether types differ.
+------------------------------------------------------------------------- */
+
+bool PairHVISPH::find_weights()
+{
+  static constexpr double SAME = 0.01;
+  bool differ = false;
+  for (int i = 1; i <= atom->ntypes; i++) {
+    if (!is_ours[i]) continue;
+    ratio[i][i] = weight[i][i] = 1.0;
+    for (int j = i + 1; j <= atom->ntypes; j++) {
+      if (!is_ours[j]) continue;
+      ratio[i][j] = set.h[j] / set.h[i];
+      double w = MathSpecial::powint(ratio[i][j], set.laws.dim);
+      if (!atom->rmass) {
+        const double rho_i = store->materials.of(i)->eos->rho0();
+        const double rho_j = store->materials.of(j)->eos->rho0();
+        const double masses = atom->mass[j] / atom->mass[i];
+        w = rho_i > 0.0 && rho_j > 0.0 ? masses * rho_i / rho_j
+                                       : MAX(MIN(w, masses), MIN(1.0, MAX(w, masses)));
+      }
+      if (std::fabs(std::log(w)) < SAME) w = 1.0;
+      weight[i][j] = w;
+      weight[j][i] = 1.0 / w;
+      ratio[j][i] = 1.0 / ratio[i][j];
+      if (ratio[i][j] != 1.0 || w != 1.0) differ = true;
+    }
+  }
+  return differ;
 }
 
 /* ----------------------------------------------------------------------
@@ -256,7 +295,7 @@ double PairHVISPH::init_one(int i, int j)
     if (mesh && mesh->is_node(itype)) return 0.0;
     if (!is_ours[itype]) error->all(FLERR, "Pair style hvi/sph: type {} has no material", itype);
   }
-  const double h = set.riemann || set.whole ? MAX(set.h[i], set.h[j]) : 0.5 * (set.h[i] + set.h[j]);
+  const double h = set.whole ? MAX(set.h[i], set.h[j]) : 0.5 * (set.h[i] + set.h[j]);
   return set.support * (set.variable ? set.hmax : 1.0) * h;
 }
 

@@ -65,6 +65,7 @@ class PairHVISPH :
   HVI::SphSettings set;
   std::vector<std::string> specs;          // by type: what made materials, for restart files
   double **visc_a, **visc_b, **tension;    // by types, rows have ntypes+1 entries
+  double **ratio, **weight;                // the same, of a run: see find_weights()
 
   // a run
 
@@ -111,6 +112,7 @@ class PairHVISPH :
   // of a force evaluation
 
   int choose_scene();
+  bool find_weights();
   void find_images();
   void gather();
   void gather_stress();

@@ -40,6 +40,8 @@ void PairHVISPH::allocate()
   memory->create(visc_a, np1, np1, "pair:visc_a");
   memory->create(visc_b, np1, np1, "pair:visc_b");
   memory->create(tension, np1, np1, "pair:tension");
+  memory->create(ratio, np1, np1, "pair:ratio");
+  memory->create(weight, np1, np1, "pair:weight");
   for (int i = 0; i < np1; i++)
     for (int j = 0; j < np1; j++) {
       setflag[i][j] = 0;
@@ -64,6 +66,8 @@ void PairHVISPH::deallocate()
   memory->destroy(visc_a);
   memory->destroy(visc_b);
   memory->destroy(tension);
+  memory->destroy(ratio);
+  memory->destroy(weight);
   allocated = 0;
 }
 

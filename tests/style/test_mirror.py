@@ -76,9 +76,11 @@ def test_as_the_whole(lmp, tmp_path, material, words):
 
 def test_fluid(lmp, tmp_path, material):
     """without strength, in form symmetric, and with Riemann problems, whose slopes are sums of a first sweep"""
-    for words in ("", "form symmetric", "dissipation riemann", "dissipation riemann h variable"):
+    for words, wide in (("", 1.25), ("form symmetric", 1.25), ("dissipation riemann", 1.25), ("dissipation riemann h variable", 1.25),
+                        ("dissipation riemann h variable", 1.6)):
         text = "".join("clear\n" + start(p, tmp_path, material, words=words, solid=False)[0] + OUT.format("f" + p).replace("vm sxx", "p sxx") for p in ("", "xyz"))
         text = text.replace("p c eps damage spalled p sxx syy szz sxy sxz syz", "p c p p p p p p p p p p")
+        text = text.replace(f"pair_coeff 2 2 file {material} h 1.25", f"pair_coeff 2 2 file {material} h {wide}")
         if "riemann" in words:  # else p* = 0 here, and its sign, so whether bodies touch, is that of a rounding
             text = text.replace("tension no", "tension yes")
         lmp(text)

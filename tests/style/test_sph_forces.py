@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from sph_scenes import RATES, ideal_gas, linear, norm, random_fluid, rates, read_rates, riemann_rates, scene, tait
+from sph_scenes import RATES, ideal_gas, linear, norm, random_fluid, rates, read_rates, riemann_rates, scene, tait, weight_ratio
 
 KERNELS = ("lucy", "quadratic", "cubic", "quartic", "quintic", "gauss", "wendland2", "wendland4")
 TAIT = {1: tait(1.0, 4.0), 2: tait(1.7, 3.0)}
@@ -82,6 +82,38 @@ def test_scenes(lmp, tmp_path, name, h):
         welded = solve(state, TAIT, "cubic", h=hi, follows=follows, **{**terms, "tension": True})
         assert np.abs(welded["f"] - want["f"]).max() > 0.01 * np.abs(want["f"]).max()
     close(read_rates(tmp_path / "f"), want)
+
+
+SPACINGS = {  # laws, rho0 of those that have one, masses of two types, h, by how much type 2 counts more than type 1 in three dimensions
+    "volumes": (TAIT, {1: 1.0, 2: 1.7}, (1.0, 5.1), [1.0, 1.3], 3.0),  # at rho0, whatever h is
+    "same h": (TAIT, {1: 1.0, 2: 1.7}, (1.0, 5.1), [1.2, 1.2], 3.0),
+    "masses": ({1: ideal_gas(1.4), 2: ideal_gas(1.6)}, {}, (1.0, 1.7), [1.0, 1.3], 1.7),  # less than 1.3^3
+    "h": ({1: ideal_gas(1.4), 2: ideal_gas(1.6)}, {}, (1.0, 5.1), [1.0, 1.3], 1.3**3),
+    "neither": ({1: ideal_gas(1.4), 2: ideal_gas(1.6)}, {}, (1.7, 1.0), [1.0, 1.3], 1.0),  # the lighter one is larger
+    "gas and liquid": ({1: ideal_gas(1.4), 2: tait(1.7, 3.0)}, {2: 1.7}, (1.0, 5.1), [1.0, 1.3], 1.3**3),
+}
+
+
+@pytest.mark.parametrize("nranks, newton, h", [(1, "on", "constant"), (1, "on", "variable"), (3, "off", "variable")])
+@pytest.mark.parametrize("name", SPACINGS)
+def test_riemann_of_unequal_spacings(lmp, tmp_path, name, nranks, newton, h):
+    """types that count differently in each other's density, and have wide kernels between them"""
+    eos, rho0, (m1, m2), wide, ratio = SPACINGS[name]
+    state = random_fluid(7, seed=21, h=wide)
+    state.esph *= np.array([m1, m2 / 1.7])[state.type - 1]  # energies per mass as they were
+    state.mass = {1: m1, 2: m2}
+    assert weight_ratio(state, 1, 2, rho0) == pytest.approx(ratio, rel=1e-12)
+    laws = ("eos tait 1.0 4.0 7" if 1 in rho0 else "eos idealgas 1.4", "eos tait 1.7 3.0 7" if 2 in rho0 else "eos idealgas 1.6")
+    pair = f"pair_style hvi/sph cubic dissipation riemann h {h}\npair_coeff 1 2 tension yes\n"
+    pair += "".join(f"pair_coeff {k} {k} {laws[k - 1]} h {wide[k - 1]}\n" for k in (1, 2))
+    follows = np.full(len(state.x), h == "variable")
+    want = riemann_rates(state, eos, "cubic", follows=follows, rho0=rho0)
+    got = one(lmp, tmp_path, state, pair, nranks=nranks, newton=newton)
+    close(got, want)
+    assert got["de"].sum() == pytest.approx(-(got["f"] * state.v).sum(), rel=1e-10)
+    if ratio != 1:
+        plain = riemann_rates(state, eos, "cubic", follows=follows, rho0={1: m1, 2: m2})  # of equal volumes
+        assert np.abs(plain["f"] - want["f"]).max() > 0.01 * np.abs(want["f"]).max()
 
 
 @pytest.mark.parametrize("periodic", [True, False])

@@ -5,7 +5,7 @@ import pytest
 from sph_scenes import RATES, random_fluid, read_rates, scene
 
 MIDDLE, END = 60, 110  # at 120 the restart command would rebuild the list
-PAIR = "pair_style hvi/sph cubic {0}\npair_coeff 1 1 eos tait 1.0 4.0 7 h 1.2\npair_coeff 2 2 eos idealgas 1.4 h 1.1\n"
+PAIR = "pair_style hvi/sph cubic {0}\npair_coeff 1 1 eos tait 1.0 4.0 7 h 1.2\npair_coeff 2 2 eos idealgas 1.4 h 1.3\n"
 THERMO = "compute book all hvi/energy\nthermo 10\nthermo_style custom step dt time f_step[*] c_book[*]\nthermo_modify norm no format float %.17g\n"
 STATE = dict(seed=41, jitter=0.1, speed=0.8, periodic=True)
 
