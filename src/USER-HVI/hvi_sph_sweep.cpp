@@ -85,7 +85,7 @@ namespace {
       } else if (SCENE & SPH_OWN_H) {
         const double h = SCENE & (SPH_RIEMANN | SPH_CORRECTED) ? std::max(pi.h, pi.h - d[3])
                                                                : pi.h - 0.5 * d[3];
-        n += (SCENE & SPH_SPACINGS) || rsq < Kernel::support * Kernel::support * h * h;
+        n += rsq < Kernel::support * Kernel::support * h * h;
       } else
         n += rsq < reachsq;
     }
