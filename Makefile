@@ -4,8 +4,9 @@
 #   make demo-dem                  likewise, a debris cloud of discrete elements
 #   make test    the same; then all tests
 #   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so
-#   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures) and of solids; long tests
-#   make doc | bench | bench-full | sanitize | clean
+#   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures), of solids and of hard cases; long tests
+#   make bench   speed against error, the short form (bench-full: all of it): build/bench/speed-error.html
+#   make doc | sanitize | clean
 #
 # LAMMPS_VERSION=20250204|20260704   which pinned LAMMPS          LAMMPS_SOURCE_DIR=DIR   your own LAMMPS source tree
 # BUILD=DIR                          build folder                 JOBS=N                  processes of the compilation
@@ -78,6 +79,7 @@ verify:
 	  cmake/env.sh $$python tests/states.py --lmp $(OUT)/lmp --out $(OUT)/verify $(STATES_ARGS) && \
 	  cmake/env.sh $$python tests/expansion.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
 	  cmake/env.sh $$python tests/interface.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
+  cmake/env.sh $$python tests/hard.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
 	  ctest --test-dir $(BUILD) --output-on-failure -C long -L long -j $(JOBS) && export PYTHONPATH=$(TOP)/python && \
 	  { cmake/env.sh $$python -m hvi shield $(DEMO)/cases/quick.yaml --lmp $(OUT)/lmp --runs $(OUT)/verify --jobs $(RANKS) --ranks 1; code=$$?; \
 	    [ $$code = 0 ] || [ $$code = 3 ] || [ $$code = 4 ] || exit $$code; } && \

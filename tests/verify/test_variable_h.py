@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 from reference import gas
+from spacing_scenes import lattice
 from sph_scenes import SUPPORT, Fluid, ideal_gas, norm, random_fluid, rates, riemann_rates, scene, shape
 
 DUMP = """write_dump all custom {0} id x y z vx c_R c_H[1] c_H[2] modify sort id format float %.15g
@@ -21,15 +22,6 @@ fix stop all halt 1 v_t > {0} error continue message no
 thermo 10
 """
 DISSIPATIONS = {"riemann": "dissipation riemann", "monaghan": "viscosity 1 2", "auto": "interface auto"}
-
-
-def lattice(low, counts, spacing):
-    """(n, 3), from low along x; spacing (a, b) along x and across"""
-    x = np.stack(np.meshgrid(*[np.arange(k) + 0.5 for k in counts], indexing="ij"), -1).reshape(-1, len(counts))
-    out = np.zeros((len(x), 3))
-    out[:, : len(counts)] = x * ([spacing[0]] + [spacing[1]] * (len(counts) - 1))
-    out[:, 0] += low
-    return out
 
 
 def read_last(path):

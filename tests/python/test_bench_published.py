@@ -1,0 +1,43 @@
+"""The report in doc/speed-error.md, and the tables of README.md and doc/src/Howto_choose.rst, are those of the records in bench/records."""
+
+import pathlib
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "bench"), str(ROOT / "python")]
+
+import pareto  # noqa: E402
+import report  # noqa: E402
+
+RECORDS = [str(ROOT / "bench" / "records")]
+
+
+@pytest.fixture(scope="module")
+def published():
+    return report.load_cases(ROOT / "bench" / "cases"), report.load(RECORDS)
+
+
+def test_the_report_is_of_the_records(published):
+    """python3 bench/report.py --records bench/records --out doc"""
+    assert report.Report(*published).markdown() == (ROOT / "doc" / "speed-error.md").read_text()
+    for name in report.Report(*published).figures:
+        assert (ROOT / "doc" / report.FOLDER / name).exists()
+
+
+@pytest.mark.parametrize("page, words", [("README.md", []), ("doc/src/Howto_choose.rst", ["--rst"])])
+def test_the_table_of_needs_is_of_the_records(page, words, capsys):
+    """python3 bench/report.py --records bench/records --needs [--rst]"""
+    assert report.main(["--records", *RECORDS, "--needs", *words]) == 0
+    assert capsys.readouterr().out.strip() in (ROOT / page).read_text()
+
+
+def test_every_case_has_records_of_one_binary(published):
+    """idle ones among them; and a default that has a time"""
+    cases, records = published
+    assert {r["case"] for r in records} == set(cases)
+    assert len({r["versions"]["binary"] for r in records}) == 1
+    for name, points in pareto.all_points(cases, records).items():
+        default = [p for p in points if p.default]
+        assert len(default) == 1 and default[0].timed, name
