@@ -39,8 +39,8 @@ static constexpr double FILL_LEAST = 0.4;      // of a body's bounding box, if t
 /* ---------------------------------------------------------------------- */
 
 HVISphReport::HVISphReport(LAMMPS *lmp, FixHVIStore *store, const std::vector<char> &is_ours) :
-    Pointers(lmp), laws(atom->ntypes + 1), solid(false), kept_bytes(0), forward(0), reverse(0),
-    border(0), store(store), is_ours(is_ours), rows(atom->ntypes + 1), spread(0.0)
+    Pointers(lmp), weight(nullptr), laws(atom->ntypes + 1), solid(false), kept_bytes(0), forward(0),
+    reverse(0), border(0), store(store), is_ours(is_ours), rows(atom->ntypes + 1), spread(0.0)
 {
 }
 
@@ -90,9 +90,7 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     const int i = list.ilist[ii], itype = atom->type[i];
     for (int jj = 0; jj < list.numneigh[i]; jj++) {
       const int j = list.firstneigh[i][jj] & NEIGHMASK, jtype = atom->type[j];
-      const double h = set.whole ? MAX(set.h[itype], set.h[jtype])
-                                 : 0.5 * (set.h[itype] + set.h[jtype]);
-      const double reach = set.support * h;
+      const double reach = set.support * widest(itype, jtype);
       const double d[3] = {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]};
       if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] >= reach * reach) continue;
       sum[NSUM * itype + NEIGHBORS] += 1.0;
@@ -217,6 +215,12 @@ void HVISphReport::write()
     settings += fmt::format("{} {} {}", itype, set.h[itype], what);
   }
   std::string more = fmt::format("  terms: {}\n", terms());
+  for (int i = 1; weight && i <= atom->ntypes; i++)
+    for (int j = i + 1; j <= atom->ntypes; j++)
+      if (is_ours[i] && is_ours[j] && weight[i][j] != 1.0)
+        more += fmt::format(
+            "  weights of spacings: type {} counts {:.4g} times in densities of type {}\n", j,
+            weight[i][j], i);
   more += fmt::format("  arrays, bytes: {}\n", store->fields.arrays());
   more += fmt::format("  memory: {:.0f} bytes per owned and ghost particle, {} more per owned "
                       "particle in fixes\n",

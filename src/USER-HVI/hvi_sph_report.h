@@ -12,6 +12,7 @@
 #include "hvi_sph_sweep.h"
 #include "pointers.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ class HVISphReport : protected Pointers {
  public:
   HVISphReport(class LAMMPS *, class FixHVIStore *, const std::vector<char> &is_ours);
 
+  std::function<double(int, int)> widest;    // h of the wider kernel between two types
+  const double *const *weight;      // of types in each other's density; null: all are alike
   std::vector<std::string> laws;    // by type, what is in force besides the equation of state
   std::vector<char> unmoved;    // by owned particle: not integrated in a run before; empty: unknown
   bool solid;                   // there is a fix that keeps stress

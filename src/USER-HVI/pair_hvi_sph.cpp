@@ -254,7 +254,8 @@ int PairHVISPH::choose_scene()
    ratio of their volumes, of those at rho0 if both have one.  A gas has none: what is large
    because it is thin now will be as small as others of its mass when pressures are even.  So of
    volumes, by h, and masses that ratio counts which is nearer to 1; and 1 if they do not agree
-   on who is larger.  Volumes that nearly agree are the same.  Returns whether types differ.
+   on who is larger.  Volumes that nearly agree are the same.  Where volumes differ, kernels are
+   wider or narrower by half of what spacings differ.  Returns whether types differ.
 ------------------------------------------------------------------------- */
 
 bool PairHVISPH::find_weights()
@@ -266,8 +267,7 @@ bool PairHVISPH::find_weights()
     ratio[i][i] = weight[i][i] = 1.0;
     for (int j = i + 1; j <= atom->ntypes; j++) {
       if (!is_ours[j]) continue;
-      ratio[i][j] = set.h[j] / set.h[i];
-      double w = MathSpecial::powint(ratio[i][j], set.laws.dim);
+      double w = MathSpecial::powint(set.h[j] / set.h[i], set.laws.dim);
       if (!atom->rmass) {
         const double rho_i = store->materials.of(i)->eos->rho0();
         const double rho_j = store->materials.of(j)->eos->rho0();
@@ -278,11 +278,24 @@ bool PairHVISPH::find_weights()
       if (std::fabs(std::log(w)) < SAME) w = 1.0;
       weight[i][j] = w;
       weight[j][i] = 1.0 / w;
+      ratio[i][j] = std::pow(w, 1.0 / set.laws.dim);
       ratio[j][i] = 1.0 / ratio[i][j];
-      if (ratio[i][j] != 1.0 || w != 1.0) differ = true;
+      if (w != 1.0) differ = true;
     }
   }
   return differ;
+}
+
+/* ----------------------------------------------------------------------
+   the largest h, at the start, of a kernel by which particles of two types see each other
+------------------------------------------------------------------------- */
+
+double PairHVISPH::widest(int i, int j) const
+{
+  const double h_i = set.h[i], h_j = set.h[j];
+  if (set.whole) return MAX(h_i, h_j);
+  if (!set.riemann) return 0.5 * (h_i + h_j);
+  return 0.5 * MAX((1.0 + ratio[i][j]) * h_i, (1.0 + ratio[j][i]) * h_j);
 }
 
 /* ----------------------------------------------------------------------
@@ -295,8 +308,7 @@ double PairHVISPH::init_one(int i, int j)
     if (mesh && mesh->is_node(itype)) return 0.0;
     if (!is_ours[itype]) error->all(FLERR, "Pair style hvi/sph: type {} has no material", itype);
   }
-  const double h = set.whole ? MAX(set.h[i], set.h[j]) : 0.5 * (set.h[i] + set.h[j]);
-  return set.support * (set.variable ? set.hmax : 1.0) * h;
+  return set.support * (set.variable ? set.hmax : 1.0) * widest(i, j);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -309,6 +321,10 @@ void PairHVISPH::setup()
   warn();
 
   HVISphReport report(lmp, store, is_ours);
+  report.widest = [this](int i, int j) {
+    return widest(i, j);
+  };
+  if (sweeps->scene() & HVI::SPH_SPACINGS) report.weight = weight;
   report.forward = comm_forward;
   report.reverse = force->newton_pair ? comm_reverse : 0;
   if (set.whole) {

@@ -113,6 +113,7 @@ class PairHVISPH :
 
   int choose_scene();
   bool find_weights();
+  double widest(int, int) const;
   void find_images();
   void gather();
   void gather_stress();
