@@ -418,18 +418,18 @@ class Answer:
 
 
 def finer(p, points):
-    """runs that count, of the same method and settings, in finer resolutions; on any number of ranks"""
+    """runs of the same method and settings in finer resolutions, whether they count or not; on any number of ranks"""
     def series(q):
         return [pair for pair in identity(q.case, q.settings) if pair[0] not in ("ranks", q.case["resolution"])]
 
-    return [q for q in points if q.counts and p.fine is not None and q.fine is not None and q.fine > p.fine and series(q) == series(p)]
+    return [q for q in points if not q.cannot and p.fine is not None and q.fine is not None and q.fine > p.fine and series(q) == series(p)]
 
 
 def answer(points, bound):
     """The cheapest Answer within bound (%), confirmed ones first; those without a time last. None if there is none.
 
-    A run whose finer ones are not all within the bound has come there by luck. With several shifts the mean and one standard deviation
-    must be within it.
+    A run whose finer ones are not all within the bound has come there by luck; none is sure whose finer ones failed. With several shifts the
+    mean and one standard deviation must be within it.
     """
     def within(p):
         return p.percent is not None and p.percent * (1.0 + (p.scatter / p.error if p.scatter and p.error else 0.0)) <= bound
@@ -438,8 +438,9 @@ def answer(points, bound):
     for p in points:
         if p.counts and p.ours and within(p):
             better = finer(p, points)
-            if all(within(q) for q in better):
-                able.append(Answer(p, bool(better)))
+            if all(within(q) for q in better if q.counts):
+                able.append(Answer(p, bool(better) and all(q.counts for q in better)))
+
     def order(found):
         p = found.point
         return not p.timed, not found.sure, p.cost if p.timed else p.particles * p.steps

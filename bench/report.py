@@ -28,7 +28,7 @@ TITLE = "Speed against error"
 FOLDER = "speed-error"  # of the figures
 DPI, DPI_PAGE = 100, 150
 HOW = ["Cost: core-seconds of LAMMPS's time loops (wall time by ranks), without the set-up. Only runs on idle cores have one; a run counts as busy "
-       "where other jobs used 5 % of all cores or more.",
+       "where other jobs used a tenth of a core or more.",
        "Error: as each case says, as a magnitude. Runs that differ in the shift of the lattice alone are one point: mean +- standard deviation "
        "(number of runs).",
        f"Ledger: the largest |E/E0 - 1| of a run, and the relative error of its momentum. A run whose energy is off by more than {pareto.LEDGER:g} "

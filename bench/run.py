@@ -13,6 +13,7 @@ cores had other things to do is, when they have none (--busy keeps it). Times of
 
 import argparse
 import datetime
+import functools
 import hashlib
 import importlib
 import itertools
@@ -34,7 +35,9 @@ import yaml
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
-BUSY = 0.05  # of all cores, used by others: times do not count beyond
+BUSY = 0.1  # cores that others used in the mean while LAMMPS was at work: times do not count beyond
+DAEMON = 0.06  # s of a core that a run itself may leave to others
+TOLD = ("title", "question", "about", "short", "full", "points", "default", "error", "name")  # what a run does not depend on
 
 
 class Wrong(Exception):
@@ -76,11 +79,34 @@ def key_of(name, settings):
     return hashlib.sha1(json.dumps([name, settings], sort_keys=True).encode()).hexdigest()[:12]
 
 
+@functools.cache
+def files():
+    """hash of inputs, scenes of tests, materials and Python that runs are made of"""
+    made = hashlib.sha256()
+    for pattern in ("bench/runners/*.py", "bench/stock/*", "bench/dem/*", "bench/sph/*", "tests/*.py", "tests/reference/*.py", "python/hvi/*.py",
+                    "examples/*/in.*", "potentials/*.hvi"):
+        for path in sorted(ROOT.glob(pattern)):
+            if path.is_file() and not path.name.startswith("hard"):
+                made.update(path.read_bytes())
+    return made.hexdigest()
+
+
+def source_of(case):
+    """hash of what a run is made of besides settings and binary: what the case says, and files()"""
+    said = json.dumps({k: v for k, v in case.items() if k not in TOLD}, sort_keys=True, default=str)
+    return hashlib.sha256((said + files()).encode()).hexdigest()[:12]
+
+
 class Others:
-    """What the cores do for others: fraction of all of them between start and now, by /proc/stat; None where there is none."""
+    """What the cores do for others from the start of this to now, in cores, by /proc/stat less what this process and its children
+    have used in the same time; None where /proc/stat is not, or the time is too short to tell."""
 
     def __init__(self):
-        self.began = self.now()
+        self.began, self.own = self.now(), self.ours()
+
+    @staticmethod
+    def ours():
+        return sum(r.ru_utime + r.ru_stime for r in (resource.getrusage(k) for k in (resource.RUSAGE_CHILDREN, resource.RUSAGE_SELF)))
 
     @staticmethod
     def now():
@@ -88,17 +114,13 @@ class Others:
             fields = [int(a) for a in pathlib.Path("/proc/stat").read_text().splitlines()[0].split()[1:9]]
         except (OSError, ValueError):
             return None
-        total = sum(fields)
-        return total, total - fields[3] - fields[4]  # without idle and waiting for disks
+        return time.monotonic(), (sum(fields) - fields[3] - fields[4]) / os.sysconf("SC_CLK_TCK")  # without idle and waiting for disks
 
-    def used(self, own):
-        """own: core-seconds that were ours"""
+    def used(self):
         there = self.now()
-        if there is None or self.began is None or there[0] == self.began[0]:
+        if there is None or self.began is None:
             return None
-        tick = 1 / os.sysconf("SC_CLK_TCK")
-        total, busy = ((a - b) * tick for a, b in zip(there, self.began))
-        return max(0.0, (busy - own) / total)
+        return (there[1] - self.began[1] - (self.ours() - self.own)) / max(there[0] - self.began[0], 1e-9)
 
 
 class Memory(threading.Thread):
@@ -130,8 +152,9 @@ def measured(pipe, case, settings, folder, lmp, ranks, timeout):
     runner = importlib.import_module(f"runners.{case['runner']}")
     Cannot = importlib.import_module("runners").Cannot
     record = {"failed": "", "cannot": ""}
-    memory, others, start = Memory(lmp), Others(), time.time()
+    memory = Memory(lmp)
     memory.start()
+    others, start = Others(), time.time()
     try:
         record.update(runner.run(case, settings, folder, lmp, ranks=ranks, timeout=timeout))
     except Cannot as why:
@@ -142,11 +165,11 @@ def measured(pipe, case, settings, folder, lmp, ranks, timeout):
     record["wall_s"] = round(time.time() - start, 3)
     memory.done.set()
     memory.join()
-    who = [resource.getrusage(k) for k in (resource.RUSAGE_CHILDREN, resource.RUSAGE_SELF)]
-    used = [r.ru_utime + r.ru_stime for r in who]
-    load = others.used(sum(used))
-    record.update(core_s=round(used[0], 3), memory_MB=round(memory.most, 1), load=None if load is None else round(load, 4),
-                  idle=load is not None and load < BUSY)
+    load = others.used()
+    spent = resource.getrusage(resource.RUSAGE_CHILDREN)
+    # a program of MPI that is started alone starts a daemon, which is no child of ours: 0.04 s
+    record.update(core_s=round(spent.ru_utime + spent.ru_stime, 3), memory_MB=round(memory.most, 1), load=None if load is None else round(load, 3),
+                  idle=load is not None and load < BUSY + DAEMON / max(record["wall_s"], 0.01))
     pipe.send(record)
 
 
@@ -184,28 +207,39 @@ def versions(lmp):
             "python": platform.python_version(), "binary": hashlib.sha256(lmp.read_bytes()).hexdigest()[:12]}
 
 
-def kept(file, now, again):
-    """the record in a file, if it stands: of this binary, and timed if that can be had"""
-    if not file.exists() or again:
-        return None
-    record = json.loads(file.read_text())
-    return record if record["versions"]["binary"] == now["binary"] else None
+def kept(file, now, source, busy):
+    """whether the record in a file stands: of this binary and these sources, no failure of the harness itself, and timed if that can be had"""
+    if not file.exists():
+        return False
+    r = json.loads(file.read_text())
+    same = r["versions"]["binary"] == now["binary"] and r["source"] == source and not r["failed"].startswith("bench: ")
+    return same and (r["idle"] or busy or bool(r["cannot"]) or r["load"] is None)
 
 
 def show(record):
     said = record["failed"] or record["cannot"] or " ".join(f"{k} {v:.4g}" for k, v in record["errors"].items())
-    cost = f"{record.get('loop_s', 0) * record['ranks']:.1f} core-s" + ("" if record["idle"] else f", busy (load {record['load']})")
-    return f"{record['case']} {' '.join(f'{k}={v}' for k, v in record['settings'].items())}: {said}; {cost}"
+    cost = "" if record["cannot"] else f"; {record.get('loop_s', 0) * record['ranks']:.1f} core-s"
+    cost += "" if record["idle"] or record["cannot"] else f", busy: others used {record['load']} cores"
+    return f"{record['case']} {' '.join(f'{k}={v}' for k, v in record['settings'].items())}: {said}{cost}"
 
 
 def publish(out):
-    """records of a folder, one file per case, into bench/records; the report of them into doc"""
-    target = HERE / "records"
+    """records of a folder, one file per case, into bench/records: those of runs that the case files have, of one binary and one state of the sources"""
+    target, found = HERE / "records", {}
+    for case in (load_case(f) for f in sorted((HERE / "cases").glob("*.yaml"))):
+        keys = {key_of(case["name"], s) for s in settings_of(case, "full")}
+        records = [json.loads(f.read_text()) for f in sorted((out / "records" / case["name"]).glob("*.json")) if f.stem in keys]
+        found[case["name"]] = sorted(records, key=lambda r: json.dumps(r["settings"], sort_keys=True))
+    every = [r for records in found.values() for r in records]
+    broken = [r for r in every if r["failed"].startswith("bench: ")]
+    if not every or broken:
+        raise Wrong(f"{show(broken[0])}: mend the harness, then run it again" if broken else f"{out}: no records")
+    if len({r["versions"]["binary"] for r in every}) > 1 or any(len({r["source"] for r in records}) > 1 for records in found.values()):
+        raise Wrong(f"{out}: records of more than one binary, or of more than one state of the sources: run them again")
     target.mkdir(exist_ok=True)
-    for folder in sorted((out / "records").iterdir()):
-        records = [json.loads(f.read_text()) for f in sorted(folder.glob("*.json"))]
-        records.sort(key=lambda r: json.dumps(r["settings"], sort_keys=True))
-        (target / f"{folder.name}.jsonl").write_text("".join(json.dumps(r, sort_keys=True) + "\n" for r in records))
+    for name, records in found.items():
+        if records:
+            (target / f"{name}.jsonl").write_text("".join(json.dumps(r, sort_keys=True) + "\n" for r in records))
 
 
 def chosen(args):
@@ -224,8 +258,8 @@ def work(args):
             if not args.methods or s["method"] in args.methods.split(",")]
     for number, (case, settings) in enumerate(todo, 1):
         file = args.out / "records" / case["name"] / f"{key_of(case['name'], settings)}.json"
-        old = kept(file, now, args.again)
-        if old and (old["idle"] or args.busy):
+        source = source_of(case)
+        if not args.again and kept(file, now, source, args.busy):
             continue
         if args.dry:
             print(case["name"], settings)
@@ -235,7 +269,7 @@ def work(args):
             break
         folder = args.out / "runs" / case["name"] / file.stem
         record = run_one(case, settings, folder, args.lmp)
-        record.update(date=datetime.date.today().isoformat(), versions=now, machine=box,
+        record.update(date=datetime.datetime.now().isoformat(timespec="seconds"), versions=now, source=source, machine=box,
                       command=f"bench/run.py --size {args.size} --cases {case['name']} --methods {settings['method']!r}")
         if not args.keep:
             shutil.rmtree(folder, ignore_errors=True)

@@ -64,6 +64,8 @@ def answer(folder, particles, errors, numbers=None, energy=None, momentum=None, 
     ledger = {k: float(v) for k, v in (("energy", energy), ("momentum", momentum)) if v is not None and np.isfinite(v)}
     if not failed and not all(np.isfinite(list(errors.values()))):
         failed = "not finite"
+    if not failed and energy is not None and not np.isfinite(energy):
+        failed = "energy is no number"
     if not failed and ledger.get("energy", 0.0) > OFF:
         failed = f"energy off by {100 * ledger['energy']:.0f} %"
     return {"particles": int(particles), "steps": steps(folder), "loop_s": loop_s(folder),

@@ -71,9 +71,10 @@ def wall(lmp, folder, s):
         o = fem.standing(lmp, folder, "plate", nt=n, length=40, periods=1.0, fem=s.get("fem", ""), factor=s.get("element_C", 0.5))
         k = 2 * np.pi / 40
         return o, {"speed": off(o["frequency"] * face_scenes.CP * k / face_scenes.lamb(k, 1.0, False))}, {"amplitude": o["amplitude"]}
-    o = face_scenes.borne(lmp, folder, n, length=40 * n, **of_particles(s))
-    errors = {"speed": off(o["speed"]), "speed of shear": off(o["shear_speed"]), "borne": off(o["borne"]), "loss": 100 * o["loss"]}
-    return o, errors, {"noise": o["noise"]}
+    how = of_particles(s)
+    r, t, _, _, o = face_scenes.standing(lmp, folder, n, how.pop("words"), how.pop("kernel"), how.pop("h"), 40 * n, False, **how)
+    o = {**o, "particles": len(t.x), **face_scenes.books(r)}
+    return o, {"speed": off(o["speed"]), "borne": off(o["borne"]), "loss": 100 * o["loss"]}, {"noise": o["noise"]}
 
 
 def bending(lmp, folder, s):
