@@ -142,9 +142,9 @@ def test_unequal_spacings_at_rest(lmp, tmp_path, dim, nx, rows, ratio):
         speed, energy = g["thermo"]["c_fastest"], g["thermo"]["c_book[9]"]
         print(f"{dim}D ratio {ratio} {name:9} largest speed/c {speed.max():.3f}, at the end {speed[-1]:.3f}; rho {g['rho'].min():.3f} to "
               f"{g['rho'].max():.3f}, p {g['p'].min():.3f} to {g['p'].max():.3f}; energy {np.abs(energy - 1).max():.1e}")
-        assert speed.max() < (0.07 if name == "riemann" else 0.15) and speed[-1] < 0.25 * speed.max() + 0.005
-        off = 0.03 if name == "riemann" else 0.25
-        assert np.abs(g["p"] - 1).max() < off and np.abs(g["rho"] - 1).max() < off
+        assert speed.max() < (0.07 if name == "riemann" else 0.13) and speed[-1] < 0.25 * speed.max() + 0.005
+        low, high = (0.97, 1.03) if name == "riemann" else (0.75, 1.15)
+        assert all(low < g[k].min() and g[k].max() < high for k in ("p", "rho"))
         assert np.abs(energy - 1).max() < 1e-4
 
 
@@ -152,7 +152,7 @@ def test_unequal_spacings_at_rest(lmp, tmp_path, dim, nx, rows, ratio):
     ("riemann", dim, nx, rows, ratio, dense) for dim, nx, rows in ((1, 100, 1), (2, 64, 3)) for ratio in (2, 4) for dense in (1.0, 4.0, 0.25)])
 def test_shock_into_coarser(lmp, tmp_path, name, dim, nx, rows, ratio, dense):
     """a shock of Mach 1.2 goes on with the same jumps in the same gas, and leaves those of the exact Riemann problem in a denser or lighter
-    one: riemann to 4.2 %, monaghan to 5 % in the same gas and 13 % in others"""
+    one: riemann to 4.2 %, monaghan to 5 % in the same gas"""
     g = two_spacings(lmp, tmp_path, dim, nx, rows, DISSIPATIONS[name], 1.2, mach=1.2, ratio=ratio, dense=dense)
     jumps = g["jumps"]
     print(f"{dim}D ratio {ratio} dense {dense} {name:9} jumps/exact (p, u):", *(f"{where} {a:.3f} {b:.3f}" for where, (a, b) in jumps.items()))
