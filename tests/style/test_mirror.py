@@ -18,9 +18,10 @@ def material(tmp_path):
     return path
 
 
-def part(planes, seed=31):
+def part(planes, seed=31, mass=None):
     """a cube of jittered particles around the origin, even in all three directions, or what is left of it on the side of the planes"""
     s = state(seed=seed)
+    s.mass = mass or s.mass
     keep = (s.x < N).all(1)
     x, v, kind = s.x[keep], s.v[keep], s.type[keep]
     v = v - 0.3 * x / N  # it is pressed together
@@ -39,8 +40,8 @@ def part(planes, seed=31):
     return s, shift
 
 
-def start(planes, tmp_path, material, steps=30, words="viscosity 1 2", jc="", sides=None, more="", solid=True, **kw):
-    s, shift = part(planes)
+def start(planes, tmp_path, material, steps=30, words="viscosity 1 2", jc="", sides=None, more="", solid=True, mass=None, **kw):
+    s, shift = part(planes, mass=mass)
     if sides:  # the material is below the planes
         s.x = s.box - s.x
         s.v = -s.v
@@ -74,16 +75,19 @@ def test_as_the_whole(lmp, tmp_path, material, words):
         same(whole, read(tmp_path / f"f{planes}"), part(planes)[1], planes)
 
 
-def test_fluid(lmp, tmp_path, material):
-    """without strength, in form symmetric, and with Riemann problems, whose slopes are sums of a first sweep"""
+@pytest.mark.parametrize("mass", [{1: 1.0, 2: 1.0}, {1: 1.0, 2: 2.0}], ids=["equal", "unequal"])
+def test_fluid(lmp, tmp_path, material, mass):
+    """without strength, in form symmetric, and with Riemann problems, whose slopes are sums of a first sweep; unequal masses of the same density at
+    zero pressure have weights there"""
     for words, wide in (("", 1.25), ("form symmetric", 1.25), ("dissipation riemann", 1.25), ("dissipation riemann h variable", 1.25),
                         ("dissipation riemann h variable", 1.6)):
-        text = "".join("clear\n" + start(p, tmp_path, material, words=words, solid=False)[0] + OUT.format("f" + p).replace("vm sxx", "p sxx") for p in ("", "xyz"))
-        text = text.replace("p c eps damage spalled p sxx syy szz sxy sxz syz", "p c p p p p p p p p p p")
+        text = "".join("clear\n" + start(p, tmp_path, material, words=words, solid=False, mass=mass)[0] + OUT.format("f" + p) for p in ("", "xyz"))
+        text = text.replace("vm sxx", "p sxx").replace("p c eps damage spalled p sxx syy szz sxy sxz syz", "p c p p p p p p p p p p")
         text = text.replace(f"pair_coeff 2 2 file {material} h 1.25", f"pair_coeff 2 2 file {material} h {wide}")
         if "riemann" in words:  # else p* = 0 here, and its sign, so whether bodies touch, is that of a rounding
             text = text.replace("tension no", "tension yes")
-        lmp(text)
+        weighed = "riemann" in words and mass[2] != mass[1]
+        assert ("weights of spacings: type 2 counts 2 times" in lmp(text).log) == weighed
         same(read(tmp_path / "f"), read(tmp_path / "fxyz"), part("xyz")[1], "xyz")
 
 
