@@ -184,17 +184,29 @@ dump_modify d format float %.17g sort id
 
 @pytest.mark.parametrize("neigh", ["delay 5 every 5 check yes", "delay 0 every 1 check yes"])
 @pytest.mark.parametrize("name", ["monaghan", "riemann"])
-def test_lists_are_long_enough(lmp, tmp_path, name, neigh):
+@pytest.mark.parametrize("types", [1, 2])
+def test_lists_are_long_enough(lmp, tmp_path, name, neigh, types):
     """a hot ball blows up in cold gas: rates and forces at a step are those of all pairs, found by brute force, so none is missed
 
-    The state that rates belong to is that of the step before, extrapolated. One pair left out shows in two particles.
+    Two types: half of the gas is in particles of 5/3 of the spacing and h, the ball is at their interface. The state that rates belong to is that
+    of the step before, extrapolated. One pair left out shows in two particles.
     """
     limits, dt, skin, steps = (0.5, 1.5), 0.01, 0.6, 160
-    s = random_fluid(9, jitter=0.1, seed=4, types=1, speed=0.0, h=1.2)
+    if types == 1:
+        s, wide = random_fluid(9, jitter=0.1, seed=4, types=1, speed=0.0, h=1.2), {1: 1.2}
+    else:
+        x = np.concatenate([lattice(0.0, [5, 10, 10], (1.0, 1.0)), lattice(5.0, [3, 6, 6], (5 / 3, 5 / 3))])
+        kind = np.where(x[:, 0] < 5, 1, 2)
+        wide = {1: 1.0, 2: 5 / 3}
+        x += 0.1 * np.random.default_rng(4).uniform(-1, 1, x.shape)
+        s = Fluid(x, 0 * x, np.ones(len(x)), np.ones(len(x)), kind, {1: 1.0, 2: (5 / 3) ** 3}, wide, np.full(3, 10.0))
+    H, box = np.array([wide[k] for k in s.type]), s.box[0]
     s.rho[:] = 1.0
-    hot = ((s.x - 4.5) ** 2).sum(1) < 2.3**2
+    hot = ((s.x - 0.5 * box) ** 2).sum(1) < (2.3 if types == 1 else 3.0) ** 2
     s.esph = np.where(hot, 30.0, 1.0) / (1.4 * 0.4) * s.m
-    pair = f"pair_style hvi/sph cubic {DISSIPATIONS[name]} h variable {limits[0]} {limits[1]}\npair_coeff * * eos idealgas 1.4 h 1.2\n"
+    pair = f"pair_style hvi/sph cubic {DISSIPATIONS[name]} h variable {limits[0]} {limits[1]}\n"
+    pair += "".join(f"pair_coeff {k} {k} eos idealgas 1.4 h {h:.17g}\n" for k, h in wide.items())
+    pair += "pair_coeff 1 2 tension yes\n" if types == 2 else ""
     text = scene(s, tmp_path / "s.data", pair, skin=skin).replace("every 1 delay 0 check yes", neigh)
     result = lmp(text + f"timestep {dt}\n" + EVERY.format(tmp_path / "all") + f"run {steps}\n")
     builds, dangerous = (int(re.search(rf"^{words} = (\d+)", result.log, re.M).group(1)) for words in ("Neighbor list builds", "Dangerous builds"))
@@ -206,19 +218,20 @@ def test_lists_are_long_enough(lmp, tmp_path, name, neigh):
         before, now = frame[step - 1], frame[step]
         column = lambda f, names: np.stack([f[k] for k in names.split()], 1)
         s.x = column(now, "x y z")
-        s.v = column(before, "vx vy vz") + dt * column(before, "fx fy fz")
+        s.v = column(before, "vx vy vz") + dt * column(before, "fx fy fz") / s.m[:, None]
         s.rho = before["c_R[3]"] + dt * before["c_R[1]"]
         s.esph = before["c_R[4]"] + dt * before["c_R[2]"]
-        h = np.clip(1.2 * s.rho ** (-1 / 3), 1.2 * limits[0], 1.2 * limits[1])
-        more = dict(follows=(h > 1.2 * limits[0]) & (h < 1.2 * limits[1])) if name == "riemann" else {}
-        want = solve(s, {1: ideal_gas(1.4)}, "cubic", h=h, **more)
+        h = H * np.clip(s.rho ** (-1 / 3), *limits)
+        more = dict(follows=(h > H * limits[0]) & (h < H * limits[1])) if name == "riemann" else {}
+        want = solve(s, dict.fromkeys(wide, ideal_gas(1.4)), "cubic", h=h, **more)
         for key, got in (("f", column(now, "fx fy fz")), ("drho", now["c_R[1]"]), ("de", now["c_R[2]"])):
             wrong = np.abs(got - want[key]) > 1e-10 * np.abs(want[key]).max()
             assert wrong.sum() == 0, (step, key)
         i, j = np.triu_indices(len(h), 1)
         d = s.x[i] - s.x[j]
-        r = np.sqrt(((d - 9 * np.round(d / 9)) ** 2).sum(1))
-        reach = 2 * (np.maximum(h[i], h[j]) if name == "riemann" else 0.5 * (h[i] + h[j]))
-        grown += (r < reach)[r > 2 * 1.2 + skin].sum()
+        r = np.sqrt(((d - box * np.round(d / box)) ** 2).sum(1))
+        start, follows = 0.5 * (H[i] + H[j]), h / H
+        reach = 2 * (start * np.maximum(follows[i], follows[j]) if name == "riemann" else 0.5 * (h[i] + h[j]))
+        grown += (r < reach)[r > 2 * start + skin].sum()
     print(f"{name:9} {neigh}: builds {builds}, pairs beyond reach and skin of the start: {grown}, h {h.min():.2f} to {h.max():.2f}")
     assert grown > 100  # a list for h of the start would miss them
