@@ -203,13 +203,14 @@ def riemann_rates(s, eos, kernel, tension=True, h=None, follows=None, A=1.2, ste
         if s.periodic[a]:
             d[:, a] -= s.box[a] * np.round(d[:, a] / s.box[a])
     r = np.sqrt((d**2).sum(1))
-    counts = {(a, b): weight_ratio(s, a, b, rho0) for a in s.mass for b in s.mass}
-    more = np.select([(s.type[i] == a) & (s.type[j] == b) for a, b in counts], list(counts.values()))  # w_j/w_i
-    # kernels of types of different weights: as wide as the mean of both
-    h_i, h_j = (0.5 * h[k] * (1 + w ** (1 / s.dim)) for k, w in ((i, more), (j, 1 / more)))
+    # kernels of types of different h: as wide as their mean
+    H = np.array([s.h[t] for t in s.type])
+    h_i, h_j = (0.5 * h[k] * (H[i] + H[j]) / H[k] for k in (i, j))
     near = r < SUPPORT[kernel] * np.maximum(h_i, h_j)
-    i, j, d, r, h_i, h_j, more = i[near], j[near], d[near], r[near], h_i[near], h_j[near], more[near]
+    i, j, d, r, h_i, h_j = i[near], j[near], d[near], r[near], h_i[near], h_j[near]
     e = d / r[:, None]
+    counts = {(a, b): weight_ratio(s, a, b, rho0) for a in s.mass for b in s.mass}
+    more = np.array([counts[s.type[a], s.type[b]] for a, b in zip(i, j)])  # w_j/w_i
 
     def dW(wide):  # dW/dr
         return norm(kernel, s.dim) / wide ** (s.dim + 1) * shape(kernel, r / wide)[1]
