@@ -16,7 +16,7 @@
 namespace HVI {
 
 // each particle has its own kernel here: grad W(r, h_i) = F_i d, and grad W(r, h_j) = F_j d.  Between
-// types whose spacings are as 1 to ratio, either is as wide as the mean of both at the start: h_i (1 + ratio)/2.
+// types whose h are as 1 to ratio at the start, either is as wide as the mean of both: h_i (1 + ratio)/2.
 
 template <class Kernel, int SCENE> class SphTwoKernels {
  public:

@@ -254,8 +254,8 @@ int PairHVISPH::choose_scene()
    ratio of their volumes, of those at rho0 if both have one.  A gas has none: what is large
    because it is thin now will be as small as others of its mass when pressures are even.  So of
    volumes, by h, and masses that ratio counts which is nearer to 1; and 1 if they do not agree
-   on who is larger.  Volumes that nearly agree are the same.  Where volumes differ, kernels are
-   wider or narrower by half of what spacings differ.  Returns whether types differ.
+   on who is larger.  Volumes that nearly agree are the same.  Kernels between types are as wide
+   as the mean of both h at the start.  Returns whether types differ.
 ------------------------------------------------------------------------- */
 
 bool PairHVISPH::find_weights()
@@ -267,7 +267,8 @@ bool PairHVISPH::find_weights()
     ratio[i][i] = weight[i][i] = 1.0;
     for (int j = i + 1; j <= atom->ntypes; j++) {
       if (!is_ours[j]) continue;
-      double w = MathSpecial::powint(set.h[j] / set.h[i], set.laws.dim);
+      ratio[i][j] = set.h[j] / set.h[i];
+      double w = MathSpecial::powint(ratio[i][j], set.laws.dim);
       if (!atom->rmass) {
         const double rho_i = store->materials.of(i)->eos->rho0();
         const double rho_j = store->materials.of(j)->eos->rho0();
@@ -278,9 +279,8 @@ bool PairHVISPH::find_weights()
       if (std::fabs(std::log(w)) < SAME) w = 1.0;
       weight[i][j] = w;
       weight[j][i] = 1.0 / w;
-      ratio[i][j] = std::pow(w, 1.0 / set.laws.dim);
       ratio[j][i] = 1.0 / ratio[i][j];
-      if (w != 1.0) differ = true;
+      if (ratio[i][j] != 1.0 || w != 1.0) differ = true;
     }
   }
   return differ;
