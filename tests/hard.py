@@ -46,7 +46,7 @@ class Case:
     methods: {name: setting}; names that begin with "stock" are other packages, which nothing is asked of.
     criteria: {measure: upper bound}, or (lower, upper).
     short: methods that run in make test (seconds each); all of them in make verify.
-    known: {method: {measure or "run": cause}}: what it misses, one line each; a cause that does not miss any more fails the test.
+    known: {method: {measure or "run": cause}}: what it misses, one line each; one that clearly misses no more fails the test.
     since: "first" if the criteria were written down before the first run, "after" if numbers were known
     """
 

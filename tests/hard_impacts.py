@@ -201,7 +201,7 @@ CASES = [
     Case("copper", "copper on aluminum, 3 km/s", impact(p="Cu-OFHC", v0=3000, tstop=20), WORDS, HOLE),
     Case("tungsten", "tungsten on aluminum, 3 km/s", impact(p="tungsten", v0=3000, tstop=20), WORDS, HOLE, RIEMANN),
     Case("glass", "a sphere like glass on a plate of a lattice, 7 km/s", impact(body=ball("glass")), WORDS, HOLE),
-    Case("random", "a sphere of places at random, by half a spacing, on a lattice, 7 km/s", impact(body=ball("lattice", jitter=0.25)), WORDS, HOLE,
+    Case("random", "a sphere whose particles are off the lattice, by up to a quarter of a spacing each way, 7 km/s", impact(body=ball("lattice", jitter=0.25)), WORDS, HOLE,
          RIEMANN),
     Case("step-factor", "fix hvi/dt with three times the factor", too_long, WORDS, {"caught": (1, np.inf)}, RIEMANN),
     Case("elements", "elements within the hole, 7 km/s", impact(dx=0.5, Rplate=20, tstop=10, wall=elements),

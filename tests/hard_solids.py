@@ -321,12 +321,12 @@ TORN = dict.fromkeys(("pieces", "nearest", "pairs", "rebound"), "tensile instabi
 BUCKLES = {"rebound": "h of 1.2 spacings is too narrow for a ring of 5 particles: h 1.5 rebounds with 0.73"}
 UNEVEN = dict.fromkeys(("nearest", "farthest"), "tensile instability: artificial stress and h 1.5 hold it")
 NARROW = {"farthest": "artificial stress needs a wider kernel: 1.04 with h 1.5"}
-VISCOUS = {"strength": "viscosity at 2e4/s is a part of the force: 1.02 at a quarter of the speed"}
+VISCOUS = {"strength": "of the rate: 1.02 at a quarter of the speed; how, is not known, as law and plain have the same viscosity"}
 TORQUE = {"spin": "the forces are not those of the corrected gradient: they have a torque"}
 STIFF = dict.fromkeys(("spin", "kinetic"), "the plain gradient sees strain in rotation near faces, whose stress stops it")
 COARSE = {"energy": "of the step, not of the pair: as large without it, 8e-5 at a quarter of the step"}
 SQUEEZED = {"pairs": "neighbors along the impact are squeezed together and stay so in tension: 8 of 248 with artificial stress"}
-UNWEIGHTED = {"contact": "the contact of solids knows no weights of spacings: its densities are integrated with unlike neighbors"}
+UNWEIGHTED = {"contact": "densities next to the contact are integrated with sums over unlike neighbors"}
 MET = {"pairs": "8 of 248, one place and its mirror images, where the spheres met"}
 
 SOLIDS = [
