@@ -99,7 +99,8 @@ def cautions(records, cases, points):
     if len(distinct(timed, machine_text)) > 1:
         said.append("Times are of several machines: compare them within one only.")
     if len(distinct(records, versions_text)) > 1:
-        said.append("Records are of several versions.")
+        binaries = {(r.get("versions") or {}).get("binary") for r in records}
+        said.append("Records are of several versions" + (", all of one binary." if len(binaries) == 1 and None not in binaries else "."))
     absent = [name for name in cases if not any(r["case"] == name for r in records)]
     if absent:
         said.append(f"Cases without a record: {', '.join(absent)}.")
