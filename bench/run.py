@@ -51,7 +51,8 @@ def load_case(path):
         raise Wrong(f"{path}: not YAML: {' '.join(str(problem).split())}") from None
     if not isinstance(case, dict):
         raise Wrong(f"{path}: not a mapping")
-    wanted = {"title", "group", "about", "runner", "methods", "default", "short"} | ({"error", "resolution"} if case.get("group") != "steps" else set())
+    wanted = {"title", "group", "about", "runner", "methods", "default", "short"}
+    wanted |= {"error", "resolution"} if case.get("group") != "steps" else set()
     lacking = wanted - set(case)
     if lacking:
         raise Wrong(f"{path}: lacks {', '.join(sorted(lacking))}")
@@ -187,8 +188,8 @@ def run_one(case, settings, folder, lmp):
     except EOFError:
         raise Wrong(f"{case['name']} {settings}: the runner stopped (above); what it left is in {folder}") from None
     job.join()
-    record.update(case=case["name"], group=case["group"], method=settings["method"], settings=settings, ranks=ranks, key=key_of(case["name"], settings),
-                  particle_steps=record.get("particles", 0) * record.get("steps", 0))
+    record.update(case=case["name"], group=case["group"], method=settings["method"], settings=settings, ranks=ranks,
+                  key=key_of(case["name"], settings), particle_steps=record.get("particles", 0) * record.get("steps", 0))
     return record
 
 
@@ -196,7 +197,8 @@ def machine():
     text = {f: pathlib.Path(f).read_text() if pathlib.Path(f).exists() else "" for f in ("/proc/cpuinfo", "/proc/meminfo")}
     cpu = re.search(r"model name\s*: (.*)", text["/proc/cpuinfo"])
     memory = re.search(r"MemTotal:\s+(\d+)", text["/proc/meminfo"])
-    return {"cpu": cpu.group(1) if cpu else platform.machine(), "cores": os.cpu_count(), "memory_GiB": round(int(memory.group(1)) / 2**20) if memory else None}
+    gib = round(int(memory.group(1)) / 2**20) if memory else None
+    return {"cpu": cpu.group(1) if cpu else platform.machine(), "cores": os.cpu_count(), "memory_GiB": gib}
 
 
 def versions(lmp):
@@ -224,7 +226,7 @@ def show(record):
 
 
 def publish(out):
-    """records of a folder, one file per case, into bench/records: those of runs that the case files have, of one binary and one state of the sources"""
+    """records of a folder, one file per case, into bench/records: of runs that the case files have, of one binary, one state of the sources"""
     target, found = HERE / "records", {}
     for case in (load_case(f) for f in sorted((HERE / "cases").glob("*.yaml"))):
         keys = {key_of(case["name"], s) for s in settings_of(case, "full")}
