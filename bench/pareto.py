@@ -127,10 +127,10 @@ def identity(case, settings):
 class Point:
     """Runs of one case that differ in the shift of the lattice (and the number of the repetition) alone, as means.
 
-    settings: with method and ranks, without shift.  error, scatter: main error and its standard deviation (None of one run);
-    errors: {name: mean}, scatters: of each.  cost, cost_scatter: core-seconds, None if no run was on idle cores.  rate: microseconds of a
-    core per particle and step.  memory: MB, the largest.  energy, momentum: of the ledger, the largest; None if it was not kept.  fine: the resolution, the
-    larger the finer.  extra: what differs from the default beyond method and resolution.  text: settings in words, without the method.
+    settings: with method and ranks, without shift. error, scatter: main error and its standard deviation (None of one run); errors: {name:
+    mean}, scatters: of each. cost, cost_scatter: core-seconds, None if no run was on idle cores. rate: microseconds of a core per particle
+    and step. memory: MB, the largest. energy, momentum: of the ledger, the largest; None if it was not kept. fine: the resolution, the
+    larger the finer. extra: what differs from the default beyond method and resolution. text: settings in words, without the method.
     """
 
     case: dict
