@@ -92,6 +92,14 @@ def origin(records):
     return Table(["what", ""], rows)
 
 
+def of_binaries(records):
+    """whether all records are of one binary, or at least those of each case"""
+    binaries = {(r["case"], (r.get("versions") or {}).get("binary")) for r in records}
+    if any(binary is None for _, binary in binaries) or len(binaries) > len({case for case, _ in binaries}):
+        return ""
+    return ", all of one binary" if len({binary for _, binary in binaries}) == 1 else ", those of a case of one binary"
+
+
 def cautions(records, cases, points):
     """what a reader must know of these records"""
     timed = [r for r in records if r.get("idle") and not r.get("failed") and not r.get("cannot")]
@@ -99,8 +107,7 @@ def cautions(records, cases, points):
     if len(distinct(timed, machine_text)) > 1:
         said.append("Times are of several machines: compare them within one only.")
     if len(distinct(records, versions_text)) > 1:
-        binaries = {(r.get("versions") or {}).get("binary") for r in records}
-        said.append("Records are of several versions" + (", all of one binary." if len(binaries) == 1 and None not in binaries else "."))
+        said.append("Records are of several versions" + of_binaries(records) + ".")
     absent = [name for name in cases if not any(r["case"] == name for r in records)]
     if absent:
         said.append(f"Cases without a record: {', '.join(absent)}.")

@@ -226,7 +226,7 @@ def show(record):
 
 
 def publish(out):
-    """records of a folder, one file per case, into bench/records: of runs that the case files have, of one binary, one state of the sources"""
+    """records of a folder, one file per case, into bench/records: of runs that the case files have, those of a case of one binary and state of the sources"""
     target, found = HERE / "records", {}
     for case in (load_case(f) for f in sorted((HERE / "cases").glob("*.yaml"))):
         keys = {key_of(case["name"], s) for s in settings_of(case, "full")}
@@ -236,8 +236,9 @@ def publish(out):
     broken = [r for r in every if r["failed"].startswith("bench: ")]
     if not every or broken:
         raise Wrong(f"{show(broken[0])}: mend the harness, then run it again" if broken else f"{out}: no records")
-    if len({r["versions"]["binary"] for r in every}) > 1 or any(len({r["source"] for r in records}) > 1 for records in found.values()):
-        raise Wrong(f"{out}: records of more than one binary, or of more than one state of the sources: run them again")
+    mixed = [name for name, records in found.items() if len({(r["versions"]["binary"], r["source"]) for r in records}) > 1]
+    if mixed:
+        raise Wrong(f"{out}: records of more than one binary, or of more than one state of the sources, in {', '.join(mixed)}: run them again")
     target.mkdir(exist_ok=True)
     for name, records in found.items():
         if records:

@@ -105,7 +105,7 @@ class FixHVIFEM :
 
   struct {
     double q1 = 1.5, q2 = 0.06;    // bulk viscosity
-    double viscous = 0.1;          // hourglass forces
+    double viscous = 0.05;         // hourglass forces
     double stiffness = -1.0;       // of them; negative: from the material
     double courant = 0.8;          // of the step, in units of what is stable
     bool fails = true, damage = true, spall = true;

@@ -144,4 +144,13 @@ void FixHVIFEM::read_options(int narg, char **arg)
   if (std::count(nodal.begin(), nodal.end(), 1) == 0)
     error->all(FLERR, "Fix hvi/fem needs the types of its nodes: nodes TYPE");
   if (!(options.courant > 0.0)) error->all(FLERR, "Fix hvi/fem courant must be above 0");
+
+  // the drag takes 16 eps c dt/l of an hourglass's speed a step: with 2, less half the square of its
+  // frequency times dt, it grows
+
+  if (options.viscous * options.courant > 0.1)
+    error->all(FLERR,
+               "Fix hvi/fem hourglass/viscous times courant must be at most 0.1, or its drag is "
+               "unstable, not {} times {}",
+               options.viscous, options.courant);
 }
