@@ -168,9 +168,10 @@ def measured(pipe, case, settings, folder, lmp, ranks, timeout):
     memory.join()
     load = others.used()
     spent = resource.getrusage(resource.RUSAGE_CHILDREN)
-    # a program of MPI that is started alone starts a daemon, which is no child of ours: 0.04 s
+    # a program of MPI that is started alone starts a daemon, which is no child of ours: 0.04 s; runs of several parts start several
+    daemons = DAEMON * record.pop("starts", 1)
     record.update(core_s=round(spent.ru_utime + spent.ru_stime, 3), memory_MB=round(memory.most, 1), load=None if load is None else round(load, 3),
-                  idle=load is not None and load < BUSY + DAEMON / max(record["wall_s"], 0.01))
+                  idle=load is not None and load < BUSY + daemons / max(record["wall_s"], 0.01))
     pipe.send(record)
 
 

@@ -80,6 +80,7 @@ def run(case, settings, folder, lmp, ranks=1, timeout=600):
         for key, value in ledger.items():
             record["ledger"][key] = max(value, record["ledger"].get(key, 0.0))
         done.append((part, given, reference, found))
+        record["starts"] = len(done)
     answers(case, method, done, record)
     if not record["failed"] and record["ledger"].get("energy", 0.0) > OPEN:
         record["failed"] = f"energy off by {100 * record['ledger']['energy']:.2g} %"
