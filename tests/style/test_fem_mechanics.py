@@ -54,7 +54,7 @@ def test_waves(lmp, tmp_path, kind):
     assert o["drift"] < ROUND and o["hourglass"] < 5e-3
 
 
-@pytest.mark.parametrize("layers,kept", [(1, 0.88), (2, 0.98), pytest.param(4, 0.995, marks=pytest.mark.long)])
+@pytest.mark.parametrize("layers,kept", [(1, 0.93), (2, 0.985), pytest.param(4, 0.997, marks=pytest.mark.long)])
 def test_bending(lmp, tmp_path, layers, kept):
     """a standing wave 20 thicknesses long, within 0.5 % of Mindlin's plate; with the default drag on hourglasses, and without"""
     for fem, least in (("", kept), ("hourglass/viscous 0", 0.999)):
@@ -69,7 +69,7 @@ def test_bending(lmp, tmp_path, layers, kept):
 
 
 def test_verney(lmp, tmp_path):
-    """a shell stops at 4 where it is incompressible: 4.22 and 4.03 with 4 and 8 elements across"""
+    """a shell stops at 4 where it is incompressible: 4.12 and 4.01 with 4 and 8 elements across"""
     o = verney(lmp, tmp_path, 8, t_end=115.0)
     print(o)
     assert o["inner"] == pytest.approx(4.0, abs=0.03) and o["outer"] == pytest.approx(8.203, abs=0.02)
