@@ -108,6 +108,9 @@ def cautions(records, cases, points):
         said.append("Times are of several machines: compare them within one only.")
     if len(distinct(records, versions_text)) > 1:
         said.append("Records are of several versions" + of_binaries(records) + ".")
+    dirty = sum("dirty" in str((r.get("versions") or {}).get("hvi")) for r in records)
+    if dirty:
+        said.append(f"{dirty} records are of sources with changes that were in no commit yet.")
     absent = [name for name in cases if not any(r["case"] == name for r in records)]
     if absent:
         said.append(f"Cases without a record: {', '.join(absent)}.")

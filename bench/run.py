@@ -227,7 +227,7 @@ def show(record):
 
 
 def publish(out):
-    """records of a folder, one file per case, into bench/records: of runs that the case files have, those of a case of one binary and state of the sources"""
+    """records of a folder, one file per case, into bench/records: of runs that the case files have; those of a case of one binary and one source"""
     target, found = HERE / "records", {}
     for case in (load_case(f) for f in sorted((HERE / "cases").glob("*.yaml"))):
         keys = {key_of(case["name"], s) for s in settings_of(case, "full")}

@@ -190,6 +190,26 @@ void FixHVIFEM::setup(int /*vflag*/)
   show_particles();
   if (every > 0) list_elements();
   going_on = false;    // from now on forces are made anew
+  check_drag();
+}
+
+/* ----------------------------------------------------------------------
+   The drag takes 16 eps c dt/l of an hourglass's speed in a step, in cubes 9 eps times the step in
+   units of the stable one: with 2, less half the square of its frequency times dt, it grows.  A tenth
+   leaves room for distorted elements.  Where the step is chosen, courant bounds it: read_options().
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::check_drag()
+{
+  if (!modify->get_fix_by_style("^(hvi/dt|dt/reset)$").empty()) return;
+  double stable;
+  MPI_Allreduce(&shortest, &stable, 1, MPI_DOUBLE, MPI_MIN, world);
+  if (options.viscous * update->dt > MOST_DRAG * stable)
+    error->all(
+        FLERR,
+        "Fix hvi/fem hourglass/viscous {} with a timestep of {:.3g} times the stable one of the "
+        "elements: their product must be at most {}, or the drag may be unstable",
+        options.viscous, update->dt / stable, MOST_DRAG);
 }
 
 // tables of nodes are others when particles have been exchanged

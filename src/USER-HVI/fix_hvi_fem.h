@@ -230,6 +230,8 @@ class FixHVIFEM :
   Reason reason(std::size_t) const;
   void release(std::vector<char> &freed);
   void let_go(const std::vector<char> &freed);
+  static constexpr double MOST_DRAG = 0.1;
+  void check_drag();
   void find_probes();
   void read_probes();
   void list_elements();

@@ -145,12 +145,9 @@ void FixHVIFEM::read_options(int narg, char **arg)
     error->all(FLERR, "Fix hvi/fem needs the types of its nodes: nodes TYPE");
   if (!(options.courant > 0.0)) error->all(FLERR, "Fix hvi/fem courant must be above 0");
 
-  // the drag takes 16 eps c dt/l of an hourglass's speed a step: with 2, less half the square of its
-  // frequency times dt, it grows
-
-  if (options.viscous * options.courant > 0.1)
+  if (options.viscous * options.courant > MOST_DRAG)    // why: check_drag()
     error->all(FLERR,
-               "Fix hvi/fem hourglass/viscous times courant must be at most 0.1, or its drag is "
+               "Fix hvi/fem hourglass/viscous times courant must be at most {}, or the drag may be "
                "unstable, not {} times {}",
-               options.viscous, options.courant);
+               MOST_DRAG, options.viscous, options.courant);
 }

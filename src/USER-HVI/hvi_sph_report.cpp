@@ -17,6 +17,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_hvi_store.h"
+#include "hvi_kernel.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
@@ -31,10 +32,11 @@ using namespace LAMMPS_NS;
 
 static constexpr double H_LEAST = 1.0, H_MOST = 2.5;
 static constexpr double NEIGHBORS_LEAST[4] = {0.0, 2.0, 10.0, 28.0};
-static constexpr double RATIO_OFF = 0.2;       // of density
-static constexpr double SPEED_LEAST = 10.0;    // m/s, of an impact
-static constexpr double BOX_MOST = 2000.0;     // cutoffs
-static constexpr double FILL_LEAST = 0.4;      // of a body's bounding box, if that tells its layers
+static constexpr double RATIO_OFF = 0.2;         // of density
+static constexpr double GRADIENT_OFF = 0.005;    // sum of a kernel's gradients on a row, from 1
+static constexpr double SPEED_LEAST = 10.0;      // m/s, of an impact
+static constexpr double BOX_MOST = 2000.0;       // cutoffs
+static constexpr double FILL_LEAST = 0.4;    // of a body's bounding box, if that tells its layers
 
 /* ---------------------------------------------------------------------- */
 
@@ -231,6 +233,24 @@ void HVISphReport::write()
   if (!is_told(settings + more)) utils::logmesg(lmp, text + more);
 }
 
+/* ----------------------------------------------------------------------
+   -sum over a row of x dW/dx s, particles a spacing s apart: 1, if gradients of linear fields are
+   to be exact.  Monaghan, Rep. Prog. Phys. 68 (2005) 1703, section 2
+------------------------------------------------------------------------- */
+
+static double gradient_sum(const std::string &kernel, double h_over_s)
+{
+  double sum = 0.0;
+  HVI::with_kernel(kernel, [&](auto k) {
+    using K = decltype(k);
+    for (int n = 1; n < K::support * h_over_s; n++) {
+      const double q = n / h_over_s;
+      sum -= 2.0 * K::norm(1) * q * K::template dw<double>(q) / h_over_s;
+    }
+  });
+  return sum;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void HVISphReport::warn() const
@@ -254,6 +274,16 @@ void HVISphReport::warn() const
                      "Pair style hvi/sph: particles of type {} have {:.3g} neighbors in the mean, "
                      "the kernel needs {:.3g} or more: check positions, spacing and h",
                      itype, row.neighbors, NEIGHBORS_LEAST[set.laws.dim]);
+    const double sum = set.laws.dim == 1 ? gradient_sum(set.kernel, set.h[itype] / row.spacing)
+                                         : 1.0;
+    const bool exact = set.riemann || (solid && set.gradient == HVI::SphSettings::CORRECTED);
+    if (!exact && std::fabs(sum - 1.0) > GRADIENT_OFF)
+      error->warning(
+          FLERR,
+          "Pair style hvi/sph: gradients by the kernel of type {} are {:.4f} times the right "
+          "ones on its row, and with viscosity no spacing mends that: use gauss with h of "
+          "1.2 spacings, or dissipation riemann",
+          itype, sum);
     if (row.far > 0.0)
       error->warning(FLERR,
                      "Pair style hvi/sph: {:.0f} particles of type {} start with a density more "

@@ -3,6 +3,7 @@
 import csv
 import importlib
 import itertools
+import json
 import sys
 
 import pytest
@@ -10,6 +11,8 @@ import yaml
 from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "bench"))
+import report  # noqa: E402
+import run as bench  # noqa: E402
 import runners  # noqa: E402
 
 CASES = {path.stem: yaml.safe_load(path.read_text()) for path in sorted((ROOT / "bench" / "cases").glob("*.yaml"))}
@@ -134,3 +137,32 @@ def test_octant(tmp_path, lmp_exe):
         folder.mkdir()
         found.append(run("noh-3d", folder, lmp_exe, method="riemann", n=6, octant=octant))
     assert found[0] == pytest.approx(found[1], rel=1e-6)
+
+
+def test_publish(tmp_path, monkeypatch):
+    """records of a case are of one binary and one state of the sources; those of two cases may be of two"""
+    monkeypatch.setattr(bench, "HERE", tmp_path)
+    (tmp_path / "cases").mkdir()
+    for name in ("one", "two"):
+        (tmp_path / "cases" / f"{name}.yaml").write_text(
+            "{title: t, group: exact, about: a, runner: shock, methods: {m: {}}, default: {method: m, n: 1}, error: {main: e}, resolution: n, short: [{method: m, n: [1, 2]}]}")
+        (tmp_path / "out" / "records" / name).mkdir(parents=True)
+
+    def write(name, n, binary, source="s"):
+        settings = {"method": "m", "n": n}
+        record = dict(settings=settings, failed="", versions={"binary": binary}, source=source, case=name)
+        (tmp_path / "out" / "records" / name / f"{bench.key_of(name, settings)}.json").write_text(json.dumps(record))
+
+    with pytest.raises(bench.Wrong, match="no records"):
+        bench.publish(tmp_path / "out")
+    for name, binary in (("one", "a"), ("two", "b")):
+        write(name, 1, binary), write(name, 2, binary), write(name, 3, "c")  # the last is in no case file
+    bench.publish(tmp_path / "out")
+    published = [json.loads(line) for name in ("one", "two") for line in (tmp_path / "records" / f"{name}.jsonl").read_text().splitlines()]
+    assert [(r["case"], r["settings"]["n"]) for r in published] == [("one", 1), ("one", 2), ("two", 1), ("two", 2)]
+    assert report.of_binaries(published) == ", those of a case of one binary"
+    assert report.of_binaries(published[:2]) == ", all of one binary" and report.of_binaries([*published, {**published[0], "versions": {}}]) == ""
+    for wrong in (dict(binary="b"), dict(binary="a", source="t")):
+        write("one", 2, **wrong)
+        with pytest.raises(bench.Wrong, match="more than one state of the sources, in one: run"):
+            bench.publish(tmp_path / "out")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from fem_mechanics_scenes import COPPER, ELASTIC, EOS, RHO, STEEL, G, block, collision, gap, patch, run, spin, standing, stress_of, taylor, verney
+from fem_mechanics_scenes import COPPER, ELASTIC, EOS, RHO, STEEL, G, block, collision, gap, patch, pulse, run, spin, standing, stress_of, taylor, verney
 
 ROUND = 1e-12
 GRADIENT = np.array([[0.02, 0.1, 0.03], [-0.05, 0.01, 0.07], [0.04, -0.06, -0.025]]) * 1e6
@@ -72,8 +72,20 @@ def test_verney(lmp, tmp_path):
     """a shell stops at 4 where it is incompressible: 4.12 and 4.01 with 4 and 8 elements across"""
     o = verney(lmp, tmp_path, 8, t_end=115.0)
     print(o)
-    assert o["inner"] == pytest.approx(4.0, abs=0.03) and o["outer"] == pytest.approx(8.203, abs=0.02)
-    assert o["kinetic"] < 1e-3 and o["drift"] < ROUND and o["hourglass"] < 0.01
+    assert o["inner"] == pytest.approx(4.0, abs=0.015) and o["outer"] == pytest.approx(8.203, abs=0.01)
+    assert o["kinetic"] < 1e-3 and o["drift"] < ROUND and o["hourglass"] < 0.006
+
+
+def test_drag(lmp, tmp_path):
+    """on hourglasses: a pulse along a bar of cubes is as without it up to the largest that is let in; above, an error, of the step that there is"""
+    calm = pulse(lmp, tmp_path, 160, 8, fem="hourglass/viscous 0")["l1"]
+    for fem, factor in (("hourglass/viscous 0.125", 0.43), ("hourglass/viscous 0.4 courant 0.25", 0.13)):  # 0.099, 0.095 in units of the stable step
+        o = pulse(lmp, tmp_path, 160, 8, fem=fem, factor=factor)
+        assert o["l1"] == pytest.approx(calm, rel=0.1) and o["drift"] < ROUND, o
+    r = []
+    with pytest.raises(LookupError):  # of the last of frames that are not there
+        pulse(lambda *a, **k: r.append(lmp(*a, expect_fail=True, **k)) or r[0], tmp_path, 160, 8, fem="hourglass/viscous 0.125", factor=0.5)
+    assert "hourglass/viscous 0.125 with a timestep of 0.92 times the stable one" in r[0].error
 
 
 def test_taylor(lmp, tmp_path):

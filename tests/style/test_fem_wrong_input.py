@@ -72,7 +72,8 @@ def test_keywords(attempt):
         words("nodes 3 viscosity -1 0", "viscosity must not be negative: -1"),
         words("nodes 3 convert maybe", "maybe"),
         words("nodes 3 courant 0", "courant must be above 0"),
-        words("nodes 3 hourglass/viscous 0.16", "hourglass/viscous times courant must be at most 0.1"),
+        words("nodes 3 hourglass/viscous 0.126", "hourglass/viscous times courant must be at most 0.1"),
+        words("nodes 3 hourglass/viscous 0.06 courant 1 hourglass/viscous 0.101", "hourglass/viscous times courant must be at most 0.1"),
         *(words(f"nodes 3 {key} {1.001 * top + 0.1}", f"{key} must be from") for key, top in number),
         *(words(f"nodes 3 {key} nonsense", "nonsense") for key, _ in number[:2]),
     ])

@@ -229,8 +229,12 @@ def cases():
         case(off.replace("particles", "7 particles"), some), case(off, good, True), case(off, block((6, 6, 6), rho=0.81), True),
         case("216 " + off, block((6, 6, 6), rho=0.7)), case(off, block((6, 6, 6), rho=0.7), True, eos="idealgas 1.4"),
         case(near.format(28), block((6, 6, 6), places=1.6)), case(near, good, True), case(near.format(10), block((8, 8, 1), places=1.6, box=(20, 20, 20)), words="cubic dim 2"),
-        case(near, sheet, True, words="cubic dim 2"), case(near.format(2), block((12, 1, 1), places=2.3, box=(40, 20, 20)), words="cubic dim 1"),
-        case(near, row, True, words="cubic dim 1"),
+        case(near, sheet, True, words="cubic dim 2"), case(near.format(2), block((12, 1, 1), places=2.3, box=(40, 20, 20)), words="cubic dim 1 dissipation riemann"),
+        case(near, row, True, words="gauss dim 1"),
+        # the sums of gradients of kernels on a row
+        case("by the kernel of type 1 are 1.0224 times the right ones", row, words="cubic dim 1"), case("are 0.9853 times", row, words="wendland2 dim 1", h=1.6),
+        case("gradients", row, True, words="cubic dim 1 dissipation riemann"), case("gradients", row, True, words="quintic dim 1"),
+        case("gradients", row, True, words="quartic dim 1 dissipation riemann"), case("gradients", sheet, True, words="cubic dim 2"),
         # h/c at rest
         case(step.format(0.31) + " the stable one, about 0.3:", good, more="timestep 0.31\n"), case("time step", good, True, more="timestep 0.29\n"),
         case("time step", good, True, more="timestep 0.31\n" + DT),

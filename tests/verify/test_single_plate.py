@@ -30,6 +30,14 @@ def test_default(lmp, root, tmp_path, nranks):
     assert 0.5 < r["fragmentation"] <= 1  # the sphere is rubble
 
 
+@pytest.mark.parametrize("eta", [1.2, 1.0])
+def test_ghosts_of_fragments(lmp, root, tmp_path, eta):
+    """fragments are looked for at 2.9 spacings, forces at 3.1 by default and 2.7 with a small eta: neither an error nor a warning"""
+    r = lmp(root / "examples" / "single-plate" / "in.plate", cwd=tmp_path, env={"LAMMPS_POTENTIALS": str(root / "potentials")},
+            vars=dict(out=tmp_path, quarter="yes", dx=1.25, Rplate=15, tstop=1, eta=eta))
+    assert not [w for w in r.warnings if "cutoff" in w], r.warnings
+
+
 def test_quarter_is_the_whole(lmp, root, tmp_path):
     """every measure, after impact and passage"""
     quarter, whole = [plate(lmp, root, tmp_path / q, quarter=q, tstop=8, Rplate=25) for q in ("yes", "no")]
