@@ -155,6 +155,7 @@ void FixHVIFEM::setup_pre_exchange()
 
 void FixHVIFEM::setup_pre_neighbor()
 {
+  keep_on_planes();
   connect();
   gather_start();
   comm->forward_comm();
@@ -216,6 +217,7 @@ void FixHVIFEM::check_drag()
 
 void FixHVIFEM::pre_neighbor()
 {
+  keep_on_planes();
   connect();
   gather_nodes();
 }

@@ -186,6 +186,7 @@ class FixHVIFEM :
   std::vector<std::vector<std::array<double, HVI::CORNERS>>> subcells;    // by n
   double dt_last;     // of the step of the last forces
   double shortest;    // stable step
+  double smallest;    // edge of a cube as large as the smallest element at the start of a run
   bool going_on;      // all elements are as the last run has left them
   bool wraps;         // they may lie across periodic faces
   double nearby;      // as far as there is no other image
@@ -209,6 +210,7 @@ class FixHVIFEM :
   bool left_over(int) const;
   void gather_start();
   void check_state();
+  void keep_on_planes();
   bool strayed();
   double fingerprint(std::size_t) const;
   void gather_nodes();

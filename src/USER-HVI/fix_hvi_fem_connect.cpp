@@ -263,7 +263,7 @@ void FixHVIFEM::start_elements()
   // on mirror planes to the last digit
 
   const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
-  double here = HUGE_VAL, smallest;
+  double here = HUGE_VAL;
   for (const Element &one : elements) here = std::min(here, std::cbrt(one.V0));
   MPI_Allreduce(&here, &smallest, 1, MPI_DOUBLE, MPI_MIN, world);
   for (int i = 0; i < atom->nlocal; i++) {
@@ -278,6 +278,22 @@ void FixHVIFEM::start_elements()
                    "xyz"[k]);
     }
   }
+}
+
+/* ----------------------------------------------------------------------
+   Nodes on mirror planes stay on them to the last digit: balancing by shifts takes all places to
+   fractions of the box and back, which rounds them
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::keep_on_planes()
+{
+  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
+  if (!mirror.planes) return;
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    for (int k = 0; k < 3; k++)
+      if (is_node(atom->type[i]) && mirror.has(k) &&
+          std::fabs(mirror.depth(k, atom->x[i])) <= 1.0e-9 * smallest)
+        atom->x[i][k] = mirror.at[k];
 }
 
 /* ----------------------------------------------------------------------

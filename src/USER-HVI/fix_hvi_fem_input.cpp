@@ -30,7 +30,7 @@ FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), announced(-1), id_before(0), probed(-1), every(0), total(-1), held(0),
     store(nullptr), integrator(nullptr), strength(nullptr), ledger(nullptr), head(nullptr),
     users(nullptr), nodes(lmp), particles(lmp), near(lmp), dt_last(0.0), shortest(HVI::NO_BOUND),
-    going_on(false), wraps(false), nearby(0.0), count()
+    smallest(0.0), going_on(false), wraps(false), nearby(0.0), count()
 {
   if (igroup != 0)
     error->all(FLERR,

@@ -144,6 +144,20 @@ def test_inside_out(lmp, tmp_path):
     assert o["left"] < 0.9 and o["momentum"] < ROUND and o["drift"] < 2e-3 and o["kinetic"] < 1.0
 
 
+@pytest.mark.parametrize("nranks", [1, 2, 4])
+def test_stays_on_mirror(lmp, tmp_path, nranks):
+    """nodes on mirror planes are there to the last digit while fix balance shifts borders, which takes places to fractions of the box and back"""
+    m = block(6, 3, 2, map=lambda p: 1e-3 * p, n=0)
+    m.box = np.array([[-0.37e-3, -0.41e-3, -3e-3], [7.1e-3, 4.3e-3, 5e-3]])
+    v = np.column_stack([20 * np.sin(500 * m.nodes[:, 0]), -10 * np.sin(700 * m.nodes[:, 1]), 3e4 * (m.nodes[:, 2] - 1e-3)])
+    r = run(lmp, tmp_path, m, v, 60, pair="mirror x 0 lo mirror y 0 lo", more="fix share all balance 1 1.0 shift xy 10 1.0", dump=60, nranks=nranks)
+    f = r.frames[-1]
+    for k in (0, 1):
+        there = m.nodes[f["id"] - 1, k] == 0
+        assert there.sum() > 8 and (f["x"][there, k] == 0).all() and (f["v"][there, k] == 0).all()
+    assert np.abs(r.thermo["c_book[9]"] - 1).max() < 1e-9
+
+
 def test_moves_across_mirror(lmp, tmp_path):
     m = block(2, 2, 2, map=1e-3, n=0)
     m.box = np.array([[0.0] * 3, [4e-3] * 3])
