@@ -235,7 +235,7 @@ void HVISphReport::write()
 
 /* ----------------------------------------------------------------------
    -sum over a row of x dW/dx s, particles a spacing s apart: 1, if gradients of linear fields are
-   to be exact.  Monaghan, Rep. Prog. Phys. 68 (2005) 1703, section 2
+   to be exact (doc/src/Howto_sph.rst, Advice)
 ------------------------------------------------------------------------- */
 
 static double gradient_sum(const std::string &kernel, double h_over_s)
