@@ -442,6 +442,11 @@ def material(args):
     if one.laws("eos")[0] in ("table", "idealgas"):
         print(f"\nno curves of eos {one.laws('eos')[0]}")
     else:
+        if "voids" in one.laws("spall"):
+            v, (pascal, hertz) = one.in_si(("spall", "voids")), ("", "") if one.units == "lj" else (" Pa", " 1/s")
+            bears = curves.borne(one, v["rate"])
+            print(f"\nspall voids, stretched at {v['rate']:g}{hertz}: bears {bears:.4g}{pascal}, {bears / v['sigma']:.3f} of sigma;"
+                  f" to bear sigma itself takes a sigma of {curves.sigma_for(one, v['sigma'], v['rate']):.4g}{pascal}")
         names, rows = curves.shock_table(one)
         print("\nshocks into the reference state\n" + tables.text(names, rows))
         if args.out:

@@ -11,6 +11,7 @@ import sys
 import numpy as np
 import pytest
 from conftest import ROOT
+from reference import voids
 
 from hvi import HVIError, cli, curves, material
 from hvi.material_figure import draw
@@ -223,6 +224,21 @@ def states(lmp, file, units, rho0, points, heat):
         text += f"set group all sph/rho {rho:.17g} sph/e {rho0 * e:.17g}\nrun 0\n"
     runs = lmp(text).runs
     return [run["c_p"][0] for run in runs], [run["c_T"][0] for run in runs] if heat else None
+
+
+@pytest.mark.parametrize("metal, within", [("Al6061-T6", 0.004), ("Al2024-T3", None)])
+def test_what_voids_bear(capsys, metal, within):
+    """stretched at a constant rate: against the equations of tests/reference by SciPy; and a sigma that bears the strength that was measured"""
+    one = material.read(ROOT / "potentials" / f"{metal}.hvi")
+    v = one.in_si(("spall", "voids"))
+    rate = np.array([1e4, 1e5, 1e7])
+    if within:
+        assert curves.borne(one, rate) == pytest.approx([voids.law(v, q)[0] for q in rate], rel=within)
+    sigma = curves.sigma_for(one, 1.1e9, 3e5)
+    assert curves.borne(one, 3e5, sigma) == pytest.approx(1.1e9, rel=1e-4) and sigma != pytest.approx(1.1e9 * (v["rate"] / 3e5) ** v["m"], rel=0.02)
+    cli.main(["material", str(one.path)])
+    said = re.search(r"stretched at 100000 1/s: bears (\S+) Pa, (\S+) of sigma; .* takes a sigma of (\S+) Pa", capsys.readouterr().out)
+    assert [float(x) for x in said.groups()] == pytest.approx([float(curves.borne(one, 1e5)), float(curves.borne(one, 1e5)) / v["sigma"], curves.sigma_for(one, v["sigma"], 1e5)], rel=1e-3)
 
 
 OTHERS = {"tait": "eos tait\nrho0 1000\nc0 1500\n",

@@ -5,10 +5,14 @@ import numpy as np
 import pytest
 import yaml
 from hvi import bodies, mesh_plate
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
 KEYS = """particles steps time_us wall_s ranks particle_steps_per_s energy_ratio energy_missed_ratio momentum_error mass_error lammps_version package_version
     hole_diameter_mm front_velocity_m_s cloud_length_mm cloud_diameter_mm length_ratio axial_velocity_ratio fragments fragmentation
-    largest_fragment_mass_fraction pieces_apart largest_apart_mass_fraction""".split()
+    largest_fragment_mass_fraction pieces_apart largest_apart_mass_fraction largest_rear_mass_fraction projectile_fails_in_tension
+    plate_fails_in_tension""".split()
 
 
 def plate(lmp, root, folder, nranks=1, fails=False, **variables):
@@ -51,6 +55,29 @@ def test_runs_on_behind_the_last_frame(lmp, root, tmp_path):
     r = plate(lmp, root, tmp_path, quarter="yes", dx=1.25, Rplate=15, frame=[1, 2], tstop=3)
     assert r["time_us"] == pytest.approx(3, abs=0.1)
     assert sorted(f.name for f in tmp_path.glob("frame.*")) == ["frame.1.dump", "frame.2.dump", "frame.3.dump"]
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_rear_half(lmp, root, tmp_path, nranks):
+    """what of the half away from the plate hangs together, from the dumps by SciPy: particles known by their place in the first frame"""
+    r = plate(lmp, root, tmp_path, nranks=nranks, quarter="yes", Rplate=20, v0=3500, frame=[0.0625, 8], tstop=8)
+    first, last = [hvi.Dump(tmp_path / f"frame.{t}.dump", mirror="none")[-1] for t in ("0.0625", "8")]
+    rear = first["id"][(first["type"] == 1) & (first["z"] < -5e-3 + 3500 * first.time)]
+    x = last.x[np.isin(last["id"], rear)]
+    pairs = cKDTree(x).query_pairs(1.5e-3, output_type="ndarray")
+    piece = connected_components(coo_matrix((np.ones(len(pairs)), pairs.T), (len(x), len(x))))[1]
+    assert len(x) == len(rear) == (first["type"] == 1).sum() / 2
+    assert r["largest_rear_mass_fraction"] == pytest.approx(np.bincount(piece).max() / len(x), abs=1e-5)
+    assert 0.02 < r["largest_rear_mass_fraction"] < 0.98 and r["largest_rear_mass_fraction"] != r["largest_apart_mass_fraction"]
+
+
+def test_says_what_does_not_fail(lmp, root, tmp_path):
+    """a plate whose file has no section for the law that is asked for: in the result and at the end of the log"""
+    r = lmp(root / "examples" / "single-plate" / "in.plate", cwd=tmp_path, env={"LAMMPS_POTENTIALS": str(root / "potentials")},
+            vars=dict(out=tmp_path, quarter="yes", dx=1.25, Rplate=15, tstop=1, material_t="Al6061-T6-Esposito2024.hvi"))
+    result = yaml.safe_load((tmp_path / "result.yaml").read_text())
+    assert (result["projectile_fails_in_tension"], result["plate_fails_in_tension"]) == (1, 0)
+    assert "Al6061-T6-Esposito2024.hvi has no law for damage no spall voids: the plate does not fail in tension" in r.log
 
 
 @pytest.mark.parametrize("variables", [
