@@ -4,6 +4,7 @@
     python3 plot.py FOLDER...   one or more runs (result.yaml, surface.dat, profile.dat): draws FOLDER/record.png
     python3 plot.py             the runs of run.sh under runs/: the figures and tables of README.md
     python3 plot.py --readme    the same, and puts the tables into README.md
+    python3 plot.py --raised    writes raised/FILE.hvi: sigma so large that matter stretched at the file's rate bears the file's sigma, for run.sh
 
 The strength of matter that is stretched at a constant rate (tests/reference/voids.py) is drawn beside what records give.
 """
@@ -24,7 +25,8 @@ import yaml
 
 here = os.path.dirname(os.path.abspath(__file__))
 root = os.environ.get("HVI_ROOT", os.path.join(here, "..", ".."))
-sys.path.insert(0, os.path.join(root, "tests"))
+sys.path[:0] = [os.path.join(root, "tests"), os.path.join(root, "python")]
+from hvi import curves, material
 from reference import voids
 
 NS = (8, 16, 32, 64, 128, 256, 512)
@@ -71,6 +73,21 @@ def rate_without_fracture(name, sigma, rho, c):
         return np.nan
     high = np.flatnonzero(u[:low] >= top - 0.1 * du)[-1]
     return 0.8 * du / (2e-6 * c * (t[low] - t[high]))
+
+
+def raised(file):
+    """sigma so raised, of what the file has"""
+    one = material.read(os.path.join(root, "potentials", file + ".hvi"))
+    v = one.in_si(("spall", "voids"))
+    return curves.sigma_for(one, v["sigma"], v["rate"]) / v["sigma"]
+
+
+def write_raised():
+    os.makedirs("raised", exist_ok=True)
+    for file, _, _ in targets().values():
+        head, section, rest = pathlib.Path(root, "potentials", file + ".hvi").read_text().partition("\nspall voids\n")
+        more = re.sub(r"(?m)^  sigma +(\S+)", lambda found: f"  sigma {raised(file) * float(found[1]):.6g}", rest, count=1)
+        pathlib.Path("raised", file + ".hvi").write_text(head + section + more)
 
 
 def record(folder):
@@ -157,14 +174,14 @@ def rates(shots):
 
 def measured(shots):
     fig, ax = plt.subplots(1, 2, figsize=(10.4, 4.8), layout="constrained")
-    rows = [["shot", "flyer / target mm", "v m/s", "peak GPa: paper, here", "rate /s: paper", "without fracture", "of the record", "sigma* GPa: measured", "voids 64", "128", "of the measured", "principal 128",
+    rows = [["shot", "flyer / target mm", "v m/s", "peak GPa: paper, here", "rate /s: paper", "without fracture", "of the record", "sigma* GPa: measured", "voids 64", "128", "of the measured", "128, sigma raised", "principal 128",
              "file's sigma at the second rate", "largest -p GPa", "first failure, mm below the surface"]]
     found = {}
     for s in shots:
         name = "shot-" + s["name"].replace(" ", "_")
         file, rho, c = targets()[s["target"]]
         k = voids.constants(pathlib.Path(root), file)
-        v, w, q = (read(f"{name}-{how}")[0] for how in ("voids-64", "voids-128", "none-128"))
+        v, w, more, q = (read(f"{name}-{how}")[0] for how in ("voids-64", "voids-128", "raised-128", "none-128"))
         p = read(f"{name}-principal-128")[0] if s["target"] == "Al6061" else None
         sigma = float(s["sigma"])
         rate = rate_without_fracture(f"{name}-none-128", 1e9 * sigma, rho, c)
@@ -178,7 +195,7 @@ def measured(shots):
         if pulls and given == given:
             ax[1].loglog(given, sigma, "s", color=color, mfc="none")
             ax[1].loglog(given, w["spall_strength_GPa"], "o" if spalls else "x", color=color)
-        found.setdefault(s["target"], []).append((sigma, w["spall_strength_GPa"] if pulls else np.nan, spalls, given))
+        found.setdefault(s["target"], []).append((sigma, w["spall_strength_GPa"] if pulls else np.nan, spalls, given, more["spall_strength_GPa"] if more["record"] == "ok" else np.nan))
         file = 1e-9 * k["sigma"] * (rate / k["rate"]) ** k["m"]
         mark = " (\\*)" if s["note"] == "v" else " (\\*\\*)" if s["note"] == "p" else ""
 
@@ -190,7 +207,7 @@ def measured(shots):
 
         rows.append([s["name"] + mark, f"{s['flyer']} {s['hf']} / {s['ht']}", s["v0"], f"{float(s['peak']):.2f}, {q['peak_GPa']:.2f}", number(given, ".2g"), number(rate, ".2g"),
                      f"{w['strain_rate_per_s']:.2g}" if pulls else "-", s["sigma"], strength(v), strength(w),
-                     f"{w['spall_strength_GPa'] / sigma:.2f}" if pulls else "-", f"{p['spall_strength_GPa']:.3f}" if p and p["record"] == "ok" else "-", number(file, ".2f"),
+                     f"{w['spall_strength_GPa'] / sigma:.2f}" if pulls else "-", strength(more), f"{p['spall_strength_GPa']:.3f}" if p and p["record"] == "ok" else "-", number(file, ".2f"),
                      f"{w['largest_tension_GPa']:.2f}", f"{w['spall_plane_mm']:.2f}" if w["failed_particles"] else "none fails"])
     x = np.array([0.7, 4.0])
     ax[0].loglog(x, x, "k-", lw=0.8)
@@ -203,7 +220,7 @@ def measured(shots):
     ax[0].set(xlim=(0.7, 4), ylim=(0.4, 4), xlabel="sigma* measured (GPa)", ylabel="computed, 128 per flyer (GPa)")
     e = np.geomspace(3e4, 1e6, 20)
     for name in found:
-        if any(g == g for *_, g in found[name]):
+        if any(g == g for *_, g, _ in found[name]):
             k, (label, color) = voids.constants(pathlib.Path(root), targets()[name][0]), METAL[name]
             ax[1].loglog(e, 1e-9 * k["sigma"] * (e / k["rate"]) ** k["m"], "--", lw=0.8, color=color)
             ax[1].plot([], [], "s", color=color, mfc="none", label=f"{label}: measured")
@@ -217,18 +234,21 @@ def measured(shots):
             plain(axis, (0.4, 0.6, 0.8, 1, 1.5, 2, 3, 4))
     fig.savefig("shots.png", dpi=110)
     table(rows)
-    summary = [["metal", "shots", "with a pull-back", "parted", "of the measured: mean", "least", "most", "scatter about the mean", "measured: most of the least", "phi_c"]]
+    summary = [["metal", "shots", "with a pull-back", "parted", "of the measured: mean", "least", "most", "scatter about the mean", "measured: most of the least", "phi_c", "sigma raised by", "parted then", "of the measured then"]]
     for name, values in found.items():
-        sigma, got, parted, _ = np.array(values).T
-        of = (got / sigma)[got == got]
+        sigma, got, parted, _, more = np.array(values).T
+        of, then = (got / sigma)[got == got], (more / sigma)[more == more]
         phi_c = voids.constants(pathlib.Path(root), targets()[name][0])["phi_c"]
         summary.append([METAL[name][0], str(len(sigma)), str(len(of)), f"{parted.sum():.0f}", *(f"{x:.2f}" for x in (of.mean(), of.min(), of.max(), of.std() / of.mean())),
-                        f"{sigma.max() / sigma.min():.2f}", f"{phi_c:.3f}"])
+                        f"{sigma.max() / sigma.min():.2f}", f"{phi_c:.3f}", f"{100 * raised(targets()[name][0]) - 100:.0f} %",
+                        str(len(then)), f"{then.mean():.2f}" if len(then) else "-"])
     table(summary)
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] not in ([], ["--readme"]):
+    if sys.argv[1:] == ["--raised"]:
+        write_raised()
+    elif sys.argv[1:] not in ([], ["--readme"]):
         for folder in sys.argv[1:]:
             record(folder)
     else:

@@ -22,9 +22,15 @@ for s in voids principal; do
 0.063 0.126
 THICK
 done
+python3=${HVI_PYTHON:-python3}
+$python3 "$here"/plot.py --raised || exit 1
+file() { sed -n "s/.*{target} == $1\" .*file_t index \([^ \"]*\).*/\1/p" "$here"/in.spall; } # of the metal
 sed '/^#/d; /^name,/d' "$here"/shots.csv | while IFS=, read -r shot metal paper flyer target hf ht v0 rest; do
   todo="voids-64 voids-128 none-128"
   [ "$target" = Al6061 ] && todo="$todo principal-128"    # other files have no section spall limit
+  same=
+  [ "$flyer" = "$target" ] && same="-var file_f raised/$(file "$target")"
+  run "shot-$(echo "$shot" | tr ' ' _)-raised-128" -var flyer "$flyer" -var target "$target" -var hf "$hf" -var ht "$ht" -var v0 "$v0" -var n 128 $same -var file_t raised/"$(file "$target")" || exit 1
   for s in $todo; do
     run "shot-$(echo "$shot" | tr ' ' _)-$s" -var flyer "$flyer" -var target "$target" -var hf "$hf" -var ht "$ht" -var v0 "$v0" -var spall "${s%-*}" -var n "${s#*-}"
   done || exit 1

@@ -108,6 +108,8 @@ def _spall(material, ax, GPa):
     rate = np.geomspace(1e3, 1e7, 100)
     for law, color in zip(material.laws("spall"), BODIES):
         ax.loglog(rate, curves.spall_strength(material, law, rate) / GPa, color=color, lw=STYLE["line"], label=_name(material, "spall", law))
+        if law == "voids":
+            ax.loglog(rate[::9], curves.borne(material, rate[::9]) / GPa, "--", color=color, lw=STYLE["line"], label="borne when stretched")
     low, high = ax.get_ylim()
     ax.set_ylim(0.7 * low, high * 1.7 ** (1 + len(material.laws("spall"))))  # room for the legend
     ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
