@@ -2,7 +2,8 @@
 """Debris below the spacing: how many pieces a failed particle stands for, by the size that compute hvi/atom fragsize has for it.
 
 An estimate of one size per particle, not a distribution: a failed particle of mass m and density rho whose pieces of size s are smaller
-than itself, d = (6 m/(pi rho))^(1/3), counts as m/(rho pi/6 s^3) = (d/s)^3 spheres of that size.
+than itself, d = (6 m/(pi rho))^(1/3), counts as m/(rho pi/6 s^3) = (d/s)^3 spheres of that size. In three dimensions only: in planes and rows of
+particles m is per length or area, which has neither a diameter nor a number of spheres.
 """
 
 import dataclasses
@@ -52,7 +53,12 @@ def estimate(frame, failed, density, column=COLUMN):
 
     failed: mask, (n,); density: of the solid matter, {type: rho}; column: size of the fragments that a particle has failed into, 0: unknown
     Pieces that are not smaller than the particle are not resolved better than by it: it counts as one.
+    HVIError if the frame is a plane or a row of particles.
     """
+    if frame.flat:
+        same = " and ".join("xyz"[k] for k in frame.flat)
+        raise HVIError(f"{frame.where}: all particles have the same {same}. In a plane or a row of particles masses are per length or area, so pieces "
+                       "below the spacing have no number: leave out the density")
     size = np.asarray(frame[column], dtype=float)
     frame.require_finite(size[:, None], (column,))
     if len(size) and size.min() < 0.0:

@@ -10,6 +10,8 @@ from .errors import HVIError
 
 INTEGERS = {"id", "mol", "type", "proc", "procp1", "ix", "iy", "iz"}  # columns that LAMMPS writes as whole numbers
 
+FEW = 8  # particles of a whole scene can be that many mirror images of one, at one coordinate along its axis: they say nothing of dimensions
+
 # where coordinates come from: the first that is complete; (columns, scaled by the box, unwrapped)
 _COORDINATES = ((("xu", "yu", "zu"), False, True), (("xsu", "ysu", "zsu"), True, True),
                 (("x", "y", "z"), False, False), (("xs", "ys", "zs"), True, False))
@@ -23,15 +25,16 @@ class Frame:
 
     number: place in the dump, from 0; step: LAMMPS's time step; time: or None; box: a Box; units: "si", ...
     mirror: planes that it is cut at, () of a whole scene, None if nobody knows: see hvi.mirror
+    flat: see the property; of a part of a frame it is that of the frame, as few particles do not tell
     """
 
-    def __init__(self, columns, *, number=0, step=0, time=None, box=None, units="si", masses=None, mirror=(), where="frame"):
+    def __init__(self, columns, *, number=0, step=0, time=None, box=None, units="si", masses=None, mirror=(), where="frame", flat=None):
         self.columns = columns
         self.number, self.step, self.time, self.box, self.units = number, step, time, box, units
         self.type_masses = masses or {}
         self.mirror = mirror
         self.where = where
-        self._cache = {}
+        self._cache = {} if flat is None else {"flat": flat}
 
     def __len__(self):
         return len(next(iter(self.columns.values()), ()))
@@ -55,11 +58,21 @@ class Frame:
 
     def _with(self, columns, box, planes):
         return Frame(columns, number=self.number, step=self.step, time=self.time, box=box, units=self.units,
-                     masses=self.type_masses, mirror=planes, where=self.where)
+                     masses=self.type_masses, mirror=planes, where=self.where, flat=self.flat)
 
     def without_planes(self, axes):
         """The same frame, cut only at the planes across other axes (0, 1, 2) than these."""
         return self._with(self.columns, self.box, tuple(plane for plane in self.planes if plane.axis not in axes))
+
+    @property
+    def flat(self):
+        """Axes (0, 1, 2) along which all particles have the same coordinate as written, a tuple: of a plane or a row of particles, where a mass
+        is per length or area. () of FEW particles or less, or without coordinates."""
+        return self._once("flat", self._find_flat)
+
+    def _find_flat(self):
+        names = next((names for names, _, _ in _COORDINATES if all(name in self for name in names)), ())
+        return tuple(k for k, name in enumerate(names) if len(self) > FEW and np.ptp(self[name]) == 0.0)
 
     @property
     def planes(self):

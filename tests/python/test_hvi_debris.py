@@ -45,15 +45,51 @@ def test_pieces_of_a_particle(tmp_path):
     assert nothing["subparticle_mass"] == nothing["unknown_mass"] == nothing["subparticle_size"] == 0
 
 
-def test_number_above_a_mass():
-    m, above, from_here = cumulative([1.0, 4.0, 1.0, 2.0], [3.0, 1.0, 2.5, 10.0])
-    assert m.tolist() == [1, 2, 4] and above.tolist() == [11, 1, 0] and from_here.tolist() == [16.5, 11, 1]
-
-
 def printed(capsys, *words):
     assert cli.main(list(words)) == 0
     out = capsys.readouterr().out
     return {line.split(": ", 1)[0]: line.split(": ", 1)[1] for line in out.splitlines() if ": " in line}
+
+
+def lattice(path, shape, boundary, names="x y z"):
+    """a lattice of failed particles, spacing 1, at 0.5 along directions with one of them"""
+    sites = np.stack(np.meshgrid(*[np.arange(n) + 0.5 for n in shape], indexing="ij"), axis=-1).reshape(-1, 3)
+    lines = ["ITEM: TIMESTEP", "0", "ITEM: NUMBER OF ATOMS", str(len(sites)), f"ITEM: BOX BOUNDS {boundary}", *3 * ["0 20"],
+             f"ITEM: ATOMS id type {names} vx vy vz mass damage spalled fragsize mirror_none"]
+    lines += [f"{i + 1} 1 {x} {y} {z} 0 0 1 {RHO[1]} 1 0 0.5 0" for i, (x, y, z) in enumerate(sites)]
+    path.write_text("\n".join(lines) + "\n")
+    return hvi.Dump(path)[0]
+
+
+@pytest.mark.parametrize("shape, boundary, names, same", [
+    ((20, 20, 1), "ff ff pp", "x y z", "z"), ((20, 20, 1), "ff ff pp", "xs ys zs", "z"), ((20, 1, 1), "ss ff ff", "x y z", "y and z"),
+    ((20, 1, 1), "pp pp pp", "xu yu zu", "y and z"), ((1, 20, 1), "ff ff ff", "x y z", "x and z")], ids=str)
+def test_planes_and_rows(tmp_path, capsys, shape, boundary, names, same):
+    """a mass per length or area is no mass of spheres: an error, of a part of the frame too, however few; what needs no size is still found"""
+    frame = lattice(tmp_path / "a.dump", shape, boundary, names)
+    for part in (frame, frame.select(frame.ids == 3), frame.select(frame.ids > 3).whole()):
+        with pytest.raises(hvi.HVIError, match=f"all particles have the same {same}\\."):
+            debris.estimate(part, np.ones(len(part), dtype=bool), RHO)
+    reach = ["--distance", "22" if names == "xs ys zs" else "1.1", "--sound"]  # scaled: by the box
+    assert cli.main(["fragments", "a.dump", *reach, "--density", "1=2000"]) == 1
+    assert "masses are per length or area" in capsys.readouterr().err
+    assert printed(capsys, "fragments", "a.dump", *reach)["pieces_apart"] == "1"
+
+
+@pytest.mark.parametrize("shape, boundary", [
+    ((5, 5, 2), "ff ff pp"), ((2, 5, 1), "ff ff ff"), ((2, 2, 2), "pp pp pp"), ((2, 2, 1), "ff ff ff"), ((1, 1, 1), "pp pp pp")], ids=str)
+def test_what_is_no_plane(tmp_path, shape, boundary):
+    """two layers; up to 8 particles at one coordinate, which a scene with an axis has in three dimensions"""
+    frame = lattice(tmp_path / "a.dump", shape, boundary)
+    if shape == (2, 5, 1):
+        frame.columns["z"][0] += 1e-6  # as little as dumps write
+    found = debris.estimate(frame, np.ones(len(frame), dtype=bool), RHO)
+    assert found.pieces == pytest.approx(6 / np.pi / 0.5**3)  # of a unit of volume
+
+
+def test_number_above_a_mass():
+    m, above, from_here = cumulative([1.0, 4.0, 1.0, 2.0], [3.0, 1.0, 2.5, 10.0])
+    assert m.tolist() == [1, 2, 4] and above.tolist() == [11, 1, 0] and from_here.tolist() == [16.5, 11, 1]
 
 
 def test_fragments_command(tmp_path, capsys):

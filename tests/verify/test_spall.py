@@ -137,6 +137,23 @@ def test_convergence(shot, n):
     assert np.all((0.75 < energy[1:] / energy[:-1]) & (energy[1:] / energy[:-1] < 0.9))
 
 
+LIMIT = 145.2  # m/s, pull-back by voids: Aitken's limit of 128, 256 and 512 particles per flyer, of the table in examples/spall/README.md
+
+
+@pytest.mark.parametrize("n, bound", [(32, 0.10), (64, 0.07), (128, 0.04), pytest.param(256, 0.025, marks=pytest.mark.long)])
+def test_distance_to_the_limit(shot, n, bound):
+    """pull-back by voids is above its limit by 8.9, 5.6, 3.0, 1.6 % with 32, 64, 128, 256 particles per flyer
+
+    5 % from 32 particles on was the goal. It is missed: 32 and 64 do not reach it. Bounds are near what is found, so that what gets worse is seen.
+    """
+    du = shot(n=n)[0]["pull_back_m_s"]
+    print(n, du, du / LIMIT - 1)
+    assert 1 < du / LIMIT < 1 + bound
+    if n == 256:  # the limit, from what does not take a run of 512
+        a, b, c = (shot(n=k)[0]["pull_back_m_s"] for k in (64, 128, 256))
+        assert c - (c - b) ** 2 / (c - 2 * b + a) == pytest.approx(LIMIT, rel=0.01)
+
+
 @pytest.mark.long
 def test_rows_that_clump(shot):
     """with h = 1.2 spacings nearest neighbors lie where the kernel gets steeper: 256 particles per flyer clump in tension, and part too soon"""
@@ -182,7 +199,8 @@ def test_place_of_first_failure(shot, V):
     """an instant limit is passed where the head of the flyer's release runs in the release fan of the free surface
 
     That head runs at a = (c0 + 2 s u) c_l/c0 behind the shock of speed Us = c0 + s u; the fan's ends at a and c0. So the least depth is where
-    the head meets the end of the fan, the largest where it meets its head, both in the plates' thickness at rest. Voids need time, and fail deeper.
+    the head meets the end of the fan, the largest where it meets its head, both in the plates' thickness at rest. Voids need time:
+    they fail deeper than where both heads meet, and no deeper than where both ends meet, which run at c0: there tension is whole first, and lasts.
     """
     n, hf, ht = 128, 2.0, 4.0
     u = V / 2
@@ -190,7 +208,8 @@ def test_place_of_first_failure(shot, V):
     deep = ht - 0.5 * (ht - hf) * (1 + a / Us)
     shallow = C0 * ((ht + hf + C0 * ht / Us + a * hf / Us) / (a + C0) - ht / Us)
     instant, voids = (shot(n=n, v0=V, spall=spall)[0]["spall_plane_mm"] for spall in ("principal", "voids"))
-    print(V, "bounds", shallow, deep, "instant", instant, "voids", voids)
+    whole = 0.5 * (ht + hf) - 0.5 * (ht - hf) * C0 / Us
+    print(V, "bounds", shallow, deep, whole, "instant", instant, "voids", voids)
     reach = 3.0 * hf / n  # of the kernel
     assert shallow - reach < instant < deep + reach
-    assert instant < voids < hf
+    assert max(instant, deep) < voids < whole
