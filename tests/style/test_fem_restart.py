@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from fem_scenes import OPEN, STATE, laws, opened, read_state, start, strike_plate
+from fem_scenes import OPEN, PULL, STATE, laws, opened, opens, plate, read_state, start, strike_plate
 
 FAILS = "strain 0.1 probe 2e-3 2e-3 -1e-3"  # the first elements become particles at step 27, and 8 more soon after
 MIDDLE, END = 30, 36
@@ -139,6 +139,18 @@ def test_data_file(lmp, tmp_path, nranks, spall, middle):
         if k in (0, 3) or "prop" in w:
             r = lmp(text.replace(w, ""), expect_fail=True)
             assert "Unknown identifier in data file" in r.error or "Unknown" in r.error, w
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_another_law(lmp, tmp_path, nranks):
+    """elements keep their voids when fix hvi/johnson-cook is given anew: another law of spall is refused, with particles in them or not"""
+    law = opens(tmp_path / "opens.hvi")
+    for n in (0, 2):
+        text = start(plate(core=0, n=n), **law) + PULL + "run 20\nunfix solid\nfix solid all hvi/johnson-cook damage no spall {}\nrun 1\n"
+        lmp(text.format("voids"), nranks=nranks)
+        for other in ("none", "principal"):
+            r = lmp(text.format(other), nranks=nranks, expect_fail=True)
+            assert "has voids, by spall voids, which its type does not have in this run" in r.error, r.error
 
 
 def test_a_run_that_ends_early(lmp):
