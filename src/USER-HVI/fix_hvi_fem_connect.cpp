@@ -359,6 +359,12 @@ void FixHVIFEM::check_state()
     HVI::HexNodes x, B;
     load(e, 1, X, x);
     const double volume = HVI::hex_gradient(x, B)[0];
+    if (const auto *const begun = HVI::SolidModel::misread(&model(one), one.s))
+      error->one(FLERR,
+                 "Fix hvi/fem: element {} of type {} has {}, by {}, which its type does not have "
+                 "in this run: give fix hvi/johnson-cook the keywords, and the type the material "
+                 "file, of the run that its state is from",
+                 one.id, one.type, begun->what, begun->law);
     if (one.mark != fingerprint(e)) here = 0;
     if (std::fabs(volume - one.V) > 1.0e-9 * one.V) {
       here = 0;

@@ -132,6 +132,7 @@ void FixHVIJohnsonCook::init()
                "Fix hvi/johnson-cook: the restart file was written with {}, this run uses {}",
                restored, settings());
   restored.clear();    // later runs of this script may use another fix
+  check_state();
   checked = false;
 }
 

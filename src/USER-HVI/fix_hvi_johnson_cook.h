@@ -102,6 +102,7 @@ class FixHVIJohnsonCook :
   void read_options(int, char **);
   std::string settings() const override;
   void make_models();
+  void check_state() const;
   void count_particles();
   const HVI::SolidModel *of(int) const;      // null: no solid
   enum Needs { STATE, FORCES, GRADIENT };    // each with those before it

@@ -10,15 +10,19 @@
    Contributing authors: the lammps-hvi developers
 ------------------------------------------------------------------------- */
 
-// keywords, and what restart files hold of them; the rest of the class is in fix_hvi_johnson_cook.cpp
+// keywords, what restart files hold of them, whether state goes with them; the rest of the class is in
+// fix_hvi_johnson_cook.cpp
 
 #include "fix_hvi_johnson_cook.h"
 
 #include "atom.h"
 #include "error.h"
+#include "fix_hvi_store.h"
+#include "group.h"
 #include "hvi_laws.h"
 
 #include <cmath>
+#include <iterator>
 
 using namespace LAMMPS_NS;
 
@@ -123,4 +127,39 @@ std::string FixHVIJohnsonCook::settings() const
   if (options.weibull > 0.0) text += fmt::format(" weibull {} {}", options.weibull, options.seed);
   if (options.reference > 0.0) text += fmt::format(" weibull_size {}", options.reference);
   return text;
+}
+
+/* ----------------------------------------------------------------------
+   Data files do not say by which laws their state came to be, and pair_coeff, set and group may change
+   those of a particle with its state: nobody may go on with what another law has begun.
+------------------------------------------------------------------------- */
+
+void FixHVIJohnsonCook::check_state() const
+{
+  constexpr int NKIND = std::size(HVI::SolidModel::BEGUN_BY);
+  const int ntypes = atom->ntypes;
+  std::vector<bigint> number(2 * NKIND * (ntypes + 1), 0);    // of those with a model, and without
+  for (int i = 0; i < atom->nlocal; i++) {
+    const HVI::SolidModel *const model = of(i);
+    const auto *const begun = HVI::SolidModel::misread(model, extra[i]);
+    if (begun)
+      number[(NKIND * atom->type[i] + (begun - HVI::SolidModel::BEGUN_BY)) * 2 + (model ? 0 : 1)]++;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, number.data(), number.size(), MPI_LMP_BIGINT, MPI_SUM, world);
+  for (int k = 0; k < (int) number.size(); k++) {
+    if (number[k] == 0) continue;
+    const int itype = k / (2 * NKIND);
+    const HVI::SolidModel::Begun &begun = HVI::SolidModel::BEGUN_BY[k / 2 % NKIND];
+    const HVI::Material *const material = store->materials.of(itype);
+    const bool left = models[itype] && k % 2;
+    error->all(FLERR,
+               "Fix hvi/johnson-cook: {} particles of type {} (material {}) have {}, by {}, but "
+               "are of {} in this run: give the keywords and material files of the run that their "
+               "state is from, or unfix {} and give it anew, by which all particles start "
+               "without stress and damage",
+               number[k], itype, material ? material->name : "none", begun.what, begun.law,
+               left ? fmt::format("no solid, outside of group {},", group->names[igroup])
+                    : laws_of(itype),
+               id);
+  }
 }

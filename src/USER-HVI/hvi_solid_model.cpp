@@ -248,6 +248,21 @@ SolidState SolidModel::blank()
   return s;
 }
 
+// work tells voids that have been pressed shut, of which D is left, from an impulse
+
+const SolidModel::Begun *SolidModel::misread(const SolidModel *model, const SolidState &s)
+{
+  if (s.failed()) return nullptr;
+  const Spall law = model ? model->spall : Spall::NONE;
+  const bool softens = model && model->softens();
+  const bool opened = s.voids.phi > 0.0 || s.voids.work > 0.0;
+  if (opened && law != Spall::VOIDS) return &BEGUN_BY[0];
+  if (!opened && s.voids.D > 0.0 && law != Spall::TULER_BUTCHER) return &BEGUN_BY[1];
+  if (s.initiation > 0.0 && !softens) return &BEGUN_BY[2];
+  if (s.damage > 0.0 && s.initiation < 1.0 && softens) return &BEGUN_BY[3];
+  return nullptr;
+}
+
 void SolidModel::liquefy(SolidState &s)
 {
   s.yield = UNKNOWN;

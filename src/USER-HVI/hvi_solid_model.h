@@ -147,6 +147,20 @@ class SolidModel {
   static void liquefy(SolidState &);
   static bool started(const SolidState &s) { return s.seen.shear != UNSEEN; }
 
+  // Laws that take time share numbers of the state.  What one of them has begun there that this model, or a
+  // liquid (nullptr), would drop or take for its own; nullptr: nothing.  Rubble is rubble by any law.
+
+  struct Begun {
+    const char *what, *law;
+  };
+  static const Begun *misread(const SolidModel *, const SolidState &);
+  static constexpr Begun BEGUN_BY[] = {
+      {"voids", "spall voids"},
+      {"impulse used up", "spall tuler-butcher"},
+      {"damage that softens", "damage of a law with u_f"},
+      {"damage that does not soften", "damage of a law without u_f"},
+  };
+
   // anew: changed by others since it was last integrated.  There need be no p and L yet.
 
   void start(SolidState &, SolidInput, bool anew) const;

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from fem_scenes import DX, EDGE, J, MASS, P, STATE, TOTAL, plate, read_state, start, strike, strike_plate
+from fem_scenes import DX, EDGE, J, MASS, OPEN, P, STATE, TOTAL, VOIDS, laws, plate, read_state, start, strike, strike_plate
 
 FAILS = "strain 0.1"  # the first elements become particles at step 27
 ROUND = "fix even all balance 3 1.0 {}\n"
@@ -140,16 +140,20 @@ def test_stretched_between_runs(lmp):
     assert (got["c_state[1]"][inside] < 0).all()
 
 
-def test_quarter(lmp):
-    """the quarter behind two mirror planes is the quarter of the whole"""
+@pytest.mark.parametrize("spall", ["none", "voids"])
+def test_quarter(lmp, tmp_path, spall):
+    """the quarter behind two mirror planes is the quarter of the whole, with open voids too"""
+    law, pull = laws(spall, tmp_path)
     whole, strike_it = strike_plate()
-    runs = lmp(start(whole, fem=FAILS) + strike_it + "run 0\n" + STATE.format("start") + "run 40\n" + STATE.format("whole")).runs
+    runs = lmp(start(whole, fem=FAILS, **law) + strike_it + pull + "run 0\n" + STATE.format("start") + "run 40\n" + STATE.format("whole")).runs
     begin, a = read_state("start"), read_state("whole")
     quarter = plate(nx=3, ny=3, whole=False)
     quarter.mirror = "x 0 lo y 0 lo"
     strike_it = strike(quarter)
-    text = start(quarter, fem=FAILS, pair="cubic dissipation riemann mirror x 0 lo mirror y 0 lo")
-    part = lmp(text + strike_it + "run 0\n" + STATE.format("start") + "run 40\n" + STATE.format("quarter"), nranks=2).runs
+    text = start(quarter, fem=FAILS, pair="cubic dissipation riemann mirror x 0 lo mirror y 0 lo", **law)
+    part = lmp(text + strike_it + pull + "run 0\n" + STATE.format("start") + "run 40\n" + STATE.format("quarter") + OPEN, nranks=2).runs
+    if law:
+        assert (read_state("open")[VOIDS] > 1e-4).sum() >= 16
     begin_b, b = read_state("start"), read_state("quarter")
     assert part[1]["f_wall"][-1] * 4 == runs[1]["f_wall"][-1] < 50
     for name in ("c_book[1]", "c_book[2]", "c_book[8]", f"c_book[{P + 2}]", f"c_book[{MASS}]", "f_wall[7]"):
@@ -165,6 +169,7 @@ def test_quarter(lmp):
         other = last[begin["id"][key[(begin_b["type"][j], *np.round(begin_b["X"][j] / (0.1 * DX)).astype(int))]]]
         assert np.abs(b["X"][k] - a["X"][other]).max() < 1e-9 * EDGE
         assert np.abs(b["V"][k] - a["V"][other]).max() < 1e-6
+        assert abs(b[VOIDS][k] - a[VOIDS][other]) < 1e-10
 
 
 @pytest.mark.parametrize("nranks", [1, 3])

@@ -1,10 +1,11 @@
 """Elements in restart and data files: a run that is interrupted goes on as if it had not been, with elements that have become particles."""
 
+import itertools
 import re
 
 import numpy as np
 import pytest
-from fem_scenes import STATE, read_state, start, strike_plate
+from fem_scenes import OPEN, PULL, STATE, laws, opened, opens, plate, read_state, start, strike_plate
 
 FAILS = "strain 0.1 probe 2e-3 2e-3 -1e-3"  # the first elements become particles at step 27, and 8 more soon after
 MIDDLE, END = 30, 36
@@ -45,18 +46,25 @@ def books(a, b, tolerance=0.0):
         assert np.abs(a[name][later] - b[name]).max() <= tolerance * size, name
 
 
-@pytest.mark.parametrize("middle, end, tolerance", [(20, 22, 0.0), (MIDDLE, 32, 0.0), (MIDDLE, END, 1e-12)])
-@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (2, "off")])
-def test_goes_on(lmp, nranks, newton, middle, end, tolerance):
-    """states, forces, the step, all that is booked, probes: the same bits; when elements have failed, on ranks and later,
+TIMES = [(20, 22, 0.0), (MIDDLE, 32, 0.0), (MIDDLE, END, 1e-12)]
+
+
+@pytest.mark.parametrize("spall, ranks, times", [
+    *itertools.product(["none"], [(1, "on"), (2, "on"), (2, "off")], TIMES), *itertools.product(["voids"], [(1, "on"), (2, "on")], TIMES[::2])])
+def test_goes_on(lmp, tmp_path, spall, ranks, times):
+    """states, forces, the step, all that is booked, probes, with open voids too: the same bits; when elements have failed, on ranks and later,
     sums are of another order"""
+    (nranks, newton), (middle, end, tolerance), (law, pull) = ranks, times, laws(spall, tmp_path)
     tolerance = 1e-12 if nranks > 1 and middle == MIDDLE else tolerance
-    a = lmp(whole(f"restart {middle} half\nrun {end}\n" + STATE.format("whole"), newton=newton), nranks=nranks).runs[0]
-    b = lmp(continued(f"read_restart half.{middle}", newton=newton) + f"run {end - middle}\n" + STATE.format("part"), nranks=nranks).runs[0]
+    a = lmp(whole(pull + f"restart {middle} half\nrun {end}\n" + STATE.format("whole"), newton=newton, **law), nranks=nranks).runs[0]
+    again = continued(f"read_restart half.{middle}", newton=newton, **law)
+    b = lmp(again + f"run {end - middle}\n" + STATE.format("part") + OPEN, nranks=nranks).runs[0]
     books(a, b, tolerance)
     same(read_state("whole"), read_state("part"), tolerance)
     assert (b["f_wall"][0] < 64) == (middle == MIDDLE) and (end < END or b["f_wall"][-1] < b["f_wall"][0])
     assert a["Dt"].min() < a["Dt"].max() and np.abs(b["f_wall[1][1]"]).min() > 0
+    if law:
+        opened()
 
 
 @pytest.mark.parametrize("first, second", [(1, 3), (3, 2)])
@@ -98,13 +106,17 @@ def test_all_elements_gone(lmp):
 
 
 @pytest.mark.parametrize("nranks", [1, 2])
-@pytest.mark.parametrize("middle", [20, 30])
-def test_data_file(lmp, nranks, middle):
+@pytest.mark.parametrize("spall, middle", [("none", 20), ("none", 30), ("voids", 30)])
+def test_data_file(lmp, tmp_path, nranks, spall, middle):
     """write_data, read_data with all sections: the state to its digits, and then the run as if not interrupted"""
     def fixed(text):  # the step of fix hvi/dt grows from what is stable, also after a data file
         return re.sub(r"fix step all hvi/dt \S+", "timestep 1e-8", text)
 
-    lmp(fixed(whole(f"run {middle}\nwrite_data half.data\n" + STATE.format("half") + f"run {END - middle}\n" + STATE.format("whole"))))
+    law, pull = laws(spall, tmp_path)
+    first = pull + f"run {middle}\nwrite_data half.data\n" + STATE.format("half") + OPEN
+    lmp(fixed(whole(first + f"run {END - middle}\n" + STATE.format("whole"), **law)))
+    if law:
+        opened()
     found = [line.split("#")[0].strip() for line in open("half.data") if line[:1].isalpha()]
     words = []
     for name in found:
@@ -116,7 +128,8 @@ def test_data_file(lmp, nranks, middle):
         elif owner:
             words.append(f"fix {owner} NULL {name}")
     assert sum(w.startswith("fix wall NULL wall_state_") for w in words) > 10
-    text = fixed(continued("read_data half.data add append " + " ".join(words)))
+    assert any("solid_voids" in w for w in words) == bool(law)
+    text = fixed(continued("read_data half.data add append " + " ".join(words), **law))
     lmp(text + "run 0\n" + STATE.format("read") + f"run {END - middle}\n" + STATE.format("part"), nranks=nranks)
     half, read, whole_, part = (read_state(f) for f in ("half", "read", "whole", "part"))
     same(half, read, 1e-12, renumbered=True)
@@ -126,6 +139,18 @@ def test_data_file(lmp, nranks, middle):
         if k in (0, 3) or "prop" in w:
             r = lmp(text.replace(w, ""), expect_fail=True)
             assert "Unknown identifier in data file" in r.error or "Unknown" in r.error, w
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_another_law(lmp, tmp_path, nranks):
+    """elements keep their voids when fix hvi/johnson-cook is given anew: another law of spall is refused, with particles in them or not"""
+    law = opens(tmp_path / "opens.hvi")
+    for n in (0, 2):
+        text = start(plate(core=0, n=n), **law) + PULL + "run 20\nunfix solid\nfix solid all hvi/johnson-cook damage no spall {}\nrun 1\n"
+        lmp(text.format("voids"), nranks=nranks)
+        for other in ("none", "principal"):
+            r = lmp(text.format(other), nranks=nranks, expect_fail=True)
+            assert "has voids, by spall voids, which its type does not have in this run" in r.error, r.error
 
 
 def test_a_run_that_ends_early(lmp):

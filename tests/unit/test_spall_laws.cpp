@@ -311,3 +311,46 @@ TEST(Fragments, RateThen)
   ASSERT_TRUE(s.failed());
   EXPECT_GT(in.L.xx, want + 100.0);
 }
+
+// what another law would drop or take for its own: voids, also those pressed shut, of which D is left; an
+// impulse; not what rubble has
+
+TEST(SolidModel, Misread)
+{
+  const std::string text = EOS + PERFECT + IMPULSE + "spall limit\nsigma_p 1.2e9\n" +
+      "spall voids\nsigma 1.2e9\nrate 1e5\nm 0.2\nphi_c 0.05\n";
+  const auto voids = made(text, options(Spall::VOIDS)),
+             impulse = made(text, options(Spall::TULER_BUTCHER)),
+             limit = made(text, options(Spall::PRINCIPAL)), none = made(text, options(Spall::NONE));
+  const auto refuse = [&](const SolidState &s) {
+    std::string who;
+    const SolidModel *const models[] = {voids.get(), impulse.get(), limit.get(), none.get(),
+                                        nullptr};
+    for (const SolidModel *const model : models) {
+      const SolidModel::Begun *const begun = SolidModel::misread(model, s);
+      who += begun ? begun->what[0] : '-';
+    }
+    return who;
+  };
+  EXPECT_EQ(refuse(SolidModel::blank()), "-----");
+
+  const auto eos = parsed(EOS).eos;
+  const SpallVoids law = {1.2e9, 1e5, 0.2, 0.05, 0.0};
+  SolidState s = SolidModel::blank();
+  for (int k = 1; k <= 20; k++) law.advance(s.voids, *eos, 2703 * (1.0 - 1e-3 * k), 0.0, 1.0, 1e-8);
+  ASSERT_GT(s.voids.phi, 1e-4);
+  ASSERT_LT(s.voids.D, 1.0);
+  EXPECT_EQ(refuse(s), "-vvvv");
+  law.advance(s.voids, *eos, 2710, 0.0, 1.0, 1e-8);
+  ASSERT_EQ(s.voids.phi, 0.0);
+  ASSERT_GT(s.voids.D, 0.0);
+  EXPECT_EQ(refuse(s), "-vvvv");
+  s.spalled = 1.0;
+  EXPECT_EQ(refuse(s), "-----");
+
+  s = SolidModel::blank();
+  s.voids.D = 0.3;
+  EXPECT_EQ(refuse(s), "i-iii");
+  s.damage = 1.0;
+  EXPECT_EQ(refuse(s), "-----");
+}
