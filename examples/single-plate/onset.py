@@ -79,7 +79,7 @@ def main(folder):
     for key, runs in voids.items():
         rows += [[f"{key[0]:g}" if which == "apart" else "", which, *(f"{x:.3f}" for x in pieces(runs, which)[1])] for which in KEYS]
     table(rows)
-    varied = read(folder, "onset-variations", "onset-variations-full", "onset-thin", "onset-constants")
+    varied = read(folder, "onset-variations", "onset-finest", "onset-thin", "onset-constants")
     rows = [["t/D", "changed", "largest piece apart, at km/s", "of the rear half", "rear: 10 % lost at", "sphere: 10 % lost", "half lost"]]
     for key, runs in sorted([*voids.items(), *varied.items()], key=lambda item: (item[0][0], item[0][4] != "Al2017-T4.hvi", item[0][1], item[0][3], item[0][4])):
         onset = measured(key[0])
