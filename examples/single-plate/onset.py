@@ -33,11 +33,14 @@ def read(folder, *names):
         if not os.path.exists(path):
             continue
         with open(path) as f:
-            for row in csv.DictReader(f):
-                if row.get(KEYS["rear"]):
-                    t, dx = float(row["t"]), float(row["dx"])
-                    key = round(t / D, 3), round(D / dx, 1), round(t / dx), float(row.get("shift") or 0), row["material_p"]
-                    found.setdefault(key, {})[float(row["v0"]) / 1000] = row
+            rows = list(csv.DictReader(f))
+        done = [row for row in rows if row.get(KEYS["rear"])]
+        if len(done) < len(rows):
+            print(f"{path}: {len(rows) - len(done)} runs without a result are left out\n")
+        for row in done:
+            t, dx = float(row["t"]), float(row["dx"])
+            key = round(t / D, 3), round(D / dx, 1), round(t / dx), float(row.get("shift") or 0), row["material_p"]
+            found.setdefault(key, {})[float(row["v0"]) / 1000] = row
     return {key: dict(sorted(runs.items())) for key, runs in sorted(found.items())}
 
 
@@ -67,6 +70,8 @@ def table(rows):
 
 def main(folder):
     voids, principal = read(folder, "onset"), read(folder, "onset-principal")
+    if not voids:
+        sys.exit(f"no runs of studies/onset.yaml in {folder}: python3 -m hvi sweep studies/onset.yaml")
     rows = [["t/D", "layers", "measured onset", "rear: 10 % lost at, km/s", "sphere: 10 % lost", "half lost", "sound: half lost", "`spall principal`: rear 10 %, sphere 10 %, half lost",
              "discrete elements, sc: 10 %, half", "fcc"]]
     for key, runs in voids.items():
@@ -75,9 +80,10 @@ def main(folder):
         rows.append([f"{key[0]:g}", str(key[2]), f"{onset:.2f}", *(speed(lost(runs, *of), onset) for of in (("rear", 0.1), ("apart", 0.1), ("apart", 0.5))), speed(lost(runs, "sound", 0.5)),
                      instant, *ELEMENTS.get(key[0], ("-", "-"))])
     table(rows)
-    rows = [["t/D", "largest piece", *(f"{v:g} km/s" for v in next(iter(voids.values())))]]
+    speeds = sorted({v for runs in voids.values() for v in runs})
+    rows = [["t/D", "largest piece", *(f"{v:g} km/s" for v in speeds)]]
     for key, runs in voids.items():
-        rows += [[f"{key[0]:g}" if which == "apart" else "", which, *(f"{x:.3f}" for x in pieces(runs, which)[1])] for which in KEYS]
+        rows += [[f"{key[0]:g}" if which == "apart" else "", which, *(f"{float(runs[v][KEYS[which]]):.3f}" if v in runs else "-" for v in speeds)] for which in KEYS]
     table(rows)
     varied = read(folder, "onset-variations", "onset-finest", "onset-thin", "onset-constants")
     rows = [["t/D", "changed", "largest piece apart, at km/s", "of the rear half", "rear: 10 % lost at", "sphere: 10 % lost", "half lost"]]

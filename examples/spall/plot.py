@@ -4,7 +4,7 @@
     python3 plot.py FOLDER...   one or more runs (result.yaml, surface.dat, profile.dat): draws FOLDER/record.png
     python3 plot.py             the runs of run.sh under runs/: the figures and tables of README.md
     python3 plot.py --readme    the same, and puts the tables into README.md
-    python3 plot.py --raised    writes raised/FILE.hvi: sigma so large that matter stretched at the file's rate bears the file's sigma, for run.sh
+    python3 plot.py --raised    writes runs/raised/FILE.hvi: sigma so large that matter stretched at the file's rate bears the file's sigma, for run.sh
 
 The strength of matter that is stretched at a constant rate (tests/reference/voids.py) is drawn beside what records give.
 """
@@ -83,11 +83,13 @@ def raised(file):
 
 
 def write_raised():
-    os.makedirs("raised", exist_ok=True)
+    os.makedirs("runs/raised", exist_ok=True)
     for file, _, _ in targets().values():
         head, section, rest = pathlib.Path(root, "potentials", file + ".hvi").read_text().partition("\nspall voids\n")
-        more = re.sub(r"(?m)^  sigma +(\S+)", lambda found: f"  sigma {raised(file) * float(found[1]):.6g}", rest, count=1)
-        pathlib.Path("raised", file + ".hvi").write_text(head + section + more)
+        more, n = re.subn(r"(?m)^  sigma +(\S+)", lambda found: f"  sigma {raised(file) * float(found[1]):.6g}", rest, count=1)
+        if n != 1:
+            sys.exit(f"{file}.hvi: no sigma in a section spall voids")
+        pathlib.Path("runs", "raised", file + ".hvi").write_text(head + section + more)
 
 
 def record(folder):
@@ -195,7 +197,8 @@ def measured(shots):
         if pulls and given == given:
             ax[1].loglog(given, sigma, "s", color=color, mfc="none")
             ax[1].loglog(given, w["spall_strength_GPa"], "o" if spalls else "x", color=color)
-        found.setdefault(s["target"], []).append((sigma, w["spall_strength_GPa"] if pulls else np.nan, spalls, given, more["spall_strength_GPa"] if more["record"] == "ok" else np.nan))
+        found.setdefault(s["target"], []).append((sigma, w["spall_strength_GPa"] if pulls else np.nan, spalls, given,
+                                                  more["spall_strength_GPa"] if more["record"] == "ok" else np.nan))
         file = 1e-9 * k["sigma"] * (rate / k["rate"]) ** k["m"]
         mark = " (\\*)" if s["note"] == "v" else " (\\*\\*)" if s["note"] == "p" else ""
 

@@ -29,8 +29,9 @@ sed '/^#/d; /^name,/d' "$here"/shots.csv | while IFS=, read -r shot metal paper 
   todo="voids-64 voids-128 none-128"
   [ "$target" = Al6061 ] && todo="$todo principal-128"    # other files have no section spall limit
   same=
-  [ "$flyer" = "$target" ] && same="-var file_f raised/$(file "$target")"
-  run "shot-$(echo "$shot" | tr ' ' _)-raised-128" -var flyer "$flyer" -var target "$target" -var hf "$hf" -var ht "$ht" -var v0 "$v0" -var n 128 $same -var file_t raised/"$(file "$target")" || exit 1
+  [ "$flyer" = "$target" ] && same="-var file_f runs/raised/$(file "$target")"
+  run "shot-$(echo "$shot" | tr ' ' _)-raised-128" -var flyer "$flyer" -var target "$target" -var hf "$hf" -var ht "$ht" -var v0 "$v0" \
+    -var n 128 $same -var file_t runs/raised/"$(file "$target")" || exit 1
   for s in $todo; do
     run "shot-$(echo "$shot" | tr ' ' _)-$s" -var flyer "$flyer" -var target "$target" -var hf "$hf" -var ht "$ht" -var v0 "$v0" -var spall "${s%-*}" -var n "${s#*-}"
   done || exit 1

@@ -446,7 +446,8 @@ def material(args):
             v, (pascal, hertz) = one.in_si(("spall", "voids")), ("", "") if one.units == "lj" else (" Pa", " 1/s")
             bears = curves.borne(one, v["rate"])
             print(f"\nspall voids, stretched at {v['rate']:g}{hertz}: bears {bears:.4g}{pascal}, {bears / v['sigma']:.3f} of sigma;"
-                  f" to bear sigma itself takes a sigma of {curves.sigma_for(one, v['sigma'], v['rate']):.4g}{pascal}")
+                  f" to bear sigma itself takes a sigma of {curves.sigma_for(one, v['sigma'], v['rate']):.4g}{pascal}"
+                  + (" (without delta_c, which lowers phi_c for large particles)" if v["delta_c"] else ""))
         names, rows = curves.shock_table(one)
         print("\nshocks into the reference state\n" + tables.text(names, rows))
         if args.out:

@@ -151,6 +151,7 @@ def borne(material, rate, sigma=None, steps=250):
     """largest tension that spall voids bears in matter without shear strength that is stretched by 1 + rate t; with sigma in place of the file's
 
     Equations (1) to (3) of hvi_spall_voids.h, implicit as there; the error of the steps is below 0.3 %.
+    phi_c is the file's, whatever the spacing: delta_c is left out.
     """
     eos, v = Eos(material), material.in_si(("spall", "voids"))
     rate = np.asarray(rate, float)

@@ -57,16 +57,16 @@ def test_runs_on_behind_the_last_frame(lmp, root, tmp_path):
     assert sorted(f.name for f in tmp_path.glob("frame.*")) == ["frame.1.dump", "frame.2.dump", "frame.3.dump"]
 
 
-@pytest.mark.parametrize("nranks", [1, 2])
-def test_rear_half(lmp, root, tmp_path, nranks):
-    """what of the half away from the plate hangs together, from the dumps by SciPy: particles known by their place in the first frame"""
-    r = plate(lmp, root, tmp_path, nranks=nranks, quarter="yes", Rplate=20, v0=3500, frame=[0.0625, 8], tstop=8)
+@pytest.mark.parametrize("nranks, D", [(1, 10), (2, 10), (1, 9)])
+def test_rear_half(lmp, root, tmp_path, nranks, D):
+    """what of the half away from the plate hangs together, from the dumps by SciPy: particles known by their place in the first frame, without a layer in the middle"""
+    r = plate(lmp, root, tmp_path, nranks=nranks, quarter="yes", Rplate=20, v0=3500, frame=[0.0625, 8], tstop=8, D=D)
     first, last = [hvi.Dump(tmp_path / f"frame.{t}.dump", mirror="none")[-1] for t in ("0.0625", "8")]
-    rear = first["id"][(first["type"] == 1) & (first["z"] < -5e-3 + 3500 * first.time)]
+    rear = first["id"][(first["type"] == 1) & (first["z"] < -0.5e-3 * D - 1e-4 + 3500 * first.time)]
     x = last.x[np.isin(last["id"], rear)]
     pairs = cKDTree(x).query_pairs(1.5e-3, output_type="ndarray")
     piece = connected_components(coo_matrix((np.ones(len(pairs)), pairs.T), (len(x), len(x))))[1]
-    assert len(x) == len(rear) == (first["type"] == 1).sum() / 2
+    assert len(x) == len(rear) and (len(x) == (first["type"] == 1).sum() / 2 if D == 10 else 0.4 < len(x) / (first["type"] == 1).sum() < 0.5)
     assert r["largest_rear_mass_fraction"] == pytest.approx(np.bincount(piece).max() / len(x), abs=1e-5)
     assert 0.02 < r["largest_rear_mass_fraction"] < 0.98 and r["largest_rear_mass_fraction"] != r["largest_apart_mass_fraction"]
 
@@ -77,7 +77,8 @@ def test_says_what_does_not_fail(lmp, root, tmp_path):
             vars=dict(out=tmp_path, quarter="yes", dx=1.25, Rplate=15, tstop=1, material_t="Al6061-T6-Esposito2024.hvi"))
     result = yaml.safe_load((tmp_path / "result.yaml").read_text())
     assert (result["projectile_fails_in_tension"], result["plate_fails_in_tension"]) == (1, 0)
-    assert "Al6061-T6-Esposito2024.hvi has no law for damage no spall voids: the plate does not fail in tension" in r.log
+    said = [line for line in r.log.splitlines() if line.startswith("note: ")]  # not the commands that print it
+    assert said == ["note: the plate, Al6061-T6-Esposito2024.hvi, does not fail in tension with damage no spall voids thermal yes"]
 
 
 @pytest.mark.parametrize("variables", [
