@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Onset of fragmentation, from the tables of the sweeps of studies/onset*.yaml: python3 onset.py [FOLDER, default: runs] -> the tables of README.md, onset.png
+"""Onset of fragmentation: python3 onset.py [FOLDER, default: runs] -> the tables of README.md, onset.png, from the sweeps of studies/onset*.yaml
 
-What is lost is what is not in the largest piece, of the sphere or of its half that was away from the plate; a velocity at which a share is lost lies on the
-straight line between the velocities that were run, from below the first time.
+What is lost is what is not in the largest piece, of the sphere or of its half that was away from the plate; a velocity at which a share is
+lost lies on the straight line between the velocities that were run, where it is passed first.
 """
 import csv
 import os
@@ -39,7 +39,7 @@ def read(folder, *names):
             print(f"{path}: {len(rows) - len(done)} runs without a result are left out\n")
         for row in done:
             t, dx = float(row["t"]), float(row["dx"])
-            key = round(t / D, 3), round(D / dx, 1), round(t / dx), float(row.get("shift") or 0), row["material_p"]
+            key = round(t / D, 3), round(D / dx, 2), round(t / dx), float(row.get("shift") or 0), row["material_p"]
             found.setdefault(key, {})[float(row["v0"]) / 1000] = row
     return {key: dict(sorted(runs.items())) for key, runs in sorted(found.items())}
 
@@ -49,18 +49,21 @@ def pieces(runs, which):
 
 
 def lost(runs, which, share):
-    """km/s; NaN where it is not between the velocities that were run"""
+    """km/s; NaN where more is left at all velocities that were run, minus the least of them where less is left there"""
     v, largest = pieces(runs, which)
     below = np.flatnonzero(largest < 1 - share)
-    if not below.size or below[0] == 0:
+    if not below.size:
         return np.nan
     k = below[0]
+    if k == 0:
+        return -v[0]
     return v[k - 1] + (largest[k - 1] - 1 + share) / (largest[k - 1] - largest[k]) * (v[k] - v[k - 1])
 
 
 def speed(v, onset=None):
     """text of it, with how far from the measured one"""
-    return "-" if np.isnan(v) else f"{v:.2f}" + (f" ({100 * (v / onset - 1):+.0f} %)" if onset else "")
+    off = f" ({100 * (abs(v) / onset - 1):+.0f} %)" if onset and not np.isnan(v) else ""
+    return "not reached" if np.isnan(v) else f"below {-v:g}{off}" if v < 0 else f"{v:.2f}{off}"
 
 
 def table(rows):
@@ -72,34 +75,40 @@ def main(folder):
     voids, principal = read(folder, "onset"), read(folder, "onset-principal")
     if not voids:
         sys.exit(f"no runs of studies/onset.yaml in {folder}: python3 -m hvi sweep studies/onset.yaml")
-    rows = [["t/D", "layers", "measured onset", "rear: 10 % lost at, km/s", "sphere: 10 % lost", "half lost", "sound: half lost", "`spall principal`: rear 10 %, sphere 10 %, half lost",
-             "discrete elements, sc: 10 %, half", "fcc"]]
+    three = ("rear", 0.1), ("apart", 0.1), ("apart", 0.5)
+    rows = [["t/D", "layers", "measured onset", "rear: 10 % lost at, km/s", "sphere: 10 % lost", "half lost", "sound: half lost",
+             "`spall principal`: rear 10 %, sphere 10 %, half lost", "discrete elements, sc: 10 %, half", "fcc"]]
     for key, runs in voids.items():
         onset, other = measured(key[0]), principal.get(key)
-        instant = "not run" if other is None else ", ".join(speed(lost(other, *of)) for of in (("rear", 0.1), ("apart", 0.1), ("apart", 0.5)))
-        rows.append([f"{key[0]:g}", str(key[2]), f"{onset:.2f}", *(speed(lost(runs, *of), onset) for of in (("rear", 0.1), ("apart", 0.1), ("apart", 0.5))), speed(lost(runs, "sound", 0.5)),
+        instant = "not run" if other is None else ", ".join(speed(lost(other, *of)) for of in three)
+        rows.append([f"{key[0]:g}", str(key[2]), f"{onset:.2f}", *(speed(lost(runs, *of), onset) for of in three), speed(lost(runs, "sound", 0.5)),
                      instant, *ELEMENTS.get(key[0], ("-", "-"))])
     table(rows)
     speeds = sorted({v for runs in voids.values() for v in runs})
     rows = [["t/D", "largest piece", *(f"{v:g} km/s" for v in speeds)]]
     for key, runs in voids.items():
-        rows += [[f"{key[0]:g}" if which == "apart" else "", which, *(f"{float(runs[v][KEYS[which]]):.3f}" if v in runs else "-" for v in speeds)] for which in KEYS]
+        for which in KEYS:
+            shares = (f"{float(runs[v][KEYS[which]]):.3f}" if v in runs else "-" for v in speeds)
+            rows.append([f"{key[0]:g}" if which == "apart" else "", which, *shares])
     table(rows)
     varied = read(folder, "onset-variations", "onset-finest", "onset-thin", "onset-constants")
-    rows = [["t/D", "changed", "largest piece apart, at km/s", "of the rear half", "rear: 10 % lost at", "sphere: 10 % lost", "half lost"]]
-    for key, runs in sorted([*voids.items(), *varied.items()], key=lambda item: (item[0][0], item[0][4] != "Al2017-T4.hvi", item[0][1], item[0][3], item[0][4])):
+    rows = [["t/D", "changed", "largest piece apart, at km/s", "of the rear half, at the same", "rear: 10 % lost at", "sphere: 10 % lost", "half lost"]]
+    plain = "Al2017-T4.hvi"
+    for key, runs in sorted([*voids.items(), *varied.items()], key=lambda item: (item[0][0], item[0][4] != plain, item[0][1], item[0][3], item[0][4])):
         onset = measured(key[0])
-        what = [f"{key[1]:g} across, {key[2]} layer{'s' * (key[2] > 1)}"] if key[3] == 0 and key[4] == "Al2017-T4.hvi" else []
+        what = [f"{key[1]:g} across, {key[2]} layer{'s' * (key[2] > 1)}"] if key[3] == 0 and key[4] == plain else []
         what += [f"lattice shifted by {key[3]:g} spacings"] if key[3] else []
-        what += [key[4]] if key[4] != "Al2017-T4.hvi" else []
-        v = [k for k in runs if measured(key[0]) - 1.1 < k < measured(key[0]) + 1.2]
-        rows.append([f"{key[0]:g}", ", ".join(what), "; ".join(f"{k:g}: {float(runs[k][KEYS['apart']]):.3f}" for k in v), ", ".join(f"{float(runs[k][KEYS['rear']]):.3f}" for k in v),
-                     *(speed(lost(runs, *of), onset) for of in (("rear", 0.1), ("apart", 0.1), ("apart", 0.5)))])
+        what += [key[4]] if key[4] != plain else []
+        listed = [] if key in voids else list(runs)
+        rows.append([f"{key[0]:g}", ", ".join(what), "; ".join(f"{v:g}: {float(runs[v][KEYS['apart']]):.3f}" for v in listed) or "above",
+                     ", ".join(f"{float(runs[v][KEYS['rear']]):.3f}" for v in listed) or "above",
+                     *(speed(lost(runs, *of), onset) for of in three)])
     table(rows)
-    seconds = [float(row["core_s"]) for runs in [*voids.values(), *principal.values(), *varied.values()] for row in runs.values()]
-    energy = [abs(float(row["energy_ratio"]) - 1) for runs in [*voids.values(), *principal.values(), *varied.values()] for row in runs.values()]
+    every = [row for runs in [*voids.values(), *principal.values(), *varied.values()] for row in runs.values()]
+    seconds, energy = [float(row["core_s"]) for row in every], [abs(float(row["energy_ratio"]) - 1) for row in every]
     print(f"{len(seconds)} runs, {min(seconds):.0f} to {max(seconds):.0f} core-seconds, energy to {max(energy):.0e}")
-    draw({key: (runs, principal.get(key), [other for k, other in varied.items() if k[0] == key[0] and k[3] == 0 and k[4] == key[4]]) for key, runs in voids.items()}, "onset.png")
+    finer = {key: [other for k, other in varied.items() if k[0] == key[0] and k[3] == 0 and k[4] == key[4]] for key in voids}
+    draw({key: (runs, principal.get(key), finer[key]) for key, runs in voids.items()}, "onset.png")
 
 
 def draw(panels, path):
@@ -110,7 +119,7 @@ def draw(panels, path):
         ax.plot(*pieces(runs, "rear"), "o--", color="C0", mfc="none", label="its rear half")
         for other, mark, color in zip(finer, "s^D", ("C2", "C1", "C4")):
             across = D / float(next(iter(other.values()))["dx"])
-            ax.plot(*pieces(other, "apart"), mark + "-", color=color, label=f"sphere, {across:.3g} across")
+            ax.plot(*pieces(other, "apart"), mark + "-", color=color, label=f"sphere, {across:.4g} across")
             ax.plot(*pieces(other, "rear"), mark + "--", color=color, mfc="none")
         if instant:
             ax.plot(*pieces(instant, "apart"), "x-", color="C3", lw=0.8, label="sphere, spall principal")
