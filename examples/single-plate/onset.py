@@ -123,8 +123,8 @@ def draw(panels, path):
             ax.plot(*pieces(other, "rear"), mark + "--", color=color, mfc="none")
         if instant:
             ax.plot(*pieces(instant, "apart"), "x-", color="C3", lw=0.8, label="sphere, spall principal")
-        ax.set(xlabel="velocity (km/s)", title=f"t/D = {key[0]:g}", ylim=(0, 1.03))
-        ax.legend(fontsize=7, frameon=False, loc="upper right" if key[0] > 0.09 else "lower left")
+        ax.set(xlabel="velocity (km/s)", title=f"t/D = {key[0]:g}", ylim=(0, 1.55), yticks=np.linspace(0, 1, 6))
+        ax.legend(fontsize=7, frameon=False, loc="upper right")
     np.atleast_1d(axes)[0].set_ylabel("largest piece, part of the mass")
     fig.savefig(path, dpi=110)
 
