@@ -99,7 +99,9 @@ void ComputeHVICloud::compute_vector()
   cloud.clear();
   const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit) || (mesh && mesh->is_node(atom->type[i]))) continue;
+    if (!(chosen ? (*chosen)[i] : atom->mask[i] & groupbit) ||
+        (mesh && mesh->is_node(atom->type[i])))
+      continue;
     double x[3];
     domain->unmap(atom->x[i], atom->image[i], x);
     if (!(x[axis] > plane)) continue;

@@ -55,7 +55,12 @@ class ComputeHVICloud : public Compute {
   void compute_vector() override;
   double memory_usage() override;
 
+  // for a compute that has one of its own: of the owned particles chosen[i] in place of the group's
+
+  void choose(const std::vector<char> *set) { chosen = set; }
+
  private:
+  const std::vector<char> *chosen = nullptr;
   struct Particle {
     double mass, s, vs;    // along the axis
     double y[2], vy[2];    // across

@@ -80,6 +80,34 @@ void ComputeHVIFragment::init()
 
 /* ---------------------------------------------------------------------- */
 
+ComputeHVIFragment::Heaviest ComputeHVIFragment::find_heaviest()
+{
+  table_step = -1;
+  make_rows();
+
+  double mine[2] = {0.0, 0.0}, all[2];    // number; largest mass
+  for (const Row &r : rows) mine[1] = MAX(mine[1], r.mass);
+  mine[0] = rows.size();
+  MPI_Allreduce(&mine[0], &all[0], 1, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(&mine[1], &all[1], 1, MPI_DOUBLE, MPI_MAX, world);
+
+  int64_t lowest = INT64_MAX, found;
+  for (const Row &r : rows)
+    if (r.mass == all[1]) lowest = MIN(lowest, r.id);
+  MPI_Allreduce(&lowest, &found, 1, MPI_INT64_T, MPI_MIN, world);
+  if (found == INT64_MAX) return {0, 0.0, 0.0, {0.0, 0.0, 0.0}};
+
+  Heaviest heaviest = {found, all[0], all[1], {0.0, 0.0, 0.0}};
+  double velocity[3] = {0.0, 0.0, 0.0};
+  for (const Row &r : rows)
+    if (r.id == found)
+      for (int k = 0; k < 3; k++) velocity[k] = r.momentum[k] / r.mass;
+  MPI_Allreduce(velocity, heaviest.velocity, 3, MPI_DOUBLE, MPI_SUM, world);
+  return heaviest;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void ComputeHVIFragment::compute_vector()
 {
   invoked_vector = update->ntimestep;

@@ -44,6 +44,15 @@ class ComputeHVIFragment : public ComputeHVIFragmentAtom {
   void compute_local() override;
   double memory_usage() override;
 
+  // for a compute that has one of its own, see choose(): number of fragments, and the heaviest, of those
+  // as heavy that with the lowest ID
+
+  struct Heaviest {
+    int64_t id;    // 0: there is none
+    double number, mass, velocity[3];
+  };
+  Heaviest find_heaviest();
+
  private:
   struct Row {
     int64_t id;

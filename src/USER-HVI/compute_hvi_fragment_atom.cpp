@@ -57,8 +57,8 @@ ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg
 ------------------------------------------------------------------------- */
 
 ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg, int keywords) :
-    Compute(lmp, narg, arg), iarg(3), components(world), mode(BONDS), cutoff(0.0), damage(0),
-    list(nullptr), nmax(0), fragment(nullptr), node(nullptr)
+    Compute(lmp, narg, arg), iarg(3), components(world), chosen(nullptr), mode(BONDS), cutoff(0.0),
+    damage(0), list(nullptr), nmax(0), fragment(nullptr), node(nullptr)
 {
   comm_forward = NODE_SIZE;
 
@@ -123,13 +123,11 @@ void ComputeHVIFragmentAtom::init()
   // particles that were half a skin from home may have come half a skin to the other side
 
   const double cutlist = cutoff + 2.0 * neighbor->skin;
+  // ghosts must reach as far, for which communication is set up after init() of computes
+
   const double cutghost =
       MAX(force->pair ? force->pair->cutforce + neighbor->skin : 0.0, comm->cutghostuser);
-  if (cutlist > cutghost)
-    error->all(FLERR,
-               "Compute {} distance {} plus twice the neighbor skin needs ghosts within {:.8}, but "
-               "they reach only {:.8}: use comm_modify cutoff",
-               style, cutoff, cutlist, cutghost);
+  if (cutlist > cutghost) comm->cutghostuser = cutlist;
   neighbor->add_request(this, NeighConst::REQ_OCCASIONAL)->set_cutoff(cutlist);
 }
 
@@ -186,7 +184,8 @@ void ComputeHVIFragmentAtom::find_fragments(Region *region)
   if (region) region->prematch();
   const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
   for (int i = 0; i < nlocal; i++) {
-    if (!(mask[i] & groupbit) || (mesh && mesh->is_node(atom->type[i]))) continue;
+    if (!(chosen ? (*chosen)[i] : mask[i] & groupbit) || (mesh && mesh->is_node(atom->type[i])))
+      continue;
     if (region) {
       double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
       domain->remap(x);    // it may have left a periodic box since the last rebuild
@@ -211,6 +210,22 @@ void ComputeHVIFragmentAtom::find_fragments(Region *region)
     node = n;
     comm->forward_comm(this);
   });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIFragmentAtom::choose(const std::vector<char> *set, int stay_alone)
+{
+  chosen = set;
+  damage = stay_alone;
+}
+
+void ComputeHVIFragmentAtom::find_chosen(std::vector<int64_t> &lowest)
+{
+  find_fragments(nullptr);
+  lowest.assign(atom->nlocal, 0);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (id[i] != 0) lowest[i] = std::abs(components.component(i).id);
 }
 
 /* ----------------------------------------------------------------------

@@ -43,12 +43,20 @@ class ComputeHVIFragmentAtom : public Compute {
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
 
+  // for a compute that has one of its own: fragments among the owned particles chosen[i], and whether
+  // failed ones stay alone; the lowest ID of each, 0 of the others
+
+  void choose(const std::vector<char> *, int damage);
+  void find_chosen(std::vector<int64_t> &lowest);
+
  protected:
   ComputeHVIFragmentAtom(class LAMMPS *, int, char **, int keywords);
 
   int iarg;    // first argument after MODE
   HVI::Components components;
   std::vector<int64_t> id;    // atom ID; 0 if left out, < 0 if it stays alone
+
+  const std::vector<char> *chosen;    // null: those of the group
 
   void find_fragments(class Region *);
 

@@ -178,7 +178,9 @@ void ComputeHVIHole::find_layer()
   std::fill(mine + 2, mine + 6, -HUGE_VAL);
   const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit) || (mesh && mesh->is_node(atom->type[i]))) continue;
+    if (!(chosen ? (*chosen)[i] : atom->mask[i] & groupbit) ||
+        (mesh && mesh->is_node(atom->type[i])))
+      continue;
     double x[3];
     domain->unmap(atom->x[i], atom->image[i], x);
     const Particle p = {atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]],

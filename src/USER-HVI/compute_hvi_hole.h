@@ -46,7 +46,12 @@ class ComputeHVIHole : public Compute {
   void compute_vector() override;
   double memory_usage() override;
 
+  // for a compute that has one of its own: of the owned particles chosen[i] in place of the group's
+
+  void choose(const std::vector<char> *set) { chosen = set; }
+
  private:
+  const std::vector<char> *chosen = nullptr;
   struct Particle {
     double mass, s, y[2];    // s from the plane, y from the center
   };

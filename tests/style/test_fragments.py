@@ -3,6 +3,7 @@
 import itertools
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 
@@ -441,7 +442,6 @@ run 0
     ("compute x all hvi/fragment distance 0.5 damage", "damage"),
     ("compute x all hvi/fragment distance 0.5 damage maybe", "maybe"),
     ("compute x all hvi/fragment distance 0.5 damage yes", "d_hvi_damage"),
-    ("compute x all hvi/fragment distance 2.0", "comm_modify cutoff"),
     ("neighbor 0.3 multi\ncomm_modify mode multi\ncompute x all hvi/fragment distance 0.5", "neighbor style bin"),
     ("compute x all hvi/cloud plane 1", "axis"),
     ("compute x all hvi/cloud axis x", "plane"),
@@ -454,6 +454,17 @@ run 0
 def test_wrong_input(lmp, line, error):
     r = lmp(SMALL.format(style="bond", extra="bond/types 1", line=line), expect_fail=True)
     assert error in r.error, r
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_ghosts_reach_as_far_as_is_looked(lmp, nranks):
+    """beyond the reach of forces and skin: the cutoff of communication sets itself, and the fragments are those of a cutoff that was given"""
+    def fragments(line):
+        r = lmp(SMALL.format(style="atomic", extra="", line=line + "compute x all hvi/fragment distance 2.0"), nranks=nranks)
+        return r.thermo["c_x[1]"][0], float(re.search(r"ghost atom cutoff = ([\d.]+)", r.log)[1])
+
+    (alone, reach), (given, _) = fragments(""), fragments("comm_modify cutoff 5\n")
+    assert alone == given < 20 and reach == 2.6  # and twice the skin
 
 
 def test_bonds_need_bonds(lmp):

@@ -1,0 +1,565 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "compute_hvi_wall.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_hvi_johnson_cook.h"
+#include "fix_hvi_store.h"
+#include "fix_store_atom.h"
+#include "force.h"
+#include "group.h"
+#include "hvi_mesh.h"
+#include "hvi_stress.h"
+#include "memory.h"
+#include "modify.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+using namespace LAMMPS_NS;
+
+static constexpr double BIG = 1.0e20;
+static constexpr double WHOLE = 0.99;     // of a plate that is no smaller than its share of the model
+static constexpr double NEAR_PLANE = 0.5;    // of the reach: a piece so near a mirror plane goes on behind it
+
+/* ---------------------------------------------------------------------- */
+
+ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg), axis(-1), reach(0.0), id_fix(nullptr), first(nullptr), store(nullptr),
+    strength(nullptr)
+{
+  if (domain->dimension != 3)
+    error->all(FLERR, "Compute hvi/wall needs a three-dimensional simulation");
+  array_flag = 1;
+  size_array_cols = NCOLUMNS;
+  extarray = 0;
+  create_attribute = 1;
+
+  int iarg = 3;
+  if (narg < 5) utils::missing_cmd_args(FLERR, "compute hvi/wall", error);
+  if (strcmp(arg[iarg], "axis") != 0)
+    error->all(FLERR, "Compute hvi/wall begins with axis x, y or z, not {}", arg[iarg]);
+  if (strlen(arg[iarg + 1]) != 1 || arg[iarg + 1][0] < 'x' || arg[iarg + 1][0] > 'z')
+    error->all(FLERR, "Compute hvi/wall axis must be x, y or z, not {}", arg[iarg + 1]);
+  axis = arg[iarg + 1][0] - 'x';
+  across[0] = (axis == 0) ? 1 : 0;
+  across[1] = (axis == 2) ? 1 : 2;
+  iarg += 2;
+  while (iarg < narg) {
+    if (strcmp(arg[iarg], "pieces") == 0) {
+      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "compute hvi/wall pieces", error);
+      if (strcmp(arg[iarg + 1], "no") == 0)
+        reach = 0.0;
+      else {
+        reach = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+        if (!(reach > 0.0) || !std::isfinite(reach))
+          error->all(FLERR, "Compute hvi/wall pieces must be no or a distance > 0, not {}",
+                     arg[iarg + 1]);
+      }
+      iarg += 2;
+    } else
+      read_wall(iarg, narg, arg);
+  }
+  if (walls.empty()) utils::missing_cmd_args(FLERR, "compute hvi/wall wall", error);
+  for (size_t k = 1; k < walls.size(); k++) {
+    if (walls[k].front < walls[k - 1].rear)
+      error->all(FLERR,
+                 "Compute hvi/wall: wall {} begins at {}, before the rear of wall {} at {}: give "
+                 "walls in the order along the axis",
+                 k + 1, walls[k].front, k, walls[k - 1].rear);
+    for (size_t j = 0; j < k; j++)
+      if (walls[k].lo <= walls[j].hi && walls[j].lo <= walls[k].hi)
+        error->all(FLERR, "Compute hvi/wall: walls {} and {} share a type", j + 1, k + 1);
+  }
+  size_array_rows = walls.size();
+  memory->create(array, size_array_rows, NCOLUMNS, "hvi/wall:array");
+
+  if (reach > 0.0) {
+    auto make = [this](const char *what, const std::vector<std::string> &more, auto *none) {
+      using Style = std::remove_pointer_t<decltype(none)>;
+      std::vector<std::string> words = command_of(what, more);
+      std::vector<char *> args;
+      for (std::string &word : words) args.push_back(word.data());
+      return std::make_unique<Style>(this->lmp, (int) args.size(), args.data());
+    };
+    const std::string name(1, 'x' + axis);
+    auto text = [](double value) {
+      return fmt::format("{:.17g}", value);
+    };
+    fragment = make("hvi/fragment", {"distance", text(reach), "damage", "yes"},
+                    (ComputeHVIFragment *) nullptr);
+    comm_forward = fragment->comm_forward;    // LAMMPS makes buffers for the computes that it knows
+    for (Wall &w : walls) {
+      const std::string middle = text(0.5 * (w.front + w.rear));
+      const std::vector<std::string> where = {"axis",           name,    "center", text(w.struck[0]),
+                                              text(w.struck[1]), "plane", middle};
+      std::vector<std::string> all = where;
+      all.insert(all.end(), {"thickness", text(BIG)});
+      w.cloud = make("hvi/cloud", {"axis", name, "plane", text(w.rear)}, (ComputeHVICloud *) nullptr);
+      w.hole = make("hvi/hole", all, (ComputeHVIHole *) nullptr);
+      w.plane = make("hvi/hole", where, (ComputeHVIHole *) nullptr);
+    }
+  }
+
+  // where particles were: kept as by compute displace/atom, in restart files, too
+
+  id_fix = utils::strdup(std::string(id) + "_COMPUTE_STORE");
+  first = dynamic_cast<FixStoreAtom *>(
+      modify->add_fix(fmt::format("{} all STORE/ATOM 3 0 0 1", id_fix)));
+  if (first->restart_reset)
+    first->restart_reset = 0;
+  else
+    for (int i = 0; i < atom->nlocal; i++) set_arrays(i);
+}
+
+/* ---------------------------------------------------------------------- */
+
+ComputeHVIWall::~ComputeHVIWall()
+{
+  if (id_fix && modify->nfix) modify->delete_fix(id_fix);
+  delete[] id_fix;
+  memory->destroy(array);
+}
+
+/* ----------------------------------------------------------------------
+   the command of a compute of its own
+------------------------------------------------------------------------- */
+
+std::vector<std::string> ComputeHVIWall::command_of(const char *what,
+                                                    const std::vector<std::string> &more) const
+{
+  std::vector<std::string> words = {std::string(id) + "_" + what, group->names[igroup], what};
+  std::replace(words[0].begin(), words[0].end(), '/', '_');
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+/* ----------------------------------------------------------------------
+   wall TYPES front thickness, or what belongs to the wall before it
+------------------------------------------------------------------------- */
+
+void ComputeHVIWall::read_wall(int &iarg, int narg, char **arg)
+{
+  const std::string key = arg[iarg];
+  auto need = [&](int n) {
+    if (iarg + 1 + n > narg) utils::missing_cmd_args(FLERR, "compute hvi/wall " + key, error);
+  };
+  auto number = [&](int n) {
+    const double value = utils::numeric(FLERR, arg[iarg + n], false, lmp);
+    if (!std::isfinite(value))
+      error->all(FLERR, "Compute hvi/wall {} must be a number, not {}", key, arg[iarg + n]);
+    return value;
+  };
+  auto positive = [&](int n) {
+    const double value = number(n);
+    if (!(value > 0.0))
+      error->all(FLERR, "Compute hvi/wall {} must be > 0, not {}", key, arg[iarg + n]);
+    return value;
+  };
+
+  if (key == "wall") {
+    need(3);
+    Wall w;
+    utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, w.lo, w.hi, error);
+    w.front = number(2);
+    w.rear = w.front + positive(3);
+    w.node_lo = w.node_hi = 0;
+    w.layers = 1.0;
+    w.radius = BIG;
+    w.center[0] = w.center[1] = 0.0;
+    w.struck[0] = w.struck[1] = NAN;
+    walls.push_back(std::move(w));
+    iarg += 4;
+    return;
+  }
+  if (key != "nodes" && key != "layers" && key != "radius" && key != "center" && key != "struck")
+    error->all(FLERR, "Unknown compute hvi/wall keyword: {}", key);
+  if (walls.empty())
+    error->all(FLERR, "Compute hvi/wall {} belongs to a wall, and comes after it", key);
+  Wall &w = walls.back();
+  const bool two = key == "center" || key == "struck";
+  need(two ? 2 : 1);
+  if (key == "nodes")
+    utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, w.node_lo, w.node_hi, error);
+  else if (key == "layers")
+    w.layers = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+  else if (key == "radius")
+    w.radius = positive(1);
+  else
+    for (int k = 0; k < 2; k++) (key == "center" ? w.center : w.struck)[k] = number(1 + k);
+  if (!(w.layers >= 1.0))
+    error->all(FLERR, "Compute hvi/wall layers must be 1 or more, not {}", arg[iarg + 1]);
+  if (std::isnan(w.struck[0]) || key == "center")
+    for (int k = 0; k < 2; k++) w.struck[k] = w.center[k];
+  iarg += two ? 3 : 2;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIWall::set_arrays(int i)
+{
+  domain->unmap(atom->x[i], atom->image[i], first->astore[i]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIWall::init()
+{
+  first = dynamic_cast<FixStoreAtom *>(modify->get_fix_by_id(id_fix));
+  if (!first) error->all(FLERR, "Compute hvi/wall: the fix {} that it made is gone", id_fix);
+  store = force->pair_match("^hvi/sph$", 0) ? FixHVIStore::find(lmp) : nullptr;
+  if (!store) error->all(FLERR, "Compute hvi/wall needs pair style hvi/sph");
+
+  std::vector<bigint> mine(atom->ntypes + 1, 0), number(atom->ntypes + 1, 0);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) mine[atom->type[i]]++;
+  MPI_Allreduce(mine.data(), number.data(), mine.size(), MPI_LMP_BIGINT, MPI_SUM, world);
+  for (size_t k = 0; k < walls.size(); k++)
+    for (int t = walls[k].lo; t <= walls[k].hi; t++)
+      if (number[t] == 0)
+        error->all(FLERR, "Compute hvi/wall: group {} has no particles of type {}, wall {}",
+                   group->names[igroup], t, k + 1);
+
+  if (!fragment) return;
+  fragment->init();
+  for (Wall &w : walls) {
+    w.hole->init();
+    w.plane->init();
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIWall::init_list(int which, NeighList *list)
+{
+  if (fragment) fragment->init_list(which, list);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeHVIWall::mass_of(int i) const
+{
+  return atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+}
+
+// particles in elements: their mass and velocity are those of nodes, too
+
+bool ComputeHVIWall::is_embedded(int i) const
+{
+  return atom->mask[i] & store->embedded;
+}
+
+// straight back to the plane of the rear face: beyond the radius of the wall there
+
+bool ComputeHVIWall::is_missed(const Wall &w, int i) const
+{
+  const double *const x = atom->x[i];
+  const double *const v = atom->v[i];
+  if (!(x[axis] > w.rear) || !(v[axis] > 0.0)) return false;
+  const double t = (x[axis] - w.rear) / v[axis];
+  double rsq = 0.0;
+  for (int k = 0; k < 2; k++) {
+    const double d = x[across[k]] - t * v[across[k]] - w.center[k];
+    rsq += d * d;
+  }
+  return rsq > w.radius * w.radius;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIWall::compute_array()
+{
+  invoked_array = update->ntimestep;
+  store = force->pair_match("^hvi/sph$", 0) ? FixHVIStore::find(lmp) : nullptr;
+  if (!store) error->all(FLERR, "Compute hvi/wall needs pair style hvi/sph");
+  strength = FixHVIJohnsonCook::find(lmp);
+
+  for (size_t k = 0; k < walls.size(); k++) std::fill(array[k], array[k] + NCOLUMNS, 0.0);
+  sum_up();
+  if (fragment) find_pieces();
+}
+
+/* ----------------------------------------------------------------------
+   sums and maxima of all walls, in one reduction each
+------------------------------------------------------------------------- */
+
+void ComputeHVIWall::sum_up()
+{
+  const int nwalls = walls.size();
+  const int nlocal = atom->nlocal;
+  const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
+  const double half = 0.5 * force->mvv2e;
+  std::vector<double> sum(nwalls * NCOLUMNS, 0.0), most(nwalls * NCOLUMNS, 0.0);
+  std::vector<int> wall_of(atom->ntypes + 1, -1);
+  for (int k = 0; k < nwalls; k++) {
+    for (int t = walls[k].lo; t <= walls[k].hi; t++) wall_of[t] = k;
+    most[k * NCOLUMNS + TIP] = -BIG;
+  }
+
+  for (int i = 0; i < nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const int itype = atom->type[i];
+    const double *const x = atom->x[i];
+    const double *const v = atom->v[i];
+    const double m = mass_of(i);
+    const double energy = half * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (mesh && mesh->is_node(itype)) {
+      for (int k = 0; k < nwalls; k++)
+        if (walls[k].has_node(itype)) {
+          sum[k * NCOLUMNS + PUSH] += atom->f[i][axis];
+          sum[k * NCOLUMNS + MOMENTUM] += m * v[axis];
+          sum[k * NCOLUMNS + ENERGY] += energy;
+          sum[k * NCOLUMNS + MASS] += m;
+        }
+      continue;
+    }
+
+    const int home = wall_of[itype];
+    for (int k = 0; k < nwalls; k++) {
+      const Wall &w = walls[k];
+      double *const s = &sum[k * NCOLUMNS];
+      double *const top = &most[k * NCOLUMNS];
+      if (home <= k) top[TIP] = MAX(top[TIP], x[axis]);
+      if (home != k) {
+        if (!(v[axis] > 0.0)) continue;
+        if (x[axis] < w.front) {
+          s[COMING_MASS] += m;
+          s[COMING_ENERGY] += energy;
+        } else if (x[axis] > w.rear) {
+          s[PASSED_MASS] += m;
+          s[PASSED_MOMENTUM] += m * v[axis];
+          s[PASSED_ENERGY] += energy;
+          if (home < 0 && is_missed(w, i)) {
+            const double t = (x[axis] - w.rear) / v[axis];
+            s[MISSED_MASS] += m;
+            top[MISSED_REACH] = MAX(top[MISSED_REACH],
+                                    std::hypot(x[across[0]] - t * v[across[0]] - w.center[0],
+                                               x[across[1]] - t * v[across[1]] - w.center[1]));
+          }
+        }
+        continue;
+      }
+
+      const double *const x0 = first->astore[i];
+      s[ENERGY] += atom->esph[i];
+      if (!is_embedded(i)) {
+        s[PUSH] += atom->f[i][axis];
+        s[MOMENTUM] += m * v[axis];
+        s[ENERGY] += energy;
+        s[MASS] += m;
+        top[FAR_FREE] = MAX(top[FAR_FREE],
+                              std::hypot(x0[across[0]] - w.center[0], x0[across[1]] - w.center[1]));
+      } else
+        s[HELD_MASS] += m;
+      if (!strength) continue;
+      const FixHVIJohnsonCook::Solid &state = strength->state(i);
+      if (state.rate > 0.0 && atom->rho[i] > 0.0)
+        s[PLASTIC_POWER] += m / atom->rho[i] * HVI::von_mises(state.S) * state.rate;
+      const double depth = x0[axis] - w.front;
+      if (strength->failed(i)) top[FAILED_DEPTH] = MAX(top[FAILED_DEPTH], depth);
+      if (depth > (w.rear - w.front) * (1.0 - 1.0 / w.layers))
+        top[REAR_STRAIN] = MAX(top[REAR_STRAIN], state.eps);
+    }
+  }
+
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), sum.size(), MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, most.data(), most.size(), MPI_DOUBLE, MPI_MAX, world);
+  for (int k = 0; k < nwalls; k++)
+    for (int c = 0; c < CLOUD_MASS; c++)
+      array[k][c] = (c == TIP || c == FAILED_DEPTH || c == REAR_STRAIN || c == MISSED_REACH ||
+                     c == FAR_FREE)
+          ? most[k * NCOLUMNS + c]
+          : sum[k * NCOLUMNS + c];
+}
+
+/* ----------------------------------------------------------------------
+   what hangs together in all matter: by sound material, and at all
+------------------------------------------------------------------------- */
+
+void ComputeHVIWall::find_pieces()
+{
+  const int nlocal = atom->nlocal;
+  chosen.assign(nlocal, 0);
+  for (int i = 0; i < nlocal; i++) chosen[i] = (atom->mask[i] & groupbit) ? 1 : 0;
+  fragment->choose(&chosen, strength ? 1 : 0);
+  fragment->find_chosen(sound);
+  fragment->choose(&chosen, 0);
+  fragment->find_chosen(together);
+  for (size_t k = 0; k < walls.size(); k++) measure(walls[k], array[k]);
+}
+
+/* ----------------------------------------------------------------------
+   the piece that has the particle with this ID; 0: there is none
+------------------------------------------------------------------------- */
+
+int64_t ComputeHVIWall::piece_of(const std::vector<int64_t> &piece, int64_t id) const
+{
+  int64_t mine = 0, found;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->tag[i] == id) mine = piece[i];
+  MPI_Allreduce(&mine, &found, 1, MPI_INT64_T, MPI_MAX, world);
+  return found;
+}
+
+/* ----------------------------------------------------------------------
+   by how much a piece is more than what the model has of it: twice for each mirror
+   plane that it reaches.  A failed particle that stays alone does not go on there.
+------------------------------------------------------------------------- */
+
+double ComputeHVIWall::images_of(const std::vector<int64_t> &piece, int64_t id, bool sound_only)
+{
+  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
+  double mine[4] = {-BIG, -BIG, -BIG, 0.0}, all[4];    // minus the least depth; 1: has failed
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (piece[i] != id || !chosen[i]) continue;
+    for (int k = 0; k < 3; k++)
+      if (mirror.has(k)) mine[k] = MAX(mine[k], -mirror.depth(k, atom->x[i]));
+    if (sound_only && strength && strength->failed(i)) mine[3] = 1.0;
+  }
+  MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_MAX, world);
+  double images = 1.0;
+  for (int k = 0; k < 3; k++)
+    if (mirror.has(k) && all[3] == 0.0 && -all[k] < NEAR_PLANE * reach) images *= 2.0;
+  return images;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIWall::measure(Wall &w, double *row)
+{
+  const int nlocal = atom->nlocal;
+  const int *const type = atom->type;
+  const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
+  auto is_matter = [&](int i) {
+    return (atom->mask[i] & groupbit) && !(mesh && mesh->is_node(type[i]));
+  };
+
+  // the body: what hangs together with the largest piece of the wall's own matter
+
+  chosen.assign(nlocal, 0);
+  for (int i = 0; i < nlocal; i++) chosen[i] = is_matter(i) && w.owns(type[i]);
+  fragment->choose(&chosen, strength ? 1 : 0);
+  const int64_t kernel = fragment->find_heaviest().id;
+  const int64_t body = piece_of(sound, kernel);
+  const int64_t hull = piece_of(together, kernel);
+
+  // what has passed it, and what of that is apart
+
+  enum { APART, SPALL, NUMBER, BODY, NSUM };
+  double mine[NSUM] = {0.0}, sum[NSUM], height = -BIG;
+  const double layer = 0.5 * (w.rear - w.front) / w.layers;
+  chosen.assign(nlocal, 0);
+  for (int i = 0; i < nlocal; i++) {
+    if (!is_matter(i)) continue;
+    const double s = atom->x[i][axis];
+    const bool mine_here = w.owns(type[i]);
+    if (sound[i] == body && body) {
+      if (mine_here) height = MAX(height, s + layer - w.rear);
+    }
+    if (mine_here && together[i] == hull && hull) mine[BODY] += mass_of(i);
+    if (!(s > w.rear) || !(atom->v[i][axis] > 0.0) || sound[i] == body) continue;
+    if (!mine_here && is_missed(w, i)) continue;
+    chosen[i] = 1;
+    if (together[i] == hull) continue;
+    mine[APART] += mass_of(i);
+    if (mine_here) mine[SPALL] += mass_of(i);
+    mine[NUMBER] += 1.0;
+  }
+  MPI_Allreduce(mine, sum, NSUM, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(&height, &row[BULGE], 1, MPI_DOUBLE, MPI_MAX, world);
+  if (row[BULGE] == -BIG) row[BULGE] = 0.0;
+  row[APART_MASS] = sum[APART];
+  row[SPALL_MASS] = sum[SPALL];
+  row[APART_NUMBER] = sum[NUMBER];
+  row[BODY_MASS] = sum[BODY];
+
+  w.cloud->choose(&chosen);
+  w.cloud->compute_vector();
+  const double *const cloud = w.cloud->vector;
+  row[CLOUD_LENGTH] = cloud[0];
+  row[CLOUD_DIAMETER] = cloud[1];
+  row[CLOUD_RATIO] = cloud[2];
+  row[FRONT_VELOCITY] = cloud[5];
+  row[CLOUD_MASS] = cloud[8];
+  row[CLOUD_MOMENTUM] = cloud[9];
+  row[CLOUD_ENERGY] = cloud[10];
+
+  fragment->choose(&chosen, strength ? 1 : 0);
+  ComputeHVIFragment::Heaviest piece = fragment->find_heaviest();
+  row[FRAGMENTS] = piece.number;
+  if (piece.id) {
+    fragment->find_chosen(own);
+    row[LARGEST_MASS] = piece.mass * images_of(own, piece.id, true);
+    row[LARGEST_VELOCITY] = piece.velocity[axis];
+  }
+  fragment->choose(&chosen, 0);
+  piece = fragment->find_heaviest();
+  row[PIECES_APART] = piece.number;
+  if (piece.id) {
+    fragment->find_chosen(own);
+    row[LARGEST_APART_MASS] = piece.mass * images_of(own, piece.id, false);
+  }
+  find_hole(w, row);
+}
+
+/* ----------------------------------------------------------------------
+   in the largest piece of the wall's own matter, rubble or not: what drifts in a
+   hole is no plate
+------------------------------------------------------------------------- */
+
+void ComputeHVIWall::find_hole(Wall &w, double *row)
+{
+  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
+  double share = WHOLE;
+  for (int k = 0; k < 2; k++)
+    if (mirror.has(across[k])) share *= 0.5;
+
+  for (int i = 0; i < atom->nlocal; i++)
+    chosen[i] = (atom->mask[i] & groupbit) && w.owns(atom->type[i]);
+  fragment->choose(&chosen, 0);
+  const int64_t plate = fragment->find_heaviest().id;
+  fragment->find_chosen(own);
+  for (int i = 0; i < atom->nlocal; i++) chosen[i] = chosen[i] && own[i] == plate;
+
+  const std::pair<ComputeHVIHole *, int> looks[2] = {{w.hole.get(), HOLE_FOUND},
+                                                     {w.plane.get(), PLANE_FOUND}};
+  for (const auto &[hole, found] : looks) {
+    hole->choose(&chosen);
+    hole->compute_vector();
+    const double *const v = hole->vector;
+    row[found] = v[6] < share ? -1.0 : v[10];
+    if (row[found] <= 0.0) continue;
+    row[found + 1] = v[0];
+    row[found + 2] = found == HOLE_FOUND ? v[1] : v[3];
+    row[found + 3] = found == HOLE_FOUND ? v[2] : v[4];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeHVIWall::memory_usage()
+{
+  double bytes = chosen.capacity() +
+      sizeof(int64_t) * (double) (sound.capacity() + together.capacity() + own.capacity());
+  if (fragment) bytes += fragment->memory_usage();
+  for (Wall &w : walls)
+    if (w.cloud)
+      bytes += w.cloud->memory_usage() + w.hole->memory_usage() + w.plane->memory_usage();
+  return bytes;
+}

@@ -1,0 +1,157 @@
+"""compute hvi/wall: the same numbers as a dump gives another program; ranks, newton, restart, mirrors; wrong input."""
+
+import re
+
+import hvi
+import numpy as np
+import pytest
+from hvi import shield_result
+
+HEAD = """
+units si
+atom_style sph
+atom_modify map array sort 0 0.0
+newton {newton}
+boundary f f f
+region box block {low} 8e-3 {low} 8e-3 -8e-3 16e-3 units box
+create_box 3 box
+lattice sc 6e-4 origin 0.5 0.5 0.5
+region ball sphere 0 0 -1.8e-3 1.8e-3 units box
+create_atoms 1 region ball
+region one cylinder z 0 0 5.4e-3 0 1.2e-3 units box
+create_atoms 2 region one
+region two cylinder z 0 0 6e-3 6e-3 7.8e-3 units box
+create_atoms 3 region two
+change_box all x final {edge} 8e-3 y final {edge} 8e-3 units box
+mass * $(2703*6e-4^3)
+pair_style hvi/sph cubic dissipation riemann {mirror}
+pair_coeff * * file Al6061-T6.hvi h 7.2e-4
+set group all sph/rho 2703
+group ball type 1
+velocity ball set 0 0 3000 units box
+"""
+MODEL = """
+neighbor 4.8e-4 bin
+neigh_modify every 1 delay 0 check yes
+fix move all hvi/sph
+fix solid all hvi/johnson-cook damage no spall voids
+fix step all hvi/dt 0.6
+compute w all hvi/wall axis z wall 2 0 1.2e-3 layers 2 radius 5.4e-3 wall 3 6e-3 1.8e-3 layers 3 radius 6e-3 pieces 9e-4
+compute state all hvi/atom damage spalled eps
+thermo_modify lost ignore
+"""
+PRINT = "run 0 post no\n" + "".join(f"print 'row {k} " + " ".join(f"$(c_w[{k}][{c}]:%.15g)" for c in range(1, 1 + len(shield_result.WALL))) + "'\n" for k in (1, 2))
+NAMES = shield_result.WALL
+
+
+@pytest.fixture
+def walls(lmp, root, tmp_path):
+    def run(text, nranks=1, **kw):
+        r = lmp(text, nranks=nranks, cwd=tmp_path, env={"LAMMPS_POTENTIALS": str(root / "potentials")}, **kw)
+        return r if kw.get("expect_fail") else [dict(zip(NAMES, map(float, row.split()))) for row in re.findall(r"^row \d (.*)", r.log, re.M)]
+
+    return run
+
+
+def scene(newton="on", quarter=False, steps=60):
+    head = HEAD.format(newton=newton, low=0 if quarter else -8e-3, edge=-6e-4 if quarter else -8e-3, mirror="mirror x 0 lo mirror y 0 lo" if quarter else "")
+    return head + MODEL + (f"run {steps} post no\n" if steps else "")
+
+
+def equal(one, two, rel):
+    for a, b in zip(one, two):
+        for name in NAMES:
+            scale = max(abs(a[name]), abs(b[name]))
+            assert abs(a[name] - b[name]) <= rel * scale + (1e-9 if name == "push" else 1e-25), name
+
+
+def test_as_a_dump_says(walls, tmp_path):
+    """sums, what has passed, what is apart, bulge and hole from positions, velocities and IDs"""
+    dump = "write_dump all custom end.dump id type mass x y z vx vy vz c_state[1] c_state[2] c_state[3] modify colname c_state[1] damage colname c_state[2] spalled format float %.17g\n"
+    first, second = walls(scene(steps=150) + PRINT + dump)
+    frame = hvi.Dump(str(tmp_path / "end.dump"), units="si")[0]
+    kind, z, v, m = frame["type"].astype(int), frame.x[:, 2], frame.v[:, 2], frame.m
+    energy = 0.5 * m * (frame.v**2).sum(axis=1)
+    failed = hvi.fragments.has_failed(frame)
+    coming = (kind != 3) & (z < 6e-3) & (v > 0)
+    assert second["coming_mass"] == pytest.approx(m[coming].sum(), rel=1e-12) and second["coming_energy"] == pytest.approx(energy[coming].sum(), rel=1e-12)
+    foreign = (kind != 2) & (z > 1.2e-3) & (v > 0)
+    assert first["passed_mass"] == pytest.approx(m[foreign].sum(), rel=1e-12) and first["passed_energy"] == pytest.approx(energy[foreign].sum(), rel=1e-12)
+    assert first["momentum"] == pytest.approx(m[kind == 2] @ v[kind == 2], rel=1e-10) and first["mass"] == pytest.approx(m[kind == 2].sum(), rel=1e-12)
+    assert first["tip"] == pytest.approx(z[kind < 3].max(), rel=1e-12)
+
+    def pieces(where, sound):
+        label = np.full(len(kind), -1)
+        label[where] = np.arange(where.sum()) + len(kind)  # alone
+        some = where & ~(failed & sound)
+        label[some] = hvi.find(frame.select(some), distance=9e-4).label
+        return label
+
+    mine = pieces(kind == 2, True)
+    heavy = max(set(mine[kind == 2]), key=lambda n: m[mine == n].sum())
+    member = np.flatnonzero(mine == heavy)[np.argmin(frame.ids[mine == heavy])]
+    everything = [pieces(np.ones(len(kind), dtype=bool), sound) for sound in (True, False)]
+    body, hull = (label == label[member] for label in everything)
+    flown = (z - 1.2e-3) / np.where(v > 0, v, 1)
+    aside = (kind != 2) & (v > 0) & (np.hypot(*(frame.x[:, :2] - flown[:, None] * frame.v[:, :2]).T) > 5.4e-3)  # of wall 2, which does not come from wall 1
+    passed = (z > 1.2e-3) & (v > 0) & ~body & ~aside
+    assert first["missed_mass"] == pytest.approx(m[(kind == 1) & (z > 1.2e-3) & aside].sum()) and first["cloud_mass"] == pytest.approx(m[passed].sum(), rel=1e-12) and first["cloud_mass"] > 0
+    assert first["apart_mass"] == pytest.approx(m[passed & ~hull].sum(), rel=1e-12, abs=1e-20)
+    assert first["spall_mass"] == pytest.approx(m[passed & ~hull & (kind == 2)].sum(), rel=1e-12, abs=1e-20)
+    assert first["apart_number"] == (passed & ~hull).sum()
+    assert first["bulge"] == pytest.approx(z[body & (kind == 2)].max() + 3e-4 - 1.2e-3, rel=1e-9)
+    _, said = hvi.fragments.both(frame.select(passed), distance=9e-4, failed=list(hvi.fragments.FAILED))
+    assert (first["fragments"], first["pieces_apart"]) == (said["fragments"], said["pieces_apart"])
+    assert first["rear_strain"] > 0.01 and first["failed_depth"] > 0 and first["plastic_power"] > 0
+    assert first["hole_found"] == first["plane_found"] == 1 and 3.6e-3 < first["hole_min"] <= first["hole_diameter"] <= first["hole_max"] < 9e-3
+    assert 0 < second["body_mass"] <= second["mass"] * (1 + 1e-12)
+
+
+def test_internal_forces_cancel(walls):
+    """the push on a wall is the change of its momentum; before it is struck there is none"""
+    text = scene(steps=20) + PRINT + "run 1 post no\n" + PRINT
+    rows = walls(text)
+    assert abs(rows[1]["push"]) < 1e-6 * abs(rows[0]["push"]) and rows[0]["push"] > 0
+    assert rows[2]["momentum"] > rows[0]["momentum"] > 0
+
+
+@pytest.mark.parametrize("nranks, newton", [(2, "on"), (3, "on"), (2, "off")])
+def test_ranks_and_newton(walls, nranks, newton):
+    """on one state: the forces of a long run differ in their last digits, and fracture shows that"""
+    equal(walls(scene(steps=20) + PRINT), walls(scene(newton, steps=20) + PRINT, nranks), 1e-8)
+
+
+def test_restart_keeps_where_particles_were(walls):
+    begun = walls(scene(steps=40) + PRINT + "write_restart half\n")
+    again = walls("read_restart half\n" + MODEL + PRINT)
+    assert begun[0]["rear_strain"] > 0 and begun[0]["failed_depth"] == again[0]["failed_depth"]
+    equal(begun, again, 1e-9)
+
+
+def test_quarter_is_a_quarter(walls):
+    whole, part = walls(scene(steps=20) + PRINT), walls(scene(quarter=True, steps=20) + PRINT)
+    for a, b in zip(whole, part):
+        for name in NAMES[:17]:
+            share = 1 if name in ("tip", "failed_depth", "rear_strain", "missed_reach", "far_free") else 4
+            assert share * b[name] == pytest.approx(a[name], rel=1e-6, abs=1e-6 if name == "push" else 1e-15), name
+        assert b["bulge"] == pytest.approx(a["bulge"], rel=1e-6) and b["hole_found"] == a["hole_found"] == 0
+
+
+WALLS = "compute w all hvi/wall axis z "
+
+
+@pytest.mark.parametrize("command, message", [
+    ("compute w all hvi/wall", "Illegal compute hvi/wall command: missing argument"), ("compute w all hvi/wall wall 2 0 1", "begins with axis x, y or z, not wall"),
+    ("compute w all hvi/wall axis q", "axis must be x, y or z, not q"), (WALLS, "compute hvi/wall wall command: missing argument"),
+    (WALLS + "wall 2 0", "compute hvi/wall wall command: missing argument"), (WALLS + "wall 2 0 0", "wall must be > 0, not 0"),
+    (WALLS + "wall 9 0 1e-3", "Numeric index 9 is out of bounds (1-3)"), (WALLS + "layers 2", "layers belongs to a wall, and comes after it"),
+    (WALLS + "wall 2 0 1e-3 layers 0", "layers must be 1 or more, not 0"), (WALLS + "wall 2 0 1e-3 radius -1", "radius must be > 0, not -1"),
+    (WALLS + "wall 2 0 1e-3 pieces 0", "pieces must be no or a distance > 0, not 0"), (WALLS + "wall 2 0 1e-3 hole yes", "Unknown compute hvi/wall keyword: hole"),
+    (WALLS + "wall 3 6e-3 1e-3 wall 2 0 1e-3", "wall 2 begins at 0, before the rear of wall 1 at 0.007"), (WALLS + "wall 2 0 1e-3 wall 2 6e-3 1e-3", "walls 1 and 2 share a type"),
+    (WALLS + "wall 2 0 1e-3 center 0", "compute hvi/wall center command: missing argument"),
+    ("group none empty\ncompute w none hvi/wall axis z wall 2 0 1e-3\nthermo_style custom step c_w[1][1]", "group none has no particles of type 2, wall 1")])
+def test_wrong_input(walls, command, message):
+    text = scene(steps=0)
+    text = re.sub("compute w .*\n", command + "\n", text) + "run 0\n"
+    r = walls(text, expect_fail=True)
+    assert message in r.error, r.error
