@@ -21,7 +21,10 @@ velocity maps, side views."""
 
 EXAMPLES = {
     "shield": """  python3 -m hvi shield emi.yaml --dry-run
-  python3 -m hvi shield emi.yaml --jobs 2 --ranks 1""",
+  python3 -m hvi shield emi.yaml --jobs 2 --ranks 1
+  python3 -m hvi shield emi.yaml --straight --jobs 2 --ranks 1
+  python3 -m hvi shield emi.yaml --write emi""",
+    "judge": """  python3 -m hvi judge emi/dx-0.267_shift-0.0""",
     "limit": """  python3 -m hvi limit emi.yaml --on D
   python3 -m hvi limit emi.yaml --on thickness2 --from 0.5 --to 3 --step 0.1 --jobs 2 --ranks 1""",
     "ble": """  python3 -m hvi ble emi.yaml --figure limit
@@ -249,7 +252,12 @@ def options():
     sub = command("shield", "does the wall hold? A case at several spacings and shifts of the lattice, one verdict; exit status 0 holds, "
                   "3 fails, 4 undecided")
     _case(sub)
+    sub.add_argument("--straight", action="store_true", help="run in.shield, an input that is written for the case, in place of in.whipple")
+    sub.add_argument("--write", type=pathlib.Path, metavar="DIR", help="only write in.shield of all runs, complete folders for LAMMPS alone, and say how to run them")
     _runs(sub)
+
+    sub = command("judge", "the verdict on a folder of hvi shield --write that was run by hand; exit status as that of shield")
+    sub.add_argument("folder", metavar="DIR", help="with walls.dat, pieces.dat, history.dat and logs of the run")
 
     sub = command("limit", "up to where does the wall hold? The limit over diameter, speed or the thickness of a wall; exit status 0 found, "
                   "4 not in the range")

@@ -179,7 +179,6 @@ class Job:
 
     def begin(self, command):
         """start it, in an empty folder unless it goes on; nothing left there can be taken for a result"""
-        command = command(self)
         self.resumed = bool(self.restart_files())
         if not self.resumed:
             shutil.rmtree(self.folder, ignore_errors=True)
@@ -190,9 +189,13 @@ class Job:
         for name, said in self.record.get("made", {}).items():
             self.make(self.folder / name, **said)
         (self.folder / "job.yaml").write_text(yaml.safe_dump(self.record, sort_keys=False))
+        self.launch(command)
+
+    def launch(self, command, more=False):
+        """more: what it prints is added to what there is"""
         environment = {"LAMMPS_POTENTIALS": os.pathsep.join(map(str, potentials())), **os.environ}
-        with open(self.folder / "output.txt", "w") as out:
-            self.process = subprocess.Popen(command, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=out, env=environment,
+        with open(self.folder / "output.txt", "a" if more else "w") as out:
+            self.process = subprocess.Popen(command(self), cwd=self.folder, stdin=subprocess.DEVNULL, stdout=out, env=environment,
                                             stderr=subprocess.STDOUT, start_new_session=True, pass_fds=[self.lock])
 
     def ended(self, command, timeout):

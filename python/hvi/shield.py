@@ -6,11 +6,12 @@ import math
 import pathlib
 import re
 import shlex
+import shutil
 
 import yaml
 
 from . import case as cases
-from . import ble, runs, shield_mesh, tables
+from . import ble, runs, shield_chain, shield_mesh, tables
 from .errors import HVIError
 
 INPUT = runs.ROOT / "examples" / "whipple-shield" / "in.whipple"
@@ -37,6 +38,12 @@ def job(case, source, member, folder, name=None, remove=()):
     weight = (case.spacings_mm[0] / case.spacings_mm[member[0]]) ** 4  # particles and steps
     return runs.Job(source, name or member_name(case, member), case.variables(*member), folder, weight=weight, remove=remove,
                     restart="shield.state" if "resume" in source.known else None, made=meshes(case, member[0]))
+
+
+def straight_job(case, source, member, folder, name=None, remove=()):
+    """the same of in.shield, written for the case, in place of in.whipple"""
+    weight = (case.spacings_mm[0] / case.spacings_mm[member[0]]) ** 4
+    return shield_chain.Job(case, *member, name or member_name(case, member), folder, weight=weight, remove=remove)
 
 
 def meshes(case, which):
@@ -175,24 +182,30 @@ def save(path, mapping):
 def command(args, ranks):
     """what was asked for, as it is typed"""
     given = (("--input", args.input), ("--runs", args.runs), ("--jobs", args.jobs), ("--ranks", ranks), ("--lmp", args.lmp))
-    return shlex.join(["python3", "-m", "hvi", "shield", str(args.case), *(str(word) for option, value in given if value for word in (option, value))])
+    straight = ["--straight"] if args.straight else []
+    return shlex.join(["python3", "-m", "hvi", "shield", str(args.case), *straight, *(str(word) for option, value in given if value for word in (option, value))])
 
 
 def main(args):
-    found = source(args)
+    straight = args.straight or args.write
+    found = shield_chain.Known() if straight else source(args)
     case = cases.read(args.case, found)
-    runner = runs.Runner(args)
+    if args.write:
+        return write(case, args.case, args.write)
     folder = args.runs.resolve() / case.name
+    refuse_too_large(case, folder, args.jobs)
+    runner = runs.Runner(args)
     if args.dry_run:
         return plan(case, found, runner, folder)
-    jobs = {member: job(case, found, member, folder / member_name(case, member)) for member in members(case)}
+    make = straight_job if straight else job
+    jobs = {member: make(case, found, member, folder / member_name(case, member)) for member in members(case)}
     (folder / "verdict.yaml").unlink(missing_ok=True)  # that of another case, or of fewer runs
     todo = [j for j in jobs.values() if j.result() is None]
     print(f"{case.name}: {len(jobs)} runs, {len(jobs) - len(todo)} done before, {len(todo)} to run", flush=True)
     with runs.table_of(jobs.values, folder / "runs.csv"):
         failed = runner.run(todo, case.name)
-    print(runs.overview(jobs.values(), shown(case)))
     if failed:
+        print(runs.overview(jobs.values(), shown(case)))
         raise HVIError(f"no verdict: {len(failed)} of {len(jobs)} runs failed: {', '.join(j.name for j in failed)}")
     each = {member: verdict(j) for member, j in jobs.items()}
     said, reasons, notes = decide(case, each)
@@ -203,12 +216,49 @@ def main(args):
     save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **more, "runs": {j.name: verdict(j)[0] for j in jobs.values()},
                                    "equations": equations, "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1),
                                    "command": command(args, runner.ranks)})
+    print(runs.overview(jobs.values(), shown(case)))
     print(f"verdict: {said}")
     print("\n".join([*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes),
                      *([said_of_finer(case, further)] if further else [])]))
     print(f"table: {folder / 'runs.csv'}, verdict: {folder / 'verdict.yaml'}")
     print("\n".join(ble.said(equations)))
     return STATUS[said]
+
+
+def free_memory():
+    """MB that processes can still have, None where nothing says so"""
+    try:
+        lines = pathlib.Path("/proc/meminfo").read_text().splitlines()
+        return next(int(line.split()[1]) / 1e3 for line in lines if line.startswith("MemAvailable"))
+    except (OSError, StopIteration, ValueError):
+        return None
+
+
+def refuse_too_large(case, folder, jobs):
+    """before anything is made: runs that the machine has no room for; jobs: runs at a time"""
+    sizes = [shield_chain.size_of(shield_chain.shield_of(case, which, case.shifts[0])) for which in range(len(case.spacings_mm))]
+    most, dx = max(zip(sizes, case.spacings_mm), key=lambda size: size[0]["particles"])
+    jobs, free = min(jobs, len(members(case))), free_memory()
+    what = f"spacings_mm: {dx:g} mm makes some {most['particles']:.3g} particles"
+    if most["particles"] > 2**31 - 1:
+        raise HVIError(f"{case.name}: {what}, more than LAMMPS can number: are lengths in mm?")
+    if free is not None and most["memory_MB"] * jobs > free:
+        fit = math.ceil(100 * dx * (most["memory_MB"] * jobs / free) ** (1 / 3)) / 100
+        raise HVIError(f"{case.name}: {what}, {most['memory_MB']:.3g} MB of memory{f' in each of {jobs} runs at a time' if jobs > 1 else ''}, and {free:.0f} are free: "
+                       f"take {fit:g} mm or more{', or fewer jobs at a time' if jobs > 1 else ''}; --write makes the input for another machine")
+    existing = next(path for path in (folder, *folder.parents) if path.exists())
+    disk = shutil.disk_usage(existing).free / 1e6
+    if (needed := sum(size["disk_MB"] for size in sizes) * len(case.shifts)) > disk:
+        raise HVIError(f"{case.name}: some {needed:.3g} MB would be written, and {disk:.0f} are free in {existing}: take a larger settings: film, or another --runs DIR")
+
+
+def write(case, path, folder):
+    """inputs of all runs, and how to run them"""
+    for member in members(case):
+        where = folder / member_name(case, member)
+        shield_chain.write_run(case, path, *member, where)
+        print(f"cd {shlex.quote(str(where))} && mpirun -np 2 lmp -in {shield_chain.shield_input.BEGIN} && python3 -m hvi judge .")
+    return 0
 
 
 def trial(plan, walls):

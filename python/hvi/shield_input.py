@@ -1,0 +1,312 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""A case as a LAMMPS input, read from top to bottom: in.shield begins, in.continue differs from it in read_restart.
+
+Both end a run by LAMMPS's fix halt: at the time `until`, or when the event is over, and write the restart file `to`.
+"""
+
+import functools
+import math
+import pathlib
+
+from . import geometry, plates, runs, shield_mesh
+from .errors import HVIError
+
+BEGIN, CONTINUE = "in.shield", "in.continue"
+OFTEN, MOST = 20, 200  # most steps between rows of walls.dat; of pieces.dat and history.dat, and between looks whether the event is over
+LOOKS = 100  # rows of those, about
+OVER = {"coming": 1e-4, "push": 0.01, "plastic": 2e-5}  # when an event is over: see over()
+COLUMNS = "id type mass x y z vx vy vz v_dumped c_state[*]"
+STATE = ("p", "damage", "spalled", "vm", "e", "eps", "fragsize")
+FRICTION = 3 * 5300.0  # m/s: a wave loses exp(-3) of its amplitude on the way through an absorbing rim and back
+
+
+def material_file(material):
+    """the path of a material file by its name or path"""
+    path = next((p for p in (pathlib.Path(material), *(folder / material for folder in runs.potentials())) if p.is_file()), None)
+    if path is None:
+        raise HVIError(f"no material file {material}")
+    return path
+
+
+def number(value):
+    """as short as its digits allow"""
+    return f"{value:.10g}"
+
+
+def types(numbers):
+    """a range of consecutive types, as LAMMPS writes it"""
+    return f"{numbers[0]}" if len(numbers) == 1 else f"{numbers[0]}*{numbers[-1]}"
+
+
+def alike(rows):
+    """[([type, ...], what), ...] of neighboring types with the same what, rows: [(type, what), ...]"""
+    found = []
+    for kind, what in rows:
+        if found and found[-1][1] == what and found[-1][0][-1] == kind - 1:
+            found[-1][0].append(kind)
+        else:
+            found.append(([kind], what))
+    return found
+
+
+class Text:
+    """lines of an input: command, arguments, comment"""
+
+    def __init__(self):
+        self.lines = []
+
+    def __call__(self, command, arguments, comment=""):
+        line = f"{command:<15} {arguments}"
+        self.lines.append(f"{line:<80} # {comment}" if comment else line)
+
+    def say(self, comment):
+        self.lines += ["", f"# {comment}"]
+
+
+class Shield:
+    """The inputs of one run of a case: spacing number `which` of the case, a shift of the projectile's lattice."""
+
+    def __init__(self, case, which, shift, settings):
+        self.case, self.which, self.shift, self.settings = case, which, shift, settings
+        self.geometry = geometry.of(case, which)
+        self.walls = self.geometry.walls
+        self.n = len(self.walls)
+        self.images = 4 if self.geometry.quarter else 1
+        self.elements = [k for k, wall in enumerate(case.walls, 1) if wall.method != "sph"]
+        looks = self.steps() / LOOKS
+        self.often = max(5, min(OFTEN, 5 * round(looks / 5)))
+        self.seldom = self.often * max(1, min(MOST // OFTEN, round(looks / self.often)))
+
+    @functools.cached_property
+    def rho(self):
+        """kg/m^3 of the projectile and of the walls, from their material files"""
+        return [plates.density_of(material_file(name))[0] for name in (self.case.material, *(wall.material for wall in self.case.walls))]
+
+    @property
+    def energy(self):
+        """J, of the projectile"""
+        return 0.5 * self.mass() * (1e3 * self.case.speed_km_s) ** 2
+
+    def mass(self):
+        """kg, of the projectile"""
+        return self.rho[0] * math.pi / 6 * (1e-3 * self.case.diameter_mm) ** 3
+
+    def steps(self):
+        """about, until the end at the latest: a wave or the projectile crosses a spacing in 1.5 steps; later steps are longer"""
+        g = self.geometry
+        return 1e-6 * g.tstop_us * (5300 + 1e3 * self.case.speed_km_s) / min([g.a, *(wall.spacing for wall in g.walls)])
+
+    def particles(self):
+        """about, of the model; walls of elements are left out, which hold few or none"""
+        g = self.geometry
+        free = [wall for k, wall in enumerate(g.walls, 1) if k not in self.elements]
+        return (4 / 3 * math.pi * (g.R / g.a) ** 3 + sum(math.pi * (wall.radius / wall.spacing) ** 2 * wall.layers for wall in free)) / self.images
+
+    def files(self):
+        """{file: words of shield_mesh.write()} of what is not on a lattice"""
+        return shield_mesh.of_case(self.case, self.which)
+
+    # ------------------------------------------------------------------ parts of the input
+    def head(self, text, new):
+        case, walls = self.case, self.case.walls
+        text.lines += [f"# {case.name}: a projectile of {case.diameter_mm:g} mm at {case.speed_km_s:g} km/s on {len(walls)} wall{'s' * (len(walls) > 1)}, "
+                       f"{1e3 * self.geometry.a:g} mm between particles; written by python3 -m hvi shield",
+                       f"#   mpirun -np 2 lmp -in {BEGIN if new else CONTINUE}    then: python3 -m hvi judge .", ""]
+        text("variable", f"until index {number(self.geometry.tstop_us)}", "us: end of the run, if the event is not over before")
+        if not new:
+            text("variable", "from index shield.restart", "to go on from")
+        text("variable", f"to index shield.restart{'' if new else '.next'}", "written at the end")
+        text.lines.append("")
+
+    def begin(self, text):
+        """box, particles, materials, velocity"""
+        g, s, n = self.geometry, self.settings, self.n
+        text("units", "si")
+        text("atom_style", "sph")
+        text("atom_modify", "map array sort 1000 0.0")
+        text("boundary", "f f fs", "what flies on behind the last wall stays in the box")
+        text("processors", "* * 1", "ranks share the walls, not the flight")
+        text.say("bodies on lattices; a quarter of them lies at x > 0, y > 0")
+        box = g.box
+        low = [0.0, 0.0] if g.quarter else [box[0], box[2]]
+        text("region", f"box block {number(low[0])} {number(box[1])} {number(low[1])} {number(box[3])} {number(box[4])} {number(g.walls[-1].rear + g.a)} units box")
+        kinds = 1 + n + (n if self.elements else 0)
+        text("create_box", f"{kinds} box", "types: projectile, walls" + (", nodes of walls" if self.elements else ""))
+        self.projectile(text)
+        for k, (wall, of) in enumerate(zip(g.walls, self.case.walls), 1):
+            if of.method == "sph":
+                self.wall(text, k, wall)
+        if g.quarter:
+            text("change_box", f"all x final {number(-g.a)} {number(box[1])} y final {number(-g.a)} {number(box[3])} units box")
+        text.say("what moves how")
+        text("group", "ball type 1")
+        if self.elements:
+            text("group", f"matter type 1:{1 + n}", "without nodes")
+            text("fix", "masses all property/atom rmass ghost yes", "nodes have masses of their own")
+        mirrors = " mirror x 0 lo mirror y 0 lo" if g.quarter else ""
+        text("pair_style", f"hvi/sph {s['kernel']} {s['pair']}{mirrors}")
+        eta = float(s["eta"])
+        lengths = [(1, (self.case.material, eta * g.a)), *((1 + k, (of.material, eta * max(wall.spacing, wall.dz))) for k, (wall, of) in enumerate(zip(g.walls, self.case.walls), 1))]
+        for kinds, (material, h) in alike(lengths):
+            text("pair_coeff", f"{types(kinds)} {types(kinds)} file {pathlib.Path(material).name} h {number(h)}")
+        if self.elements:
+            text("pair_coeff", f"{n + 2}*{2 * n + 1} {n + 2}*{2 * n + 1} nodes")
+        self.masses(text)
+        for kinds, rho in alike([(1 + k, rho) for k, rho in enumerate(self.rho)]):
+            text("set", f"type {types(kinds)} sph/rho {number(rho)}")
+        v, angle = 1e3 * self.case.speed_km_s, math.radians(self.case.angle_deg)
+        text("velocity", f"ball set {number(round(v * math.sin(angle), 6))} 0 {number(round(v * math.cos(angle), 6))} units box")
+        text.lines.append("")
+
+    def projectile(self, text):
+        """a cubic lattice about its center"""
+        g = self.geometry
+        origin = 0.5 + self.shift - g.R / g.a
+        text("lattice", f"sc {number(g.a)} origin 0.5 0.5 {number(origin - math.floor(origin))}")
+        text("region", f"ball sphere 0 0 {number(-g.R)} {number(g.R)} units box")
+        text("create_atoms", "1 region ball")
+
+    def wall(self, text, k, wall):
+        """layers of squares between its faces"""
+        origin = wall.front / wall.dz
+        text("lattice", f"custom {number(wall.spacing)} a1 1 0 0 a2 0 1 0 a3 0 0 {number(wall.dz / wall.spacing)} basis 0.5 0.5 0.5 origin 0 0 {number(origin - math.floor(origin))}")
+        text("region", f"wall{k} cylinder z {number(wall.middle)} 0 {number(wall.radius)} {number(wall.front)} {number(wall.rear)} units box")
+        text("create_atoms", f"{1 + k} region wall{k}")
+
+    def masses(self, text):
+        """the particles of the projectile share its mass; a particle of a wall has that of its cell"""
+        command, name = ("set", "type {} mass {}") if self.elements else ("mass", "{} {}")
+        share = f"$({number(self.mass())}/{self.images}/count(ball))" if self.images > 1 else f"$({number(self.mass())}/count(ball))"
+        text(command, name.format(1, share), "the mass of the projectile over its particles")
+        rows = [(1 + k, number(self.rho[k] * wall.spacing**2 * wall.dz)) for k, wall in enumerate(self.walls, 1) if k not in self.elements]
+        for kinds, mass in alike(rows):
+            text(command, name.format(types(kinds), mass))
+        if self.elements:  # LAMMPS wants masses of types, too
+            text("mass", f"* {number(self.mass())}", "of no use: each particle has its own")
+
+    def model(self, text, new):
+        """fixes that move and load"""
+        g, s = self.geometry, self.settings
+        text("fix", "move all hvi/sph")
+        text("fix", f"solid all hvi/johnson-cook {s['solid']}")
+        if self.elements:
+            text("fix", f"fem all hvi/fem nodes {self.n + 2}*{2 * self.n + 1} {s['fem']}{' convert no' if self.case.method() == 'tied' else ''}")
+            if new:
+                for k in self.elements:
+                    wall = g.walls[k - 1]
+                    text("read_data", f"{shield_mesh.file_of(k)} add append fix fem elements Elements shift {number(wall.middle)} 0 {number(wall.front)}")
+                rows = [(1 + k, number(self.rho[k])) for k in self.elements]
+                for kinds, rho in alike(rows):
+                    text("set", f"type {types(kinds)} sph/rho {rho}")
+                text("group", f"matter type 1:{1 + self.n}")
+        text("fix", f"step all hvi/dt {s['C']}", "time step; f_step[2] is the time")
+        text("neighbor", f"{number(float(s['skin']) * g.widest)} bin")
+        text("compute", "cost all hvi/atom asleep", "matter at rest costs little")
+        text("variable", "cost atom 1-0.83*c_cost")
+        text("fix", "share all balance 50 1.05 shift xy 20 1.02 weight var cost")
+        text("compute", f"book all hvi/energy{' clamps rim' if self.settings['edge'] != 'free' else ''}", "energy and momentum balance")
+        self.edge(text, new)
+
+    def edge(self, text, new):
+        kind = self.settings["edge"]
+        if kind == "free":
+            return
+        rim = 1e-3 * float(self.settings["rim"])
+        if new:
+            for k, wall in enumerate(self.walls, 1):
+                text("region", f"rim{k} cylinder z {number(wall.middle)} 0 {number(wall.radius - rim)} {number(wall.front - wall.thickness)} {number(wall.rear + wall.thickness)} side out units box")
+                text("group", f"beyond region rim{k}")
+                text("group", f"wall type {1 + k}" + (f" {1 + self.n + k}" if k in self.elements else ""))
+                text("group", f"rim{k} intersect beyond wall")
+                text("group", "beyond delete")
+                text("group", "wall delete")
+            text("group", "rim union " + " ".join(f"rim{k}" for k in range(1, self.n + 1)))
+        if kind == "clamp":
+            text("fix", "rim rim setforce 0 0 0")
+        else:
+            text("fix", f"rim rim viscous $({number(FRICTION / rim)}*mass(rim)/count(rim))", "absorbs waves")
+
+    def measures(self, text):
+        """what is written while it runs; when it ends"""
+        g = self.geometry
+        rows = []
+        for k, wall in enumerate(g.walls, 1):
+            nodes = f" nodes {1 + self.n + k}" if k in self.elements else ""
+            rows.append(f"wall {1 + k} {number(wall.front)} {number(wall.thickness)}{nodes} layers {wall.layers} radius {number(wall.radius)}"
+                        + (f" center {number(wall.middle)} 0 struck {number(wall.struck)} 0" if self.case.angle_deg else ""))
+        both = " &\n                ".join(["all hvi/wall axis z", *rows])
+        text.say("what happens to the walls: a row of walls.dat and pieces.dat for each")
+        text("compute", f"walls {both}")
+        text("compute", f"pieces {both} &\n                pieces {number(g.near)}")
+        text("compute", f"state all hvi/atom {' '.join(STATE)}")
+        text("variable", "us equal 1e6*f_step[2]")
+        text("fix", f"walls all ave/time {self.often} 1 {self.often} c_walls[*] mode vector append walls.dat format \" %.10g\"")
+        text("fix", f"pieces all ave/time {self.seldom} 1 {self.seldom} c_pieces[*] mode vector append pieces.dat format \" %.10g\"")
+        names = "v_us f_step[2] c_book[*]" + (" f_fem f_fem[*]" if self.elements else "")
+        text("fix", f"history all ave/time {self.seldom} 1 {self.seldom} {names} append history.dat format \" %.13g\"")
+        self.over(text)
+        matter = "matter" if self.elements else "all"
+        text("variable", "dumped atom time", "dumps say when, and where mirror planes are")
+        mirrors = " v_plane v_plane" if g.quarter else " v_plane"
+        text("variable", "plane atom 0")
+        modify = ("sort id format 10 %.9g colname v_dumped time_si " + " ".join(f"colname c_state[{k}] {name}" for k, name in enumerate(STATE, 1))
+                  + (" colname -2 mirror_x_lo colname -1 mirror_y_lo" if g.quarter else " colname v_plane mirror_none"))
+        text("variable", f"columns string '{COLUMNS}{mirrors}'")
+        text("variable", f"names string '{modify}'")
+        film = self.film_us()
+        if film:
+            text("dump", f"film {matter} custom {10**9} film.*.dump ${{columns}}")
+            text("dump_modify", f"film every/time {number(1e-6 * film)} first yes pad 9 ${{names}}")
+        text("thermo", f"{self.seldom}")
+        text("thermo_style", f"custom step v_us dt atoms f_move c_walls[{self.n}][2] c_walls[{self.n}][4] c_book[9]")
+        text("thermo_modify", "lost ignore", "what is thrown back leaves the box; the ledger counts it")
+        text.lines.append("")
+        text("run", f"{10**9}")
+        text("unfix", "over")
+        text("write_dump", f"{matter} custom shield.dump ${{columns}} modify ${{names}}")
+        text("run", "0 post no", "the ledger counts what write_restart would lose")
+        text("write_restart", "${to}")
+
+    def over(self, text):
+        """No wall is struck any more by what matters, none is still pushed, none flows on: or it is late."""
+        g, n = self.geometry, self.n
+        limit = self.energy / self.images
+        power = "+".join(f"c_walls[{k}][6]" for k in range(1, n + 1))
+        text("variable", f'quiet equal "v_us > {number(g.arrival_us + g.passage_us + g.crossing_us)} && c_walls[{n}][2] < {number(OVER["coming"] * limit)} && '
+             f'1e-6*abs(c_walls[{n}][3]) < {number(OVER["push"])}*abs(c_walls[{n}][4])+1e-12 && 1e-6*({power}) < {number(OVER["plastic"] * limit)}"',
+             "nothing comes, pushes or flows: see Howto_shield")
+        text("variable", 'over equal "v_us >= v_until || v_quiet"')
+        text("fix", f"over all halt {self.seldom} v_over > 0 error continue message no")
+
+    def film_us(self):
+        """us between frames"""
+        return float(self.settings["film"])
+
+    def text(self, new=True):
+        text = Text()
+        self.head(text, new)
+        if new:
+            self.begin(text)
+        else:
+            text("processors", "* * 1")
+            text("read_restart", "${from}")
+            if self.elements:
+                text("fix", "masses all property/atom rmass ghost yes")
+            text.lines.append("")
+        self.model(text, new)
+        self.measures(text)
+        return "\n".join(text.lines) + "\n"
+
+    def write(self, folder):
+        """the inputs and their data files"""
+        folder = pathlib.Path(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in self.texts().items():
+            (folder / name).write_text(text)
+        for name, words in self.files().items():
+            shield_mesh.write(folder / name, **words)
+
+    def texts(self):
+        """{file: text}: the inputs and the material files, so that LAMMPS alone can run the folder"""
+        names = dict.fromkeys((self.case.material, *(wall.material for wall in self.case.walls)))
+        return {BEGIN: self.text(), CONTINUE: self.text(new=False), **{pathlib.Path(name).name: material_file(name).read_text() for name in names}}

@@ -1,0 +1,150 @@
+"""python3 -m hvi shield --write, --straight, judge: the input is straight, its chain has the same bits however it is cut, and rules say what numbers mean."""
+
+import math
+import re
+import types
+
+import numpy as np
+import pytest
+import yaml
+from hvi import cli, shield_chain, shield_input, shield_result, verdict
+from hvi import case as cases
+
+CASE = """projectile: {diameter_mm: 3, material: Al2017-T4}
+speed_km_s: 5
+walls:
+  - {thickness_mm: 0.75, material: Al6061-T6}
+  - {thickness_mm: 2.25, material: Al2024-T3, gap_mm: 8}
+spacings_mm: [0.75]
+shifts: [0]
+settings: {tstop: 8}
+"""
+
+
+def read(path, text=CASE):
+    path.write_text(text)
+    return shield_chain.read_case(path)
+
+
+@pytest.mark.parametrize("change", [("", ""), ("speed_km_s: 5", "speed_km_s: 5\nangle_deg: 40"), ("tstop: 8", "tstop: 8, edge: clamp, rim: 1")])
+def test_inputs_are_straight(tmp_path, change):
+    """no label, jump or condition; at most 80 lines; the second differs only where it goes on"""
+    for new in (True, False):
+        text = shield_chain.shield_of(read(tmp_path / "c.yaml", CASE.replace(*change)), 0, 0.0).text(new)
+        lines = text.splitlines()
+        assert len(lines) <= 80 + (15 if "edge" in change[1] else 0), len(lines)
+        assert not [line for line in lines if re.match(r"\s*(label|jump|next|if|include)\b", line)] and text.isascii()
+        assert ("read_restart" in text) is not new and ("create_atoms" in text) is new
+    first, second = (shield_chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0).text(new).splitlines() for new in (True, False))
+    assert first[first.index("fix             move all hvi/sph"):] == second[second.index("fix             move all hvi/sph"):]
+
+
+def test_write_run_and_judge(lmp, tmp_path, capsys, monkeypatch):
+    """a folder that LAMMPS alone can run, with no materials elsewhere; cut into three it has the same bits, and both the same verdict"""
+    (tmp_path / "c.yaml").write_text(CASE)
+    monkeypatch.chdir(tmp_path)
+    for folder in ("one", "three"):
+        assert cli.main(["shield", "c.yaml", "--write", folder]) == 0
+    assert "mpirun -np 2 lmp -in in.shield && python3 -m hvi judge ." in capsys.readouterr().out
+    said = []
+    for folder, ends in (("one", [2, 5, 8]), ("three", [2, 5, 8])):
+        where = tmp_path / folder / "dx-0.75_shift-0.0"
+        for leg, until in enumerate(ends):
+            command = where / (shield_input.CONTINUE if leg else shield_input.BEGIN)
+            if folder == "three" and leg == 1:  # one that is stopped in the middle leaves rows, which do not count
+                lmp(command, cwd=where, env={"LAMMPS_POTENTIALS": ""}, vars={"until": 4, "from": "r.a", "to": "r.lost"})
+            lmp(command, cwd=where, env={"LAMMPS_POTENTIALS": ""}, vars={"until": until, "from": f"r.{'ba'[leg % 2]}", "to": f"r.{'ab'[leg % 2]}"})
+        (where / "log.1.lammps").write_text("LAMMPS (4 Feb 2025)\nLoop time of 1.0 on 1 procs for 10 steps with 900 atoms\n")
+        status = cli.main(["judge", str(where)])
+        result = yaml.safe_load((where / "result.yaml").read_text())
+        assert status == {"holds": 0, "fails": 3, "undecided": 4}[result["verdict"]] and f"verdict: {result['verdict']}\n" in capsys.readouterr().out
+        assert list(result)[:2] == ["verdict", "reasons"] and list(result)[-1] == "package_version"
+        said.append(result)
+    one, three = ((tmp_path / folder / "dx-0.75_shift-0.0/shield.dump").read_bytes() for folder in ("one", "three"))
+    assert one == three and said[0] == said[1]
+    assert said[0]["walls_reached"] == 2 and said[0]["wall1_perforated"] and abs(said[0]["energy_ratio"] - 1) < 1e-3
+    assert said[0]["momentum_error"] < 1e-9 and abs(said[0]["mass_error"]) < 1e-9 and said[0]["hole1_diameter_mm"] > 3
+    assert (tmp_path / "one/dx-0.75_shift-0.0/cloud1.dump").exists()
+
+
+def test_front_door_runs_it(root, lmp_exe, tmp_path, capsys, monkeypatch):
+    """as in.whipple is run: table, verdict, what is done is left alone"""
+    (tmp_path / "c.yaml").write_text(CASE.replace("shifts: [0]", "shifts: [0, 0.5]"))
+    monkeypatch.chdir(tmp_path)
+    words = ["shield", "c.yaml", "--straight", "--lmp", str(lmp_exe), "--ranks", "1"]
+    status = cli.main(words)
+    assert status in (0, 3, 4) and "2 runs, 0 done before, 2 to run" in capsys.readouterr().out
+    assert cli.main(words) == status and "2 runs, 2 done before, 0 to run" in capsys.readouterr().out
+    saved = yaml.safe_load((tmp_path / "runs/c/verdict.yaml").read_text())
+    assert "--straight" in saved["command"] and not list(tmp_path.glob("runs/c/*/chain.yaml"))
+    assert cli.main(["report", "runs/c"]) == 0 and (tmp_path / "runs/c/report.html").stat().st_size > 1e5
+
+
+@pytest.mark.parametrize("dx, message", [("0.004", "more than LAMMPS can number"), ("0.0095", "MB of memory")])
+def test_what_the_machine_cannot_hold_is_refused(tmp_path, capsys, monkeypatch, dx, message):
+    """from geometry alone, before a particle is made"""
+    (tmp_path / "c.yaml").write_text(CASE.replace("[0.75]", f"[0.7, {dx}]"))
+    monkeypatch.chdir(tmp_path)
+    for words in (["--dry-run"], ["--straight"]):
+        assert cli.main(["shield", "c.yaml", *words]) == 1
+        err = capsys.readouterr().err
+        assert f"spacings_mm: {dx} mm makes some" in err and message in err
+    assert not (tmp_path / "runs").exists()
+
+
+def test_rows_after_a_restart_count_once(tmp_path):
+    """those of the run that was stopped go; so does a block that was cut off"""
+    (tmp_path / "w").write_text("# fix\n0 2\n1 1 1\n2 2 2\n20 2\n1 3 3\n2 4 4\n40 2\n1 5 5\n2 6 6\n20 2\n1 7 7\n2 8 8\n40 2\n1 9\n")
+    steps, rows = shield_result.rows_of(tmp_path / "w")
+    assert list(steps) == [0, 20] and rows.shape == (2, 2, 2) and rows[1].tolist() == [[7, 7], [8, 8]]
+    (tmp_path / "h").write_text("0 0.0 1\n100 1.0 2\n200 2.0 3\n100 1.5 4\n200 2.\n")
+    steps, rows = shield_result.rows_of(tmp_path / "h")
+    assert list(steps) == [0, 100] and rows[1].tolist() == [1.5, 4]
+
+
+def result(**changed):
+    """of two walls of which the second holds"""
+    found = {"walls": 2, "walls_reached": 2, "time_us": 30.0, "energy_ratio": 1.0, "method": "sph", "elements_failed_without_particles": 0, "momentum_left_ratio": 0.0,
+             "conversion_heat_ratio": 0.0, "hourglass_energy_ratio": 0.0}
+    for k in (1, 2):
+        found.update({f"wall{k}_{key}": 0 for key in ("apart_mass_mg", "spall_mass_mg", "still_to_come", "missed_fraction", "missed_reach_mm", "push_percent_per_us", "torn",
+                                                      "bulge_over_thickness", "deepest_failed_layer", "rear_plastic_strain", "cloud_energy_ratio")})
+        found.update({f"hole{k}_diameter_mm": 0.0, f"wall{k}_layers": 3, f"wall{k}_energy_ratio": 0.3})
+    return {**found, "wall1_cloud_energy_ratio": 0.7, **changed}
+
+
+@pytest.mark.parametrize("changed, said, rules", [
+    ({}, "holds", ["sound"]), ({"hole2_diameter_mm": 3.0, "wall2_apart_mass_mg": 2.0, "wall2_spall_mass_mg": 1.0}, "fails", ["perforated", "spall", "through"]),
+    ({"wall2_apart_mass_mg": 2.0}, "fails", ["through"]), ({"wall2_apart_mass_mg": 2.0, "wall2_missed_fraction": 0.01, "wall2_missed_reach_mm": 40.0}, "undecided", ["missed", "through"]),
+    ({"wall2_layers": 2, "hole2_diameter_mm": 3.0, "wall2_apart_mass_mg": 2.0}, "undecided", ["thin", "perforated", "through"]),
+    ({"hole2_diameter_mm": 3.0}, "undecided", ["plugged"]), ({"hole2_diameter_mm": math.nan}, "undecided", ["no plate"]),
+    ({"wall2_still_to_come": 0.0091}, "undecided", ["comes", "sound"]), ({"wall2_still_to_come": 0.0089}, "holds", ["sound"]),
+    ({"wall2_push_percent_per_us": 1.1}, "undecided", ["pushed", "sound"]), ({"energy_ratio": 0.998}, "undecided", ["leaky", "sound"]),
+    ({"wall2_push_percent_per_us": 1.1, "wall2_apart_mass_mg": 2.0}, "fails", ["pushed", "through"]),
+    ({"walls_reached": 1}, "undecided", ["late"]), ({"walls_reached": 1, "wall1_cloud_energy_ratio": 5e-5}, "holds", ["spared"]),
+    ({"wall1_layers": 2}, "holds", ["sound", "coarse"]), ({"method": "tied"}, "undecided", ["tied", "sound"])])
+def test_rules(tmp_path, changed, said, rules):
+    """each rule by the number that it is about, and what it makes of the verdict"""
+    shield = shield_chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
+    found = verdict.of_run(shield, result(**changed))
+    assert (found["verdict"], found["rules"]) == (said, rules)
+    assert found["reasons"] and all("-var" not in text for text in found["reasons"])
+    if said == "fails" and "pushed" in rules:
+        assert any("still pushed" in text and "take settings: {tstop: " in text for text in found["notes"])
+    if "thin" in rules:
+        assert {"spacings_mm": 0.75} in found["remedies"]
+
+
+def test_whole_walls_and_what_is_not_modelled(tmp_path):
+    """material files decide; the wall that cannot fail in tension is named"""
+    shield = shield_chain.shield_of(read(tmp_path / "c.yaml", CASE.replace("Al2024-T3", "Ti-6Al-4V") + "not_modelled: [MLI]\n"), 0, 0.0)
+    found = verdict.of_run(shield, result())
+    assert found["verdict"] == "undecided" and found["rules"] == ["not modelled", "whole", "sound"]
+    assert any(text.startswith("wall 2 is of Ti-6Al-4V.hvi, whose file has no law of spall (damage no spall voids)") for text in found["reasons"])
+
+
+def test_names_of_rules_are_unique():
+    names = [rule.name for rule in verdict.RULES]
+    assert len(set(names)) == len(names) and all(rule.why for rule in verdict.RULES)
+    assert np.isfinite(verdict.SPARED) and isinstance(verdict.RULES[0].when(types.SimpleNamespace(case=types.SimpleNamespace(not_modelled=()))), bool)
+    assert cases.LAYERS == verdict.NEEDED
