@@ -17,6 +17,7 @@ REQUIRED = object()
 SLOWEST, FASTEST = 0.1, 100  # km/s
 SOUND = 5  # km/s, as in.whipple has it
 RATIO = 1.2  # of spacings that may be said to differ
+SOLID = "damage no spall voids"  # words of fix hvi/johnson-cook, as in.whipple has them
 LAYERS = 3  # that in.whipple needs in the wall that decides
 
 # settings of in.whipple: what their values must be, beside numbers where its own are numbers
@@ -140,6 +141,29 @@ def has_strength(path):
         return re.search(r"^[ \t]*strength\s", path.read_text(), re.M) is not None
     except (OSError, UnicodeDecodeError) as problem:
         raise HVIError(f"cannot read {path}: {problem}") from None
+
+
+def laws_of(name):
+    """laws of strength in a material file, by its name or path; None if there is no such file"""
+    path = next((p for p in (pathlib.Path(name), *(folder / name for folder in runs.potentials())) if p.is_file()), None)
+    return None if path is None else re.findall(r"^[ \t]*strength[ \t]+([\w-]+)", path.read_text(errors="replace"), re.M)
+
+
+def check_laws(case, reader):
+    """All materials must have the law of strength that the run takes: one without it would be a liquid, whatever else its file has"""
+    words = str(case.settings.get("solid") or SOLID).split()
+    law = next((new for old, new in zip(words, words[1:]) if old == "strength"), "johnson-cook")
+    places = [("projectile: material", case.material), *((f"wall {k}: material", wall.material) for k, wall in enumerate(case.walls, 1))]
+    known = [set(found) for _, name in places if (found := laws_of(name)) is not None]
+    common = sorted(set.intersection(*known) - {"none"}) if known else []
+    for key, name in places:
+        found = laws_of(name)
+        if found is None or law in found or law == "none":
+            continue
+        kept = " ".join(word for k, word in enumerate(words) if word != "strength" and (k == 0 or words[k - 1] != "strength"))
+        remedy = (f"take settings: {{solid: {kept} strength {common[0]}}}, which all materials of this case have" if common else
+                  f"all materials of a case must have one law in common, and these have none: give {pathlib.Path(name).stem} a section strength {law}")
+        reader.wrong(key, f"{pathlib.Path(name).stem} has strength {' and '.join(found)}, and the run takes {law}: it would be a liquid; {remedy}")
 
 
 def tears(name, solid):
@@ -346,6 +370,7 @@ def read(path, source):
             reader.wrong(key, str(problem).partition(": ")[2])
         reader.setting(name, source, len(case.walls))
     case.check(reader.wrong)
+    check_laws(case, reader)
     source.check(own, reader.path)
     if "weibull" in str(case.settings.get("solid")).split():
         node = reader.at["settings: solid"]

@@ -226,7 +226,7 @@ def said(answer):
     if answer["limit"] is None:
         return ["limit: not found", *(f"  - {reason}" for reason in answer["reasons"]), *cost]
     spacing, shifts = answer["change_by_spacing"], answer["range_over_shifts"]
-    return [f"limit on {answer['on']}: {answer['limit']:g} {unit}, holds {answer['holds']}, fails {answer['fails']}, between them undecided",
+    return [f"holds {answer['holds']} {unit}, fails {answer['fails']}, between them undecided: limit on {answer['on']}, its middle {answer['limit']:g} {unit}",
             f"band: the last refinement moved it by {spacing:+g} {unit}" if spacing is not None else "band: one spacing only, nothing says how much it matters",
             f"      shifts of the lattice by up to {shifts:g} {unit}" if shifts is not None else "      one shift of the lattice only",
             f"      steps of {answer['step']:g} {unit}", *cost]

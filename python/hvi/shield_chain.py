@@ -33,7 +33,7 @@ SETTINGS = {
     "tstop": (0, "us: the run ends here at the latest; 0: what is enough"),
     "kernel": ("cubic", "of pair_style hvi/sph"), "eta": (1.2, "smoothing length in spacings"),
     "pair": ("dissipation riemann", "further words of pair_style hvi/sph"),
-    "solid": ("damage no spall voids", "words of fix hvi/johnson-cook"),
+    "solid": (cases.SOLID, "words of fix hvi/johnson-cook"),
     "fem": ("strain 0.3", "words of fix hvi/fem"),
     "C": (0.6, "of fix hvi/dt"), "skin": (0.8, "of the neighbor lists, spacings"),
     "back": (0, "mm modelled in front of wall 1; 0: half of the way to the last wall, at least 20"),

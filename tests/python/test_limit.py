@@ -22,7 +22,7 @@ def test_limit(folder, capsys):
     assert found["limit"] == pytest.approx(4.25) and found["limit_of_spacings"] == {"0.4 mm": 4.45, "0.2 mm": 4.25}
     assert found["change_by_spacing"] == -0.2 and found["range_over_shifts"] == 0 and found["undecided"] == [4.2, 4.5] and found["step"] == 0.1
     assert (found["holds"], found["fails"]) == ("up to 4.2", "from 4.5") and set(tries(folder).values()) == {1}
-    assert "limit on diameter_mm: 4.25 mm, holds up to 4.2, fails from 4.5, between them undecided" in out
+    assert "\nholds up to 4.2 mm, fails from 4.5, between them undecided: limit on diameter_mm, its middle 4.25 mm\n" in out
     assert found["runs"] == len(tries(folder)) <= 4 * 8 and f"cost: {found['runs']} runs" in out
     fine = [name for name in tries(folder) if name.startswith("dx-0.2")]
     assert len(fine) <= 2 * 5  # they begin about what the coarse ones have found
