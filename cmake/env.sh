@@ -22,4 +22,7 @@ export OMP_NUM_THREADS="${OMP_NUM_THREADS:-1}"
 # the sanitizer build: leaks of the MPI library are not ours, and the stock library has no container marks
 export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=0:detect_container_overflow=0:detect_odr_violation=0}"
 export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1:halt_on_error=1}"
+# Open MPI makes its folder of sessions with the first program and removes it with the last: one that starts in between stops with "File exists"
+sessions="${TMPDIR:-/tmp}/ompi.$(uname -n | cut -d. -f1).$(id -u)"
+mkdir -p -m 700 "$sessions" 2>/dev/null && mkdir -p "$sessions/keep" 2>/dev/null
 exec "$@"
