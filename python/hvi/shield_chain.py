@@ -38,7 +38,7 @@ SETTINGS = {
     "C": (0.6, "of fix hvi/dt"), "skin": (0.8, "of the neighbor lists, spacings"),
     "back": (0, "mm modelled in front of wall 1; 0: half of the way to the last wall, at least 20"),
     "edge": ("free", "free, clamp or absorb: outermost rim of the walls"), "rim": (5, "its width, mm"),
-    "film": (0, "us between frames for pictures and movies; 0: 20 frames or as many as 300 MB hold; below 0: none"),
+    "film": (0, "us between frames for pictures and movies; 0: 20 frames, or as many as 300 MB hold"),
     "layers": (None, "of particles through each wall, a list"),
 }
 BY_CASE = {"dx", "shift", "D", "v0", "angle", "material_p", "walls", "thickness", "gap", "material", "spacings", "radius", "method", "plate", "outside"}

@@ -14,7 +14,9 @@ from .errors import HVIError
 BEGIN, CONTINUE = "in.shield", "in.continue"
 OFTEN, MOST = 20, 200  # most steps between rows of walls.dat; of pieces.dat and history.dat, and between looks whether the event is over
 LOOKS = 100  # rows of those, about
-OVER = {"coming": 1e-4, "push": 0.01, "plastic": 2e-5}  # when an event is over: see over()
+# when an event is over: still to come, of what the last wall has been given, and of the impact, as the verdict has it; change of its momentum per us; plastic work of all
+# walls per us, of the impact
+OVER = {"share": 0.03, "coming": 1e-4, "push": 0.01, "plastic": 1e-3}
 COLUMNS = "id type mass x y z vx vy vz v_dumped c_state[*]"
 STATE = ("p", "damage", "spalled", "vm", "e", "eps", "fragsize")
 FRICTION = 3 * 5300.0  # m/s: a wave loses exp(-3) of its amplitude on the way through an absorbing rim and back
@@ -272,7 +274,7 @@ class Shield:
         g, n = self.geometry, self.n
         limit = self.energy / self.images
         power = "+".join(f"c_walls[{k}][6]" for k in range(1, n + 1))
-        text("variable", f'quiet equal "v_us > {number(g.arrival_us + g.passage_us + g.crossing_us)} && c_walls[{n}][2] < {number(OVER["coming"] * limit)} && '
+        text("variable", f'quiet equal "v_us > {number(g.arrival_us + g.passage_us + g.crossing_us)} && c_walls[{n}][2] < {number(OVER["share"])}*c_walls[{n}][5]+{number(OVER["coming"] * limit)} && '
              f'1e-6*abs(c_walls[{n}][3]) < {number(OVER["push"])}*abs(c_walls[{n}][4])+1e-12 && 1e-6*({power}) < {number(OVER["plastic"] * limit)}"',
              "nothing comes, pushes or flows: see Howto_shield")
         text("variable", 'over equal "v_us >= v_until || v_quiet"')
