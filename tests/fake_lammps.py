@@ -1,14 +1,17 @@
-"""Stands in for mpirun and LAMMPS:  fake_lammps.py -np N LMP -in in.whipple -log FILE -var NAME VALUE ... [-var ...]
+"""Stands in for mpirun and LAMMPS:  fake_lammps.py -np N LMP -in in.shield -log FILE -var NAME VALUE ... [-var ...]
 
-The shield holds up to a diameter of FAKE_LIMIT + dx + shift / 10, then is undecided, and fails from FAKE_UNSURE more on; a
-thickness of wall 2 adds to the limit what it has more than 1.2 mm. FAKE_SLEEP: seconds that it takes; FAKE_FAIL: fails in
-folders whose name has this in it, FAKE_SAVE: leaves restart files there; FAKE_PLAN: what plan.yaml says; FAKE_NOTE: the list notes of a verdict fails, "|" between.
+The shield, which is that of job.yaml, holds up to a diameter of FAKE_LIMIT + dx + shift / 10, then is undecided (debris is still on its way), and fails
+(with a hole) from FAKE_UNSURE more on; a thickness of wall 2 adds to the limit what it has more than 1.2 mm. FAKE_SLEEP: seconds that it takes; FAKE_FAIL:
+fails in folders whose name has this in it, FAKE_SAVE: leaves restart files there; FAKE_NOTE: debris is on its way, and a part passed beside wall 2, whatever
+the verdict. With another input it writes the result.yaml of a sweep.
 """
 
 import os
 import pathlib
 import sys
 import time
+
+import yaml
 
 variables = {}
 for word in sys.argv[sys.argv.index("-in") + 4:]:
@@ -19,36 +22,69 @@ for word in sys.argv[sys.argv.index("-in") + 4:]:
         variables[name] = []
     else:
         variables[name].append(word)
+given = sys.argv[sys.argv.index("-in") + 1]
+shield = given in ("in.shield", "in.continue")
+until, to = float(variables.get("until", ["0"])[0]), variables.get("to", ["shield.restart"])[0]
+if shield:
+    variables = {name: value if isinstance(value, list) else [value] for name, value in yaml.safe_load(open("job.yaml"))["variables"].items()}
 
 with open("tries", "a") as tries:
-    tries.write(f"{variables.get('resume', ['no'])[0]}\n")
-if variables.get("dry") != ["yes"] and pathlib.Path("shield.state").exists():
-    pathlib.Path("shield.state").write_text("")  # as in.whipple, which saves its variables when it goes on
+    tries.write(f"{'yes' if given == 'in.continue' else 'no'}\n")
 if os.environ.get("FAKE_SAVE", "nothing") in os.getcwd():
-    for name in ("shield.restart.a", "shield.state"):
-        pathlib.Path(name).write_text("")
+    pathlib.Path("shield.restart.a").write_text("")
+    pathlib.Path("chain.yaml").write_text("{leg: 1, file: shield.restart.a}\n")
 if os.environ.get("FAKE_FAIL", "nothing") in os.getcwd():
     print("ERROR: Lost atoms (as told to)")
     sys.exit(1)
 time.sleep(float(os.environ.get("FAKE_SLEEP", "0")))
-if variables.get("dry") == ["yes"]:
-    pathlib.Path("plan.yaml").write_text(os.environ["FAKE_PLAN"])
-    sys.exit(0)
 
-D, dx, shift = (float(variables[name][0]) for name in ("D", "dx", "shift"))
-limit = float(os.environ.get("FAKE_LIMIT", "4")) + dx + 0.1 * shift + float(variables["thickness"][-1]) - 1.2
+D, dx, shift, v0 = (float(variables[name][0]) for name in ("D", "dx", "shift", "v0")) if shield else (float(variables["D"][0]), float(variables["dx"][0]), 0.0, 7100.0)
+thickness = [float(value) for value in variables["thickness"]]
+limit = float(os.environ.get("FAKE_LIMIT", "4")) + dx + 0.1 * shift + thickness[-1] - 1.2
 unsure = float(os.environ.get("FAKE_UNSURE", "0"))
 verdict = "holds" if D <= limit else "undecided" if D <= limit + unsure else "fails"
-if "outside" in variables:
-    verdict = "undecided"
-reason = {"holds": "'wall 2: no hole, no detached spall'", "fails": "'wall 2: perforated'", "undecided": "'wall 2: it still moves -- take -var tstop 40.5'"}[verdict]
-notes = os.environ.get("FAKE_NOTE", "") if verdict == "fails" else ""
-notes = "\n".join(["", "notes:", *(f"  - {note}" for note in notes.split("|"))]) if notes else ""
-pathlib.Path("result.yaml").write_text(f"""verdict: {verdict}
-reasons:
-  - {reason}{notes}
-hole1_diameter_mm: {D + 3}
-particles: {int((D / dx)**3)}
-core_s: {dx**-4:.1f}
-package_version: 0.1.0
-""")
+particles, core = int((D / dx)**3), dx**-4
+if not shield:
+    pathlib.Path("result.yaml").write_text(f"verdict: {verdict}\nparticles: {particles}\ncore_s: {core:.1f}\npackage_version: 0.1.0\n")
+    sys.exit(0)
+
+from hvi.shield_result import BOOK, WALL  # noqa: E402
+
+n, note = len(thickness), "FAKE_NOTE" in os.environ
+mass = 2785 * 3.14159265 / 6 * (1e-3 * D)**3
+images = 1 if float(variables["angle"][0]) else 4
+fronts, z = [], 0.0
+for gap, thick in zip(variables["gap"], thickness):
+    fronts.append(z + float(gap))
+    z = fronts[-1] + thick
+walls = []
+for k in range(n):
+    row = dict.fromkeys(WALL, 0.0)
+    row["tip"] = 1e-3 * (fronts[k + 1] if k + 1 < n else fronts[k] + 50)
+    row["momentum"] = 1.0
+    if k == n - 1:
+        row["coming_energy"] = 0.01 / images * 0.5 * mass * v0**2 if verdict == "undecided" or note else 0.0
+        row["missed_mass"] = 0.12 / images * mass if note else 0.0
+        row["missed_reach"] = 0.04
+        if verdict == "fails":
+            row.update(hole_found=1, hole_diameter=5e-3, apart_mass=1e-6, spall_mass=1e-6, apart_number=20)
+    walls.append([row[name] for name in WALL])
+book = [0.0] * BOOK
+book[7] = book[8] = book[18] = book[26] = 1.0
+book[11] = book[25] = 1.0  # momentum
+
+
+def block(step):
+    return f"{step} {n}\n" + "".join(f"{k} {' '.join(map(str, row))}\n" for k, row in enumerate(walls, 1))
+
+
+for name in ("walls.dat", "pieces.dat"):
+    with open(name, "a") as out:
+        out.write("# as fix ave/time\n" + block(0) + block(100))
+with open("history.dat", "a") as out:
+    for step, us in ((0, 0.0), (100, until)):
+        out.write(f"{step} {us} {1e-6 * us} {' '.join(map(str, book))}\n")
+pathlib.Path(to).write_text("")
+ranks = int(sys.argv[2])
+pathlib.Path(sys.argv[sys.argv.index("-log") + 1]).write_text(
+    f"LAMMPS (4 Feb 2025)\nLoop time of {core / ranks} on {ranks} procs for 100 steps with {particles} atoms\nTotal wall time: 0:00:01\n")

@@ -1,11 +1,12 @@
 """For tests of python3 -m hvi shield, limit and sweep: a case, a folder with it and a fake of LAMMPS, the command."""
 
+import math
 import signal
 import sys
 import time
 
 import pytest
-from hvi import cli
+from hvi import cli, shield_chain
 
 CASE = """# a shield
 projectile:
@@ -29,6 +30,7 @@ def case_folder(tmp_path, root, monkeypatch):
     mpirun.write_text(f"#!/bin/sh\nexec '{sys.executable}' '{root}/tests/fake_lammps.py' \"$@\"\n")
     mpirun.chmod(0o755)
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(shield_chain, "LEG", math.inf)  # one call of LAMMPS for a run
     monkeypatch.setenv("HVI_LMP", str(mpirun))
     monkeypatch.setenv("PYTHONPATH", str(root / "python"))
     return tmp_path

@@ -35,7 +35,7 @@ ROOT = BENCH.parent
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests")]
 
 from hard import Stopped, executor  # noqa: E402
-from hvi import runs, shield_mesh, shots  # noqa: E402
+from hvi import geometry, runs, shield_mesh, shots  # noqa: E402
 from hvi.errors import HVIError  # noqa: E402
 
 OPEN = 1e-3  # of the initial energy: a ledger that is farther off at the end is a failure; during the impact of few particles it swings by more
@@ -96,7 +96,7 @@ def variables_of(case, method, settings):
 def parts(case, name, variables, source):
     """[(name, variables, reference), ...] of the runs that are one point together"""
     if "shots" in case:
-        return of_shots(case["shots"], dict(variables), source)
+        return of_shots(case["shots"], dict(variables))
     if "table" in case:
         return from_table(case["table"], variables)
     found, reference = [], case.get("targets", {}).get(name, case.get("reference", {}))
@@ -110,10 +110,10 @@ def parts(case, name, variables, source):
     return found
 
 
-def of_shots(words, variables, source):
+def of_shots(words, variables):
     """published shots at the spacings of their study over the setting finer; the reference is the verdict that was seen"""
     finer = float(variables.pop("finer", 1.0))
-    study = shots.Study(BENCH / words["study"], source)
+    study = shots.Study(BENCH / words["study"])
     study.rule = {name: value * (1.0 if name == "ratio" else finer) for name, value in study.rule.items()}
     named = shots.named(study.shots, words["names"], words["study"])
     return [(shot.name, {**study.case(shot).variables(0, study.shifts[0]), **variables}, {"verdict": shots.OBSERVED[shot.observed]})
@@ -133,7 +133,7 @@ def from_table(words, variables):
 def make_mesh(path, variables, words):
     """the wall in elements of n particles of the spacing each way; Cannot if the layers of particles are no whole elements"""
     dx = float(variables["dx"])
-    layers = shield_mesh.layers(1e3 * words["thickness"], dx)
+    layers = geometry.layers(1e3 * words["thickness"], dx)
     n = shield_mesh.per_edge(layers)
     if n is None:
         raise Cannot(f"{layers} layers of particles (spacing {dx:g} mm) are no whole elements of 2 or 3 each way")

@@ -44,9 +44,7 @@ def evenly(first, last, n):
 
 
 def of_case(args):
-    from . import shield as shields
-
-    case = cases.read(args.case, shields.source(args))
+    case = cases.read(args.case, model=False)
     shield = ble.from_case(case)
     names = chosen(ble.equations(shield), args.equation)
     speeds = evenly(*args.speeds)

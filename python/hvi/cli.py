@@ -7,6 +7,7 @@ import importlib
 import os
 import pathlib
 import sys
+import textwrap
 import warnings
 
 from . import commands
@@ -22,7 +23,6 @@ velocity maps, side views."""
 EXAMPLES = {
     "shield": """  python3 -m hvi shield emi.yaml --dry-run
   python3 -m hvi shield emi.yaml --jobs 2 --ranks 1
-  python3 -m hvi shield emi.yaml --straight --jobs 2 --ranks 1
   python3 -m hvi shield emi.yaml --write emi""",
     "judge": """  python3 -m hvi judge emi/dx-0.267_shift-0.0""",
     "limit": """  python3 -m hvi limit emi.yaml --on D
@@ -211,11 +211,21 @@ def _runs(parser):
 
 def _case(parser):
     parser.add_argument("case", metavar="CASE.yaml", help="projectile, speed, angle, walls, spacings")
-    _input(parser)
+    usual = parser.format_help
+    parser.format_help = lambda: usual() + "\n" + _keys()
 
 
-def _input(parser):
-    parser.add_argument("--input", metavar="FILE", help="LAMMPS input (default: examples/whipple-shield/in.whipple of the source tree)")
+def _keys():
+    """what a case may say"""
+    from . import case, tables
+
+    rows = [(name, default, line) for name, default, text in case.rows_of_keys() for name, default, line in _wrapped(name, default, text)]
+    return "keys of CASE.yaml:\n" + tables.text(("key", "default", "what it is"), rows, left=True)
+
+
+def _wrapped(name, default, text):
+    for k, line in enumerate(textwrap.wrap(text, 80) or [""]):
+        yield (name, default, line) if k == 0 else ("", "", line)
 
 
 def _speeds(text):
@@ -252,7 +262,6 @@ def options():
     sub = command("shield", "does the wall hold? A case at several spacings and shifts of the lattice, one verdict; exit status 0 holds, "
                   "3 fails, 4 undecided")
     _case(sub)
-    sub.add_argument("--straight", action="store_true", help="run in.shield, an input that is written for the case, in place of in.whipple")
     sub.add_argument("--write", type=pathlib.Path, metavar="DIR", help="only write in.shield of all runs, complete folders for LAMMPS alone, and say how to run them")
     _runs(sub)
 
@@ -269,8 +278,7 @@ def options():
     _runs(sub)
 
     sub = command("ble", "ballistic-limit equations: critical diameter over speed for the shield of a case, or what they say of published shots")
-    sub.add_argument("case", metavar="CASE.yaml", nargs="?", help="as of hvi shield")
-    _input(sub)
+    sub.add_argument("case", metavar="CASE.yaml", nargs="?", help="as of hvi shield; spacings_mm are not needed")
     sub.add_argument("--shots", metavar="FILE.csv", help="instead of a case: a list of double-wall shots, as of hvi shots; how often each equation is right")
     sub.add_argument("--speeds", type=_speeds, default=(1.0, 15.0, 15), metavar="A:B:N", help="first, last, number of speeds, km/s (default: 1:15:15)")
     sub.add_argument("--equation", action="append", metavar="NAME", help="only this equation; repeat (default: all)")
@@ -282,11 +290,11 @@ def options():
     sub.add_argument("--full", action="store_true", help="the study's full size; runs go to DIR/NAME-full")
     _runs(sub)
 
-    sub = command("report", "one HTML file of a run of in.whipple, or of the folder of hvi shield: verdict, reasons, pictures, all numbers")
+    sub = command("report", "one HTML file of the folder of hvi shield, or of one of its runs: verdict, reasons, pictures, all numbers")
     sub.add_argument("folder", metavar="DIR", help="folder with verdict.yaml (runs/CASE of hvi shield), or with result.yaml")
     sub.add_argument("--out", metavar="FILE.html", help="default: report.html in DIR")
 
-    sub = command("movie", "an animated GIF of a run of in.whipple from the side; frames: -var film, or settings: {film: 1} of a case")
+    sub = command("movie", "an animated GIF of a run of a shield from the side; frames: settings: {film: 1} of a case")
     sub.add_argument("folder", metavar="DIR", help="as of hvi report: of several runs the finest")
     sub.add_argument("--out", metavar="FILE.gif", help="default: movie.gif in DIR")
     sub.add_argument("--color", choices=("body", "speed"), default="body", help="of the particles (default: body)")
@@ -301,7 +309,6 @@ def options():
     sub.add_argument("study", metavar="FILE", help="study (YAML), or a list of shots (CSV) that is run as examples/whipple-shield/shots/all.yaml says")
     sub.add_argument("--only", nargs="+", metavar="SHOT", help="only these shots of it")
     sub.add_argument("--equations", action="store_true", help="the equations alone, nothing is run")
-    sub.add_argument("--input", metavar="FILE", help="LAMMPS input (default: examples/whipple-shield/in.whipple of the source tree)")
     _runs(sub)
 
     sub = command("info", "frames and columns of a dump")

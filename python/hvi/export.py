@@ -11,7 +11,7 @@ from .dump import Dump
 from .errors import HVIError
 from .shield_run import runs_of
 
-PRESSURES, SPECIFIC = {"p", "vm"}, {"e"}  # columns of compute hvi/atom in in.whipple, as in SI
+PRESSURES, SPECIFIC = {"p", "vm"}, {"e"}  # columns of compute hvi/atom in in.shield, as in SI
 LEFT_OUT = {"x", "y", "z", "xu", "yu", "zu", "xs", "ys", "zs", "xsu", "ysu", "zsu", "ix", "iy", "iz", "vx", "vy", "vz"}
 QUANTITY = {"mass": "mass", "fragsize": "distance", "h": "distance"}
 

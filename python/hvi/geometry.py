@@ -1,16 +1,12 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""Where everything of a case is, in meters and microseconds: walls, what the cloud can strike, the box, the end.
-
-The same as examples/whipple-shield/in.whipple takes, where a case does not say otherwise; see doc/src/Howto_shield.rst.
-"""
+"""Where everything of a case is, in meters and microseconds: walls, what the cloud can strike, the box, the end; see doc/src/Howto_shield.rst."""
 
 import dataclasses
 import math
 
-
 OPEN = 0.75  # a cloud opens by 37 degrees to all sides of the normal and of the flight,
 WIDE = 6  # from a place that many radii of the projectile wide to all sides
-SOUND = 5000.0  # m/s
+SOUND = 5.0  # km/s
 MARGIN = 0.005  # m, of the box beside walls
 BACK = 20.0  # mm in front of wall 1 at least
 
@@ -50,29 +46,63 @@ class Geometry:
     widest: float
 
 
+def layers(thickness, dx):
+    """of particles no more than dx apart"""
+    return math.ceil(thickness / dx - 0.01)
+
+
+def layers_of(case, k, which):
+    """of wall k, from 1 on, at the case's spacing number which"""
+    if "layers" in case.settings:
+        return case.settings["layers"][k - 1]
+    wall = case.walls[k - 1]
+    return layers(wall.thickness_mm, (wall.spacings_mm or case.spacings_mm)[which])
+
+
+def reaches(case):
+    """[radius of wall k that can be struck, mm, ...]"""
+    faces, R, angle = case.faces(), case.projectile.radius_mm, math.radians(case.angle_deg)
+    ways = (max(3 * (rear - front), WIDE * R) if k == 0 else OPEN * (front - faces[0][1]) + WIDE * R for k, (front, rear) in enumerate(faces))
+    return [way / math.cos(angle) + 0.5 * front * math.tan(angle) for way, (front, _) in zip(ways, faces)]
+
+
+def least_radius(case, rear):
+    """of a wall, mm, that the projectile does not strike at its edge"""
+    angle = math.radians(case.angle_deg)
+    return 0.5 * rear * math.tan(angle) + 1.5 * case.projectile.radius_mm / math.cos(angle)
+
+
+def least_time(case):
+    """us, before which nothing can have struck the last wall and crossed it"""
+    front, rear = case.faces()[-1]
+    return (front + 3 * case.projectile.radius_mm) / (case.speed_km_s * math.cos(math.radians(case.angle_deg))) + (rear - front) / SOUND
+
+
+def may_be_quarter(case):
+    return not case.angle_deg and case.projectile.symmetric
+
+
+def is_quarter(case):
+    return case.setting("quarter") != "no" and may_be_quarter(case)
+
+
 def of(case, which):
     """The Geometry of a case at its spacing number which"""
-    a, R, v0 = 1e-3 * case.spacings_mm[which], 0.5e-3 * case.diameter_mm, 1e3 * case.speed_km_s
-    angle = math.radians(case.angle_deg)
+    a, R, v0 = 1e-3 * case.spacings_mm[which], 1e-3 * case.projectile.radius_mm, 1e3 * case.speed_km_s
+    angle, quarter = math.radians(case.angle_deg), is_quarter(case)
     cosine, tangent = math.cos(angle), math.tan(angle)
-    quarter = {"auto": not case.angle_deg, "yes": True, "no": False}[str(case.settings.get("quarter", "auto"))]
-    walls, xlo, xhi, W, rear1 = [], 0.0, 0.0, 0.0, None
-    for k, ((front, rear), wall) in enumerate(zip(case.faces(), case.walls)):
-        front, th = 1e-3 * front, 1e-3 * wall.thickness_mm
-        dx = 1e-3 * (wall.spacings_mm or case.spacings_mm)[which]
-        layers = int(case.settings["layers"][k]) if "layers" in case.settings else math.ceil(th / dx - 0.01)
-        opens = max(3 * th, WIDE * R) if k == 0 else OPEN * (front - rear1) + WIDE * R
-        rear1 = front + th if k == 0 else rear1
-        opens = opens / cosine + 0.5 * front * tangent
-        radius = 1e-3 * wall.radius_mm if wall.radius_mm else opens
+    walls, xlo, xhi, W = [], 0.0, 0.0, 0.0
+    for k, ((front, _), wall, reach) in enumerate(zip(case.faces(), case.walls, reaches(case)), 1):
+        front, th, n = 1e-3 * front, 1e-3 * wall.thickness_mm, layers_of(case, k, which)
+        radius = 1e-3 * (wall.radius_mm or reach)
         middle = (0.5 * front + R) * tangent
-        walls.append(WallGeometry(front, front + th, th, dx, layers, th / layers, radius, middle, (front + 0.5 * th + R) * tangent))
-        opens = max(radius, opens)
+        walls.append(WallGeometry(front, front + th, th, 1e-3 * (wall.spacings_mm or case.spacings_mm)[which], n, th / n, radius, middle, (front + 0.5 * th + R) * tangent))
+        opens = max(radius, 1e-3 * reach)
         W, xlo, xhi = max(W, opens), min(xlo, middle - opens), max(xhi, middle + opens)
     last = walls[-1]
-    arrival, passage, crossing = 1e6 * (last.front + R) / (v0 * cosine), 2e6 * R / (v0 * cosine), 1e6 * last.thickness / SOUND
-    tstop = float(case.settings.get("tstop", 0)) or float(f"{3 * arrival + 4 * passage + 10 * crossing:.4g}")
-    back = float(case.settings.get("back", 0)) or round(max(500 * last.front, BACK), 1)
+    arrival, passage, crossing = 1e6 * (last.front + R) / (v0 * cosine), 2e6 * R / (v0 * cosine), 1e3 * last.thickness / SOUND
+    tstop = case.setting("tstop") or float(f"{3 * arrival + 4 * passage + 10 * crossing:.4g}")
+    back = case.setting("back") or round(max(500 * last.front, BACK), 1)
     widest = max([a, *(max(w.spacing, w.dz) for w in walls)])
     box = (0.0 if quarter else xlo - MARGIN, xhi + MARGIN, 0.0 if quarter else -(W + MARGIN), W + MARGIN, -2 * R - 1e-3 * back)
     return Geometry(a, R, tuple(walls), tstop, arrival, passage, crossing, box, quarter, 1.5 * widest, widest)

@@ -74,7 +74,7 @@ class Search:
 def quantity(case, on):
     """(key, index of the wall or None, unit) of what --on says"""
     if on in ("D", "speed"):
-        return ("diameter_mm", None, "mm") if on == "D" else ("speed_km_s", None, "km/s")
+        return ("size_mm", None, "mm") if on == "D" else ("speed_km_s", None, "km/s")
     found = re.fullmatch(r"thickness(\d+)", on)
     if not found or not 1 <= int(found.group(1)) <= len(case.walls):
         raise HVIError(f"--on must be D, speed, or {' or '.join(f'thickness{k + 1}' for k in range(len(case.walls)))}, not {on}")
@@ -82,10 +82,12 @@ def quantity(case, on):
 
 
 def value_of(case, key, wall):
-    return getattr(case if wall is None else case.walls[wall], key)
+    return getattr(case.projectile if key == "size_mm" else case if wall is None else case.walls[wall], key)
 
 
 def with_value(case, key, wall, value):
+    if key == "size_mm":  # all lengths of the projectile alike
+        return dataclasses.replace(case, projectile=case.projectile.scaled(value))
     if wall is None:
         return dataclasses.replace(case, **{key: value})
     changed = dataclasses.replace(case.walls[wall], **{key: value})
@@ -95,8 +97,8 @@ def with_value(case, key, wall, value):
 class Limit:
     """The searches of all spacings and shifts, and the runs that they ask for."""
 
-    def __init__(self, case, source, folder, on, low=None, high=None, step=None):
-        self.case, self.source, self.folder, self.on = case, source, folder, on
+    def __init__(self, case, folder, on, low=None, high=None, step=None):
+        self.case, self.folder, self.on = case, folder, on
         self.key, self.wall, self.unit = quantity(case, on)
         middle = value_of(case, self.key, self.wall)
         low, high, step = low or 0.5 * middle, high or 2 * middle, step or 0.05 * middle
@@ -122,7 +124,7 @@ class Limit:
         for place in self.searches[member].next():
             value = self.values[place]
             name = f"{shield.member_name(self.case, member)}_{self.on}-{value:g}"
-            job = shield.job(with_value(self.case, self.key, self.wall, value), self.source, member, self.folder / name, name, remove=["cloud*.dump", "film.*.dump"])
+            job = shield.job(with_value(self.case, self.key, self.wall, value), member, self.folder / name, name, remove=["cloud*.dump", "film.*.dump"])
             self.jobs[job.name] = member, place, job
             found.append(job)
         search, (which, shift) = self.searches[member], member
@@ -168,7 +170,7 @@ class Limit:
     def answer(self):
         """The mapping of limit.yaml; limit is None where it is not in the range, reasons say why."""
         borders = {member: (s.borders()[0], s.borders()[3]) for member, s in self.searches.items()}
-        result = {"on": f"{self.key}" + ("" if self.wall is None else f" of wall {self.wall + 1}"), "unit": self.unit, "limit": None}
+        result = {"on": f"{'diameter_mm' if self.key == 'size_mm' else self.key}" + ("" if self.wall is None else f" of wall {self.wall + 1}"), "unit": self.unit, "limit": None}
         outside = [f"{shield.member_name(self.case, member)}: " + ", ".join(f"{s.said[place]} at {self.values[place]:g} {self.unit}" for place in sorted(s.said))
                    for member, s in self.searches.items() if None in borders[member]]
         if outside:
@@ -190,9 +192,8 @@ class Limit:
 
 
 def main(args):
-    source = shield.source(args)
-    case = cases.read(args.case, source)
-    limit = Limit(case, source, args.runs.resolve() / case.name / f"limit-{args.on}", args.on, args.from_, args.to_, args.step_)
+    case = cases.read(args.case)
+    limit = Limit(case, args.runs.resolve() / case.name / f"limit-{args.on}", args.on, args.from_, args.to_, args.step_)
     runner = runs.Runner(args)
     first, values = limit.first(), limit.values
     most = len(shield.members(case)) * 2 * (1 + math.ceil(math.log2(len(values))))

@@ -1,5 +1,5 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""python3 -m hvi movie: all frames of a run of in.whipple from the side, as an animated GIF."""
+"""python3 -m hvi movie: all frames of a run of hvi shield from the side, as an animated GIF."""
 
 import io
 import pathlib
@@ -18,8 +18,7 @@ def frames(run, color="body", progress=progress.silent):
 
     dump = run.frames()
     if len(dump) < 3:
-        raise HVIError(f"{run.folder} has {len(dump)} frame{'s' * (len(dump) > 1)}, too few for a movie: run it with -var film 1 (us between frames), or settings: {{film: 1}} "
-                       "in the case")
+        raise HVIError(f"{run.folder} has {len(dump)} frame{'s' * (len(dump) > 1)}, too few for a movie: give the case settings: {{film: 1}}, us between frames")
     window, found = pictures.side_window(run), []
     with progress(len(dump), "frames") as bar:
         for frame in dump:
@@ -48,5 +47,5 @@ def main(args):
         images[0].save(out, format="GIF", save_all=True, append_images=images[1:], duration=[pause] * (len(images) - 1) + [STAY * pause], loop=0, optimize=False)
     except OSError as problem:
         raise HVIError(f"cannot write {out}: {problem.strerror or problem}") from None
-    print(f"movie: {out} ({len(images)} frames, {run.name}; the half behind y = 0, spacing {float(run.settings['dx']):g} mm)")
+    print(f"movie: {out} ({len(images)} frames, {run.name}; the half behind y = 0, spacing {run.dx:g} mm)")
     return 0

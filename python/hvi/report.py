@@ -16,6 +16,7 @@ from . import ble, progress, report_pictures as pictures, runs, shield, tables
 from . import page as pages
 from .errors import HVIError
 from .page import Html, items, join, section, table, tag
+from .shield_input import BEGIN
 from .shield_run import runs_of, texts
 from .version import version
 
@@ -60,28 +61,26 @@ class Report:
         self.said, self.runs = runs_of(folder)
         self.run = self.runs[0]
         self.name = pathlib.Path(folder).resolve().name
-        self.case = self.run.case()
+        self.case = self.run.case
         self.verdict, self.reasons, self.notes = self._verdict()
 
     def _verdict(self):
         found = self.said or self.run.result
         if found.get("verdict") not in MARKS:
             raise HVIError(f"{self.name}: the verdict must be {', '.join(MARKS)}, not {found.get('verdict')}")
-        said = found["verdict"], *(texts(found, key) for key in ("reasons", "notes"))
-        run = self.run
-        return said if self.said else shield.judged(*said, *shield.lacking(str(run.settings["solid"]), run.materials[0], run.materials[1:]))
+        return found["verdict"], *(texts(found, key) for key in ("reasons", "notes"))
 
     # ------------------------------------------------------------------ words and numbers
     def shot(self):
         case = self.case
         walls = " + ".join(f"{wall.thickness_mm:g} mm {stem(wall.material)}" for wall in case.walls)
-        return (f"{case.diameter_mm:g} mm {stem(case.material)} sphere at {case.speed_km_s:g} km/s, {case.angle_deg:g} degrees from the normal, "
+        return (f"{case.projectile}, {stem(case.material)}, at {case.speed_km_s:g} km/s, {case.angle_deg:g} degrees from the normal, "
                 f"on {walls}")
 
     def shot_table(self):
         """the case, as a table"""
         case = self.case
-        rows = [("projectile", f"sphere of {case.diameter_mm:g} mm, {stem(case.material)}"), ("speed", f"{case.speed_km_s:g} km/s"), ("angle", f"{case.angle_deg:g} degrees from the normal")]
+        rows = [("projectile", f"{case.projectile}, {stem(case.material)}"), ("speed", f"{case.speed_km_s:g} km/s"), ("angle", f"{case.angle_deg:g} degrees from the normal")]
         for k, wall in enumerate(case.walls, 1):
             rows += [("gap", f"{wall.gap_mm:g} mm")] if wall.gap_mm else []
             rows.append((f"wall {k}", f"{wall.thickness_mm:g} mm {stem(wall.material)}, of radius {self.run.of_wall(k, 'radius_mm'):g} mm"))
@@ -109,13 +108,13 @@ class Report:
         return tag("div", *(tag("div", tag("b", value), tag("span", text), class_="tile") for value, text in found), class_="tiles")
 
     def summary(self, hero):
-        which = (f"Pictures and numbers below are of the finest run, {self.run.name} (spacing {self.run.settings['dx']} mm), unless they say otherwise."
+        which = (f"Pictures and numbers below are of the finest run, {self.run.name} (spacing {self.run.dx} mm), unless they say otherwise."
                  if len(self.runs) > 1 else "One run: nothing says how far the answer hangs on the spacing and the shift of the lattice. python3 -m hvi shield runs several.")
         left = [tag("p", word(self.verdict), " ", MEANS[self.verdict]), tag("h3", "Reasons"), items(self.reasons)]
         left += [tag("h3", "Notes"), items(self.notes)] if self.notes else []
         further = (self.said or {}).get("next_finer")
         if further:
-            case = dataclasses.replace(self.case, shifts=tuple({float(run.settings["shift"]) for run in self.runs}))
+            case = dataclasses.replace(self.case, shifts=tuple({run.case.shifts[0] for run in self.runs}))
             left.append(tag("p", shield.said_of_finer(case, further)))
         outside = [f"this shield has {', '.join(self.case.not_modelled)}, which is not modelled"] if self.case.not_modelled else []
         left += [tag("h3", "What the verdict cannot know"), items([*outside, *UNKNOWN]), tag("p", which, class_="note")]
@@ -152,22 +151,22 @@ class Report:
         strength = "" if self.said else " Of the strength of the last wall a run knows nothing: it is that of the table for this material, whatever yield_ksi says in a case."
         rows = [(f"{name}: {titles[name]}" if name in titles else name, of["critical_diameter_mm"], of["d_over_critical"], word(of["predicted"]), "; ".join(of["outside"]) or "-")
                 for name, of in found.items()]
-        return section("Ballistic-limit equations", tag("p", f"What the equations of engineers say of a projectile of {self.case.diameter_mm:g} mm, beside the simulation: ", word(self.verdict)),
+        return section("Ballistic-limit equations", tag("p", f"What the equations of engineers say of a sphere of {self.case.diameter_mm:.4g} mm, beside the simulation: ", word(self.verdict)),
                         table(("equation", "critical diameter, mm", "projectile over it", "says", "outside of its range of validity"), rows), tag("p", f"Sources in brackets: Howto_ble.{strength}", class_="note"))
 
     def all_runs(self):
         keys = ["verdict", *(f"hole{k}_diameter_mm" for k in range(1, self.run.walls + 1)), f"wall{self.run.walls}_spall_mass_mg", f"wall{self.run.walls}_apart_mass_mg", "particles", "steps",
                 "time_us", "core_s"]
-        rows = [(run.name, run.settings["dx"], run.settings["shift"], word(run.result["verdict"]), *("unknown" if (value := run.result.get(key, "-")) != value else value for key in keys[1:])) for run in self.runs]
+        rows = [(run.name, run.dx, run.case.shifts[0], word(run.result["verdict"]), *("unknown" if (value := run.result.get(key, "-")) != value else value for key in keys[1:])) for run in self.runs]
         return table(("run", "spacing mm", "shift", "verdict", *(key.replace("_diameter_mm", " mm").replace("_mass_mg", " mg").replace("_", " ") for key in keys[1:])), rows, class_="short")
 
     def numerics(self):
         run, plan = self.run, self.run.plan
-        rows = [("projectile", stem(run.materials[0]), f"{float(run.settings['D']):g} (diameter)", float(run.settings["dx"]), f"{plan['projectile_across']:g} across", int(plan["projectile_particles"]))]
+        rows = [("projectile", stem(run.materials[0]), str(self.case.projectile), run.dx, f"{plan['projectile_across']:g} across", int(plan["projectile_particles"]))]
         rows += [(f"wall {k}", stem(run.materials[k]), f"{run.of_wall(k, 'thickness_mm'):g}", float(run.of_wall(k, "spacing_mm")), f"{run.of_wall(k, 'layers'):g} layers",
                   int(run.of_wall(k, "particles"))) for k in range(1, run.walls + 1)]
         model = "a quarter: mirror planes at x = 0 and y = 0; the pictures show the whole" if str(run.settings["quarter"]) == "yes" else "the whole"
-        ledger = [(text, str(run.result[key]), should) for key, text, should in (*LEDGER, *(ELEMENTS if run.case().method() else ())) if key in run.result]
+        ledger = [(text, str(run.result[key]), should) for key, text, should in (*LEDGER, *(ELEMENTS if run.case.method() else ())) if key in run.result]
         several = [tag("h3", "All runs"), self.all_runs()] if len(self.runs) > 1 else []
         return section("Resolution and ledger", table(("body", "material", "thickness mm", "spacing mm", "particles through it", "particles"), rows, f"Modelled is {model}. "
                        "A wall that decides needs three layers."), tag("h3", "Ledger"), table(("what", "value", "should be"), ledger), *several)
@@ -191,24 +190,20 @@ class Report:
         return section("Materials and their sources", table(("material", "of", "laws in the file (which of them are used: settings, solid)"), rows), *parts)
 
     def settings(self):
-        given = self.run.job.get("variables", {})
-        every = {**self.run.settings, **{name: runs.cell(value) for name, value in given.items()}}
-        rows = [(name, Html(tag("span", str(value))), "given" if name in given else "default or derived") for name, value in sorted(every.items())]
-        return section("Settings", table(("variable of in.whipple", "value", ""), rows, f"All variables of {self.run.name}; what they mean: Howto_shield."))
+        given = self.case.settings
+        rows = [(name, Html(tag("span", runs.cell(value))), "given" if name in given else "default or derived") for name, value in sorted(self.run.settings.items())]
+        return section("Settings", table(("setting", "value", ""), rows, f"All of {self.run.name}; what they mean: Howto_front."))
 
     def repeat(self):
         result = self.run.result
-        single = shlex.join(["mpirun", "-np", str(result["ranks"]), "lmp", "-in", "in.whipple",
-                             *(w for name, values in self.run.words().items() for w in ("-var", name, *values))])
+        single = shlex.join(["mpirun", "-np", str(result["ranks"]), "lmp", "-in", BEGIN]) + " && python3 -m hvi judge ."
         parts = []
         if self.said and self.said.get("command"):
             parts += [tag("p", "All of it, as it was typed:"), tag("pre", self.said["command"], class_="wrap")]
         case = self.run.folder.parent / "case.yaml"
         if self.said and case.is_file():
             parts += [tag("p", "The case:"), tag("pre", case.read_text(errors="replace"), class_="wrap")]
-        parts += [tag("p", f"The run {self.run.name} alone, from examples/whipple-shield with LAMMPS_POTENTIALS set to the folder potentials:"), tag("pre", single, class_="wrap")]
-        if not self.run.job.get("variables"):
-            parts.append(tag("p", "It was run by hand: this is what plan.yaml says, which does not have data files of walls (variable plate) and places of probes.", class_="note"))
+        parts += [tag("p", f"The run {self.run.name} alone, in its folder, which has all that it needs:"), tag("pre", single, class_="wrap")]
         rows = [("LAMMPS", result["lammps_version"]), ("USER-HVI that ran", result["package_version"]), ("lammps-hvi that made this report", version()),
                 ("Python, NumPy, matplotlib", f"{platform.python_version()}, {np.__version__}, {matplotlib.__version__}")]
         rows = [(name, str(value)) for name, value in rows]
@@ -221,7 +216,7 @@ class Report:
 
     def scale_note(self):
         walls = ", ".join(f"{float(self.run.of_wall(k, 'spacing_mm')):g} mm in wall {k}" for k in range(1, self.run.walls + 1))
-        return f"Each particle is a sphere of its volume; spacing {float(self.run.settings['dx']):g} mm in the projectile, {walls}."
+        return f"Each particle is a sphere of its volume; spacing {self.run.dx:g} mm in the projectile, {walls}."
 
     def images(self, bar):
         """(hero, sections) with all pictures"""

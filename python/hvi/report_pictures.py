@@ -1,5 +1,5 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""Pictures of a run of in.whipple: lit particles of the whole shield, with scales. Each function returns a matplotlib Figure."""
+"""Pictures of a run of a shield: lit particles of the whole shield, with scales. Each function returns a matplotlib Figure."""
 
 import numpy as np
 from matplotlib import colormaps, rc_context
@@ -74,7 +74,7 @@ def speeds(scene, top):
 # ---------------------------------------------------------------------- side view
 def side_window(run):
     """left, right, low, high of all side views, mm: the walls, and as much behind the last as the half of the shield is deep"""
-    R, deep = 0.5 * float(run.settings["D"]), run.faces(run.walls)[1]
+    R, deep = run.R, run.faces(run.walls)[1]
     ends = [(run.of_wall(k, "middle_mm") - run.of_wall(k, "radius_mm"), run.of_wall(k, "middle_mm") + run.of_wall(k, "radius_mm")) for k in range(1, run.walls + 1)]
     low, high = min(e[0] for e in ends), max(e[1] for e in ends)
     span = max(0.75 * deep, 0.35 * (high - low))
@@ -101,7 +101,7 @@ def side(run, scene, window, colors=None, bar=None):
 
 
 def top_speed(run):
-    return 1e-3 * float(run.settings["v0"])
+    return run.case.speed_km_s
 
 
 def velocities(run, scene, window, bar=True):
@@ -134,7 +134,7 @@ def oblique(run, scene, width=6.4):
 
 def _axis_at(run, z):
     """x of the shot at z"""
-    return np.tan(np.radians(float(run.settings["angle"]))) * (z + 0.5 * float(run.settings["D"]))
+    return np.tan(np.radians(run.case.angle_deg)) * (z + run.R)
 
 
 def _round(length):
@@ -171,7 +171,7 @@ def body_of(run, scene, k):
     from . import fragments
 
     mine = np.flatnonzero(scene.body == k)
-    reach = 1.5e-3 * max(float(run.settings["dx"]), *(run.of_wall(j, "spacing_mm") for j in range(1, run.walls + 1)))
+    reach = 1.5e-3 * max(run.dx, *(run.of_wall(j, "spacing_mm") for j in range(1, run.walls + 1)))
     found = fragments.find(scene.whole.select(scene.body == k), distance=reach, failed=fragments.FAILED)
     largest = np.argmax(found.table["mass"])
     return mine[found.row == largest]

@@ -4,25 +4,16 @@
 import itertools
 import math
 import pathlib
-import re
 import shlex
 import shutil
 
 import yaml
 
 from . import case as cases
-from . import ble, runs, shield_chain, shield_mesh, tables
+from . import ble, geometry, runs, shield_chain, shield_mesh, tables
 from .errors import HVIError
 
-INPUT = runs.ROOT / "examples" / "whipple-shield" / "in.whipple"
 STATUS = {"holds": 0, "fails": 3, "undecided": 4}  # exit status of each verdict
-
-
-def source(args):
-    path = pathlib.Path(args.input or INPUT)
-    if not path.is_file():
-        raise HVIError(f"{path} is not there: run from the source tree, or give --input FILE")
-    return runs.Input(path)
 
 
 def members(case):
@@ -34,21 +25,9 @@ def member_name(case, member):
     return runs.job_name({"dx": case.spacings_mm[member[0]], "shift": member[1]})
 
 
-def job(case, source, member, folder, name=None, remove=()):
+def job(case, member, folder, name=None, remove=()):
     weight = (case.spacings_mm[0] / case.spacings_mm[member[0]]) ** 4  # particles and steps
-    return runs.Job(source, name or member_name(case, member), case.variables(*member), folder, weight=weight, remove=remove,
-                    restart="shield.state" if "resume" in source.known else None, made=meshes(case, member[0]))
-
-
-def straight_job(case, source, member, folder, name=None, remove=()):
-    """the same of in.shield, written for the case, in place of in.whipple"""
-    weight = (case.spacings_mm[0] / case.spacings_mm[member[0]]) ** 4
     return shield_chain.Job(case, *member, name or member_name(case, member), folder, weight=weight, remove=remove)
-
-
-def meshes(case, which):
-    """what a run of spacing number which finds in its folder, as runs.Job takes it"""
-    return shield_mesh.write, shield_mesh.of_case(case, which)
 
 
 def verdict(job):
@@ -59,42 +38,7 @@ def verdict(job):
     said = result.get("verdict")
     if said not in STATUS:
         raise HVIError(f"{job.folder / 'result.yaml'}: no verdict, holds, fails or undecided, but {said}")
-    lists = [result.get(key) or [] for key in ("reasons", "notes")]
-    reasons, notes = ([as_key(str(text)) for text in (found if isinstance(found, list) else [found])] for found in lists)
-    return judged(said, reasons, notes, *whole_in_tension(job))
-
-
-def judged(said, reasons, notes, walls, ball):
-    """(verdict, reasons, notes) with what whole_in_tension() says, which in.whipple says by itself where LAMMPS has read the files"""
-    known = {*reasons, *notes}
-    more, doubt = ([text for text in texts if text not in known] for texts in (walls, ball))
-    if said == "fails":
-        return said, reasons, notes + more + doubt
-    return "undecided" if walls else said, more + reasons, notes + doubt
-
-
-def whole_in_tension(job):
-    """(texts on walls, on the projectile) whose material file has nothing that lets them fail under tension"""
-    given = re.search(r'^\s*variable\s+solid\s+index\s+"([^"\n]*)"', job.input.texts[job.input.name], re.M)
-    solid = job.variables.get("solid") or (given[1] if given else None)
-    return lacking(solid, job.variables["material_p"], job.variables["material"]) if solid else ([], [])
-
-
-def lacking(solid, ball, walls):
-    """the same of words of fix hvi/johnson-cook and of material files"""
-    text = "{} is of {}, whose file has no law of spall ({}), so it does not fail in tension"
-    return ([text.format(f"wall {k}", name, solid) for k, name in enumerate(walls, 1) if not cases.tears(name, solid)],
-            [] if cases.tears(ball, solid) else [text.format("the projectile", ball, solid)])
-
-
-def as_key(text):
-    """remedies of in.whipple, -var NAME VALUE, as keys of the case"""
-    value = r"(\d+(?:\.\d+)?)"
-    for old, new in ((r"a mesh that holds particles farther out \(hvi mesh --hold\)", "a larger hold_mm"), (r"core of particles \(hvi mesh --core\)", "core_mm"),
-                     (rf"-var dx {value}", r"spacings_mm of \1"), (r"-var dx\b", "spacings_mm"),
-                     (rf"-var radius\d? {value}", r"radius_mm of \1"), (rf"-var (\w+) {value}", r"settings: {\1: \2}"), (r"-var (\w+)", r"settings: \1")):
-        text = re.sub(old, new, text)
-    return text
+    return said, *(list(result.get(key) or []) for key in ("reasons", "notes"))
 
 
 def decide(case, said):
@@ -134,7 +78,7 @@ def finer(case, said, jobs):
 
     said: {member: (verdict, reasons, notes)}; None if no spacing can decide
     """
-    if case.not_modelled or whole_in_tension(jobs[0, case.shifts[0]])[0]:
+    if case.not_modelled or "whole" in (jobs[0, case.shifts[0]].result().get("rules") or ()):
         return None
     last, which = case.walls[-1], len(case.spacings_mm) - 1
     fine = (last.spacings_mm or case.spacings_mm)[-1]
@@ -154,7 +98,7 @@ def finer(case, said, jobs):
 
 def fits(case, ratio):
     """True if walls with elements can have them with the finest spacings of a case times ratio"""
-    return all(shield_mesh.per_edge(shield_mesh.layers(wall.thickness_mm, ratio * (wall.spacings_mm or case.spacings_mm)[-1]))
+    return all(shield_mesh.per_edge(geometry.layers(wall.thickness_mm, ratio * (wall.spacings_mm or case.spacings_mm)[-1]))
                for wall in case.walls if wall.method != "sph")
 
 
@@ -181,26 +125,23 @@ def save(path, mapping):
 
 def command(args, ranks):
     """what was asked for, as it is typed"""
-    given = (("--input", args.input), ("--runs", args.runs), ("--jobs", args.jobs), ("--ranks", ranks), ("--lmp", args.lmp))
-    straight = ["--straight"] if args.straight else []
-    return shlex.join(["python3", "-m", "hvi", "shield", str(args.case), *straight, *(str(word) for option, value in given if value for word in (option, value))])
+    given = (("--runs", args.runs), ("--jobs", args.jobs), ("--ranks", ranks), ("--lmp", args.lmp))
+    return shlex.join(["python3", "-m", "hvi", "shield", str(args.case), *(str(word) for option, value in given if value for word in (option, value))])
 
 
 def main(args):
-    straight = args.straight or args.write
-    found = shield_chain.Known() if straight else source(args)
-    case = cases.read(args.case, found)
+    case = cases.read(args.case)
     if args.write:
-        return write(case, args.case, args.write)
+        return write(case, args.write)
     folder = args.runs.resolve() / case.name
-    refuse_too_large(case, folder, args.jobs)
-    runner = runs.Runner(args)
     if args.dry_run:
-        return plan(case, found, runner, folder)
-    make = straight_job if straight else job
-    jobs = {member: make(case, found, member, folder / member_name(case, member)) for member in members(case)}
+        return plan(case, folder, args.jobs, args.ranks or 2)
+    runner = runs.Runner(args)
+    jobs = {member: job(case, member, folder / member_name(case, member)) for member in members(case)}
     (folder / "verdict.yaml").unlink(missing_ok=True)  # that of another case, or of fewer runs
     todo = [j for j in jobs.values() if j.result() is None]
+    if todo:
+        refuse_too_large(case, [shield_chain.plan_of(j.shield) for j in todo], folder, min(runner.jobs, len(todo)))
     print(f"{case.name}: {len(jobs)} runs, {len(jobs) - len(todo)} done before, {len(todo)} to run", flush=True)
     with runs.table_of(jobs.values, folder / "runs.csv"):
         failed = runner.run(todo, case.name)
@@ -214,6 +155,7 @@ def main(args):
     equations = ble.beside(ble.predictions, case)
     (folder / "case.yaml").write_text(pathlib.Path(args.case).read_text())
     save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **more, "runs": {j.name: verdict(j)[0] for j in jobs.values()},
+                                   "areal_density_kg_m2": shield_chain.plan_of(jobs[0, case.shifts[0]].shield)["areal_density_kg_m2"],
                                    "equations": equations, "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1),
                                    "command": command(args, runner.ranks)})
     print(runs.overview(jobs.values(), shown(case)))
@@ -234,11 +176,10 @@ def free_memory():
         return None
 
 
-def refuse_too_large(case, folder, jobs):
-    """before anything is made: runs that the machine has no room for; jobs: runs at a time"""
-    sizes = [shield_chain.size_of(shield_chain.shield_of(case, which, case.shifts[0])) for which in range(len(case.spacings_mm))]
-    most, dx = max(zip(sizes, case.spacings_mm), key=lambda size: size[0]["particles"])
-    jobs, free = min(jobs, len(members(case))), free_memory()
+def refuse_too_large(case, plans, folder, jobs):
+    """before anything is made: runs that the machine has no room for; plans: [plan, ...] of the spacings, jobs: runs at a time"""
+    free, most = free_memory(), max(plans, key=lambda plan: plan["memory_MB"])
+    dx = most["dx_mm"]
     what = f"spacings_mm: {dx:g} mm makes some {most['particles']:.3g} particles"
     if most["particles"] > 2**31 - 1:
         raise HVIError(f"{case.name}: {what}, more than LAMMPS can number: are lengths in mm?")
@@ -248,49 +189,38 @@ def refuse_too_large(case, folder, jobs):
                        f"take {fit:g} mm or more{', or fewer jobs at a time' if jobs > 1 else ''}; --write makes the input for another machine")
     existing = next(path for path in (folder, *folder.parents) if path.exists())
     disk = shutil.disk_usage(existing).free / 1e6
-    if (needed := sum(size["disk_MB"] for size in sizes) * len(case.shifts)) > disk:
+    if (needed := sum(plan["disk_MB"] for plan in plans) * len(case.shifts)) > disk:
         raise HVIError(f"{case.name}: some {needed:.3g} MB would be written, and {disk:.0f} are free in {existing}: take a larger settings: film, or another --runs DIR")
 
 
-def write(case, path, folder):
-    """inputs of all runs, and how to run them"""
-    for member in members(case):
-        where = folder / member_name(case, member)
-        shield_chain.write_run(case, path, *member, where)
-        print(f"cd {shlex.quote(str(where))} && mpirun -np 2 lmp -in {shield_chain.shield_input.BEGIN} && python3 -m hvi judge .")
+def plan(case, folder, jobs, ranks):
+    """what would be run: particles, areal densities, steps, time and memory of each spacing, from geometry alone; and a sketch"""
+    from . import figures, sketch
+
+    plans = [shield_chain.plan_of(shield_chain.shield_of(case, which, case.shifts[0])) for which in range(len(case.spacings_mm))]
+    n = len(case.walls)
+    keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, n + 1) for what in ("particles", "layers", "areal_density_kg_m2")), "areal_density_kg_m2",
+            "tstop_us", "particles", "steps", "core_s", "memory_MB", "disk_MB"]
+    print(tables.text(("each run", *(f"dx-{dx:g}" for dx in case.spacings_mm)), [
+        (key, *(f"about {tables.number(found[key])}" if key in ("steps", "core_s", "memory_MB", "disk_MB") else found[key] for found in plans)) for key in keys]))
+    core = sum(found["core_s"] for found in plans) * len(case.shifts)
+    print(f"{len(members(case))} runs, {len(case.shifts)} of each spacing: at most about {runs.duration(core / (jobs * ranks))}, {jobs} at a time on {ranks} ranks each, "
+          "on idle cores; a run ends when its event is over")
+    finest = plans[-1]
+    print(tables.text(("wall", "front_mm", "radius_mm", "middle_mm", "struck_at_mm"), [
+        (k, case.faces()[k - 1][0], *(finest[f"wall{k}_{what}"] for what in ("radius_mm", "middle_mm", "struck_at_mm"))) for k in range(1, n + 1)]))
+    if n <= 20:
+        folder.mkdir(parents=True, exist_ok=True)
+        for path in figures.save(sketch.draw(case, finest), str(folder / "sketch.png")):
+            print(f"sketch: {path}")
+    refuse_too_large(case, plans, folder, jobs)
     return 0
 
 
-def trial(plan, walls):
-    """seconds of the trial that a plan is from: 20 steps of the projectile and wall 1"""
-    number = [plan["projectile_particles"], *(plan[f"wall{k}_particles"] for k in range(1, walls + 1))]
-    return plan["seconds"] * 20 / plan["steps"] * sum(number[:2]) / sum(number)
-
-
-def plan(case, source, runner, folder):
-    """what would be run: particles, steps, time and memory of each spacing, by in.whipple itself, and a sketch"""
-    from . import figures, sketch
-
-    jobs = [runs.Job(source, f"dx-{dx:g}", {**case.variables(which, case.shifts[0]), "dry": "yes"},
-                     folder / "plan" / f"dx-{dx:g}", product="plan.yaml", last="disk_MB", made=meshes(case, which)) for which, dx in enumerate(case.spacings_mm)]
-    source.check(jobs[0].variables, "--dry-run")
-    for made in jobs:  # times are of this moment and these ranks
-        (made.folder / made.product).unlink(missing_ok=True)
-    failed = runner.run(jobs, "plan")
-    if failed:
-        raise HVIError(f"no plan: {', '.join(j.name for j in failed)} failed")
-    keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, len(case.walls) + 1) for what in ("particles", *(["elements"] if case.walls[k - 1].method != "sph" else []), "layers")),
-            "tstop_us", "steps", "seconds", "memory_MB", "disk_MB"]
-    print(tables.text(("each run", *(j.name for j in jobs)), [
-        (key, *(f"about {tables.number(j.result().get(key, '-'))}" if key == "seconds" else j.result().get(key, "-") for j in jobs)) for key in keys]))
-    brief = [j.name for j in jobs if trial(j.result(), len(case.walls)) < 0.5]
-    seconds = sum(j.result().get("seconds", 0) for j in jobs) * len(case.shifts)
-    print(f"{len(members(case))} runs, {len(case.shifts)} of each spacing: about {runs.duration(seconds / runner.jobs)}, "
-          f"{runner.jobs} at a time on {runner.ranks} ranks each"
-          + (f"; no more than a guess, from less than half a second of trial: {', '.join(brief)}" if brief else ""))
-    plan = jobs[-1].result()
-    print(tables.text(("wall", "front_mm", "radius_mm", "middle_mm", "struck_at_mm"), [
-        (k, case.faces()[k - 1][0], *(plan[f"wall{k}_{what}"] for what in ("radius_mm", "middle_mm", "struck_at_mm"))) for k in range(1, len(case.walls) + 1)]))
-    for path in figures.save(sketch.draw(case, plan), str(folder / "sketch.png")):
-        print(f"sketch: {path}")
+def write(case, folder):
+    """inputs of all runs, and how to run them"""
+    for member in members(case):
+        where = folder / member_name(case, member)
+        shield_chain.write_run(case, *member, where)
+        print(f"cd {shlex.quote(str(where))} && mpirun -np 2 lmp -in {shield_chain.shield_input.BEGIN} && python3 -m hvi judge .")
     return 0

@@ -27,43 +27,6 @@ BYTES = 6100  # in memory: 8,218 MB were measured for 1.35e6 particles, of a sin
 STEPS = 1.6  # of shield_input.Shield.steps(), in runs of 600 to 4,000 steps
 SPEED = 6e5  # particle-steps per second of a core, in the same runs
 
-# settings of a case beside geometry: (default, what it is)
-SETTINGS = {
-    "quarter": ("auto", "auto, yes or no: model x > 0, y > 0 only; auto: if the angle is 0"),
-    "tstop": (0, "us: the run ends here at the latest; 0: what is enough"),
-    "kernel": ("cubic", "of pair_style hvi/sph"), "eta": (1.2, "smoothing length in spacings"),
-    "pair": ("dissipation riemann", "further words of pair_style hvi/sph"),
-    "solid": (cases.SOLID, "words of fix hvi/johnson-cook"),
-    "fem": ("strain 0.3", "words of fix hvi/fem"),
-    "C": (0.6, "of fix hvi/dt"), "skin": (0.8, "of the neighbor lists, spacings"),
-    "back": (0, "mm modelled in front of wall 1; 0: half of the way to the last wall, at least 20"),
-    "edge": ("free", "free, clamp or absorb: outermost rim of the walls"), "rim": (5, "its width, mm"),
-    "film": (0, "us between frames for pictures and movies; 0: 20 frames, or as many as 300 MB hold"),
-    "layers": (None, "of particles through each wall, a list"),
-}
-BY_CASE = {"dx", "shift", "D", "v0", "angle", "material_p", "walls", "thickness", "gap", "material", "spacings", "radius", "method", "plate", "outside"}
-
-
-class Known:
-    """What a case's settings may be, as hvi.case asks it"""
-
-    name = "a shield"
-    known = {name: default is None for name, (default, _) in SETTINGS.items()}
-    defaults = {name: str(default).split() for name, (default, _) in SETTINGS.items() if default is not None}
-
-    def check(self, variables, where):
-        for name, value in variables.items():
-            if name in BY_CASE:
-                continue
-            if name not in self.known:
-                raise HVIError(f"{where}: no such setting '{name}' (known: {', '.join(self.known)})")
-            if isinstance(value, list) and not self.known[name]:
-                raise HVIError(f"{where}: setting '{name}' is one value, not a list")
-
-
-def settings(case):
-    return {**{name: default for name, (default, _) in SETTINGS.items()}, **case.settings}
-
 
 class Written:
     """The inputs of a run, as runs.Job takes an input"""
@@ -71,20 +34,16 @@ class Written:
     name = shield_input.BEGIN
 
     def __init__(self, shield):
-        self.texts = shield.texts()
+        self.texts, self.copy_to = shield.texts(), shield.copy_to
 
     def checksum(self):
         return hashlib.sha256("\0".join(self.texts.values()).encode()).hexdigest()[:16]
 
-    def copy_to(self, folder):
-        for name, text in self.texts.items():
-            (folder / name).write_text(text)
-
 
 def shield_of(case, which, shift):
     """the shield_input.Shield of a run, with all its settings"""
-    found = shield_input.Shield(case, which, shift, settings(case))
-    film = float(found.settings["film"])
+    found = shield_input.Shield(case, which, shift, {name: case.setting(name) for name in cases.SETTINGS})
+    film = found.settings["film"]
     if film == 0:
         frames = max(4, min(FRAMES, int(BUDGET / (ROW * found.particles()))))
         film = float(f"{found.geometry.tstop_us / frames:.2g}")
@@ -104,8 +63,7 @@ class Job(runs.Job):
         self.case, self.which, self.shift = case, which, shift
         self.shield = shield_of(case, which, shift)
         self.legs = legs(self.shield)
-        variables = {**case.variables(which, shift)}
-        super().__init__(Written(self.shield), name, variables, folder, remove=remove, weight=weight, made=(lambda path, **words: shield_input.shield_mesh.write(path, **words), self.shield.files()))
+        super().__init__(Written(self.shield), name, case.variables(which, shift), folder, remove=remove, weight=weight, made=(shield_input.make, self.shield.files()))
 
     def chain(self):
         """{leg: calls that are done, file: restart file}"""
@@ -117,7 +75,7 @@ class Job(runs.Job):
         return [self.folder / state["file"]] if state["file"] else []
 
     def until(self, leg):
-        return self.shield.geometry.tstop_us * (leg + 1) / self.legs
+        return self.shield.latest_us * (leg + 1) / self.legs
 
     def words(self):
         state = self.chain()
@@ -155,8 +113,10 @@ class Job(runs.Job):
         leg = self.chain()["leg"]
         steps, history = shield_result.rows_of(self.folder / "history.dat")
         if history[-1, 0] >= self.until(leg) and leg + 1 < self.legs:
-            new = self.folder / (CHAIN + ".new")
-            new.write_text(yaml.safe_dump({"leg": leg + 1, "file": f"shield.restart.{'ab'[leg % 2]}", "step": int(steps[-1]), "time_us": float(history[-1, 0])}))
+            file, new = f"shield.restart.{'ab'[leg % 2]}", self.folder / (CHAIN + ".new")
+            if not (self.folder / file).is_file():
+                raise HVIError(f"{self.folder}: the run has written no {file}, from which it would go on")
+            new.write_text(yaml.safe_dump({"leg": leg + 1, "file": file, "step": int(steps[-1]), "time_us": float(history[-1, 0])}))
             os.replace(new, self.folder / CHAIN)
             return False
         write_result(self.shield, self.folder)
@@ -174,7 +134,7 @@ class Job(runs.Job):
             us = next(float(line[1]) for line in reversed(lines) if len(line) == len(head) and line[0].isdigit())
         except (OSError, StopIteration, ValueError):
             return 0.0, ""
-        return min(us / self.shield.geometry.tstop_us, 0.999), f" {us:.1f} of at most {self.shield.geometry.tstop_us:.1f} us"
+        return min(us / self.shield.geometry.tstop_us, 0.999), f" {us:.1f} us, enough are {self.shield.geometry.tstop_us:.1f}"
 
 
 def write_plan(shield, folder):
@@ -192,20 +152,18 @@ def size_of(shield):
 def plan_of(shield):
     """plan.yaml: what is run, as reports and pictures read it"""
     g, case = shield.geometry, shield.case
-    found = {"projectile_particles": round(4 / 3 * math.pi * (g.R / g.a) ** 3 / shield.images), "projectile_across": round(2 * g.R / g.a, 1)}
+    found = {"dx_mm": case.spacings_mm[shield.which], "projectile_particles": round(shield.in_projectile() / shield.images), "projectile_across": round(2 * g.R / g.a, 1)}
     for k, (wall, of) in enumerate(zip(g.walls, case.walls), 1):
         found.update({f"wall{k}_{name}": value for name, value in {
             "particles": round(math.pi * (wall.radius / wall.spacing) ** 2 * wall.layers / shield.images), "elements": int(of.method != "sph"), "layers": wall.layers,
             "radius_mm": round(1e3 * wall.radius, 1), "middle_mm": round(1e3 * wall.middle, 1), "struck_at_mm": round(1e3 * wall.struck, 1),
             "front_mm": float(f"{1e3 * wall.front:.6g}"), "thickness_mm": float(f"{1e3 * wall.thickness:.6g}"), "spacing_mm": float(f"{1e3 * wall.spacing:.6g}")}.items()})
-    own = {"dx": 1e3 * g.a, "v0": 1e3 * case.speed_km_s, "D": case.diameter_mm, "angle": case.angle_deg, "walls": shield.n, "zones": 1, "method": case.method() or "sph",
-           "shift": shield.shift, "plate": "", "outside": ", ".join(case.not_modelled), "probes": "no", "keep": 0}
-    of_run = {**shield.settings, "tstop": g.tstop_us, "quarter": "yes" if g.quarter else "no"}
     areal = [wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])]
     found.update({f"wall{k}_areal_density_kg_m2": round(value, 3) for k, value in enumerate(areal, 1)})
     found.update(areal_density_kg_m2=round(sum(areal), 3), **size_of(shield))
-    return {**found, "tstop_us": g.tstop_us, "projectile_at_the_last_wall_us": g.arrival_us, "materials": "; ".join([case.material, *(wall.material for wall in case.walls)]),
-            "settings": {name: float(f"{value:.9g}") if isinstance(value, float) else value for name, value in {**own, **of_run}.items() if value is not None}}
+    of_run = {**shield.settings, "tstop": g.tstop_us, "quarter": "yes" if g.quarter else "no"}
+    return {**found, "tstop_us": g.tstop_us, "projectile_at_the_last_wall_us": g.arrival_us, "materials": [case.material, *(wall.material for wall in case.walls)],
+            "settings": {name: float(f"{value:.9g}") if isinstance(value, float) else list(value) if isinstance(value, tuple) else value for name, value in of_run.items() if value is not None}}
 
 
 def write_result(shield, folder):
@@ -232,29 +190,19 @@ def clouds(found, folder):
             os.link(before[-1], name)
 
 
-def read_case(path):
-    return cases.read(path, Known())
-
-
-RUN = "run.yaml"  # which run of case.yaml a folder is of, for judge
-
-
-def write_run(case, path, which, shift, folder):
-    """a folder that LAMMPS alone can run: inputs, materials, meshes; the case, for the verdict"""
+def write_run(case, which, shift, folder):
+    """a folder that LAMMPS alone can run: inputs, materials, meshes; the case of this run, for the verdict"""
     shield = shield_of(case, which, shift)
     shield.write(folder)
     write_plan(shield, folder)
-    (folder / "case.yaml").write_text(pathlib.Path(path).read_text())
-    (folder / RUN).write_text(yaml.safe_dump({"spacing": which, "shift": shift}))
     return shield
 
 
 def judge(folder):
     """The result of a folder of write_run(), run by hand; result.yaml is written"""
     folder = pathlib.Path(folder)
-    which = runs.read_yaml(folder / RUN)
-    if not which:
-        raise HVIError(f"{folder} has no {RUN}: it is no folder of python3 -m hvi shield --write")
-    case = read_case(folder / "case.yaml")
-    write_result(shield_of(case, which["spacing"], which["shift"]), folder)
+    if not (folder / shield_input.CASE).is_file():
+        raise HVIError(f"{folder} has no {shield_input.CASE}: it is no folder of python3 -m hvi shield --write")
+    case = cases.read(folder / shield_input.CASE)
+    write_result(shield_of(case, 0, case.shifts[0]), folder)
     return runs.read_yaml(folder / "result.yaml")

@@ -7,13 +7,17 @@ Both end a run by LAMMPS's fix halt: at the time `until`, or when the event is o
 import functools
 import math
 import pathlib
+import shutil
 
-from . import geometry, plates, runs, shield_mesh
+import yaml
+
+from . import geometry, laws, plates, projectile, shield_mesh
 from .errors import HVIError
 
-BEGIN, CONTINUE = "in.shield", "in.continue"
-OFTEN, MOST = 20, 200  # most steps between rows of walls.dat; of pieces.dat and history.dat, and between looks whether the event is over
-LOOKS = 100  # rows of those, about
+BEGIN, CONTINUE, CASE = "in.shield", "in.continue", "case.yaml"
+OFTEN, MOST = 20, 200  # steps between rows of walls.dat; most between rows of pieces.dat and history.dat, and between looks whether the event is over
+LOOKS = 50  # rows of those, about
+LONGER = 3  # times the time that is enough for what fails: the end at the latest, for what neither fails nor comes to rest
 # when an event is over: still to come, of what the last wall has been given, and of the impact, as the verdict has it; change of its momentum per us; plastic work of all
 # walls per us, of the impact
 OVER = {"share": 0.03, "coming": 1e-4, "push": 0.01, "plastic": 1e-3}
@@ -22,12 +26,20 @@ STATE = ("p", "damage", "spalled", "vm", "e", "eps", "fragsize")
 FRICTION = 3 * 5300.0  # m/s: a wave loses exp(-3) of its amplitude on the way through an absorbing rim and back
 
 
+BALL = "ball.data"  # the projectile, if it is of a file
+
+
 def material_file(material):
     """the path of a material file by its name or path"""
-    path = next((p for p in (pathlib.Path(material), *(folder / material for folder in runs.potentials())) if p.is_file()), None)
+    path = laws.path_of(material)
     if path is None:
         raise HVIError(f"no material file {material}")
     return path
+
+
+def make(path, **words):
+    """a data file of what is not on a lattice: words of Shield.files()"""
+    (projectile if pathlib.Path(path).name == BALL else shield_mesh).write(path, **words)
 
 
 def number(value):
@@ -75,9 +87,7 @@ class Shield:
         self.n = len(self.walls)
         self.images = 4 if self.geometry.quarter else 1
         self.elements = [k for k, wall in enumerate(case.walls, 1) if wall.method != "sph"]
-        looks = self.steps() / LOOKS
-        self.often = max(5, min(OFTEN, 5 * round(looks / 5)))
-        self.seldom = self.often * max(1, min(MOST // OFTEN, round(looks / self.often)))
+        self.seldom = OFTEN * max(1, min(MOST // OFTEN, round(self.steps() / LOOKS / OFTEN)))
 
     @functools.cached_property
     def rho(self):
@@ -91,7 +101,11 @@ class Shield:
 
     def mass(self):
         """kg, of the projectile"""
-        return self.rho[0] * math.pi / 6 * (1e-3 * self.case.diameter_mm) ** 3
+        return 1e-9 * self.rho[0] * self.case.projectile.volume_mm3
+
+    def in_projectile(self):
+        """particles of the whole projectile, about"""
+        return self.case.projectile.volume_mm3 / (1e3 * self.geometry.a) ** 3
 
     def steps(self):
         """about, until the end at the latest: a wave or the projectile crosses a spacing in 1.5 steps; later steps are longer"""
@@ -102,19 +116,22 @@ class Shield:
         """about, of the model; walls of elements are left out, which hold few or none"""
         g = self.geometry
         free = [wall for k, wall in enumerate(g.walls, 1) if k not in self.elements]
-        return (4 / 3 * math.pi * (g.R / g.a) ** 3 + sum(math.pi * (wall.radius / wall.spacing) ** 2 * wall.layers for wall in free)) / self.images
+        return (self.in_projectile() + sum(math.pi * (wall.radius / wall.spacing) ** 2 * wall.layers for wall in free)) / self.images
 
     def files(self):
-        """{file: words of shield_mesh.write()} of what is not on a lattice"""
-        return shield_mesh.of_case(self.case, self.which)
+        """{file: words of make()} of what is not on a lattice"""
+        found = shield_mesh.of_case(self.case, self.which)
+        if self.case.projectile.files:
+            found[BALL] = {"source": self.case.file(self.which), "spacing": self.geometry.a, "shift": self.shift, "density": self.rho[0]}
+        return found
 
     # ------------------------------------------------------------------ parts of the input
     def head(self, text, new):
         case, walls = self.case, self.case.walls
-        text.lines += [f"# {case.name}: a projectile of {case.diameter_mm:g} mm at {case.speed_km_s:g} km/s on {len(walls)} wall{'s' * (len(walls) > 1)}, "
+        text.lines += [f"# {case.name}: a {case.projectile} at {case.speed_km_s:g} km/s on {len(walls)} wall{'s' * (len(walls) > 1)}, "
                        f"{1e3 * self.geometry.a:g} mm between particles; written by python3 -m hvi shield",
                        f"#   mpirun -np 2 lmp -in {BEGIN if new else CONTINUE}    then: python3 -m hvi judge .", ""]
-        text("variable", f"until index {number(self.geometry.tstop_us)}", "us: end of the run, if the event is not over before")
+        text("variable", f"until index {number(self.latest_us)}", "us: end of the run, if the event is not over before")
         if not new:
             text("variable", "from index shield.restart", "to go on from")
         text("variable", f"to index shield.restart{'' if new else '.next'}", "written at the end")
@@ -134,10 +151,14 @@ class Shield:
         text("region", f"box block {number(low[0])} {number(box[1])} {number(low[1])} {number(box[3])} {number(box[4])} {number(g.walls[-1].rear + g.a)} units box")
         kinds = 1 + n + (n if self.elements else 0)
         text("create_box", f"{kinds} box", "types: projectile, walls" + (", nodes of walls" if self.elements else ""))
-        self.projectile(text)
+        body = self.case.projectile.files
+        if not body:
+            self.projectile(text)
         for k, (wall, of) in enumerate(zip(g.walls, self.case.walls), 1):
             if of.method == "sph":
                 self.wall(text, k, wall)
+        if body:  # read_data shrinks the box to what is in it, so walls come before
+            self.projectile(text)
         if g.quarter:
             text("change_box", f"all x final {number(-g.a)} {number(box[1])} y final {number(-g.a)} {number(box[3])} units box")
         text.say("what moves how")
@@ -161,11 +182,15 @@ class Shield:
         text.lines.append("")
 
     def projectile(self, text):
-        """a cubic lattice about its center"""
+        """a cubic lattice about its center, or a file"""
         g = self.geometry
+        if self.case.projectile.files:
+            text("read_data", f"{BALL} add append shift 0 0 {number(-g.R)}")
+            return
         origin = 0.5 + self.shift - g.R / g.a
         text("lattice", f"sc {number(g.a)} origin 0.5 0.5 {number(origin - math.floor(origin))}")
-        text("region", f"ball sphere 0 0 {number(-g.R)} {number(g.R)} units box")
+        for line in self.case.projectile.regions(number):
+            text(*line)
         text("create_atoms", "1 region ball")
 
     def wall(self, text, k, wall):
@@ -242,7 +267,7 @@ class Shield:
         text("compute", f"pieces {both} &\n                pieces {number(g.near)}")
         text("compute", f"state all hvi/atom {' '.join(STATE)}")
         text("variable", "us equal 1e6*f_step[2]")
-        text("fix", f"walls all ave/time {self.often} 1 {self.often} c_walls[*] mode vector append walls.dat format \" %.10g\"")
+        text("fix", f"walls all ave/time {OFTEN} 1 {OFTEN} c_walls[*] mode vector append walls.dat format \" %.10g\"")
         text("fix", f"pieces all ave/time {self.seldom} 1 {self.seldom} c_pieces[*] mode vector append pieces.dat format \" %.10g\"")
         names = "v_us f_step[2] c_book[*]" + (" f_fem f_fem[*]" if self.elements else "")
         text("fix", f"history all ave/time {self.seldom} 1 {self.seldom} {names} append history.dat format \" %.13g\"")
@@ -270,19 +295,25 @@ class Shield:
         text("write_restart", "${to}")
 
     def over(self, text):
-        """No wall is struck any more by what matters, none is still pushed, none flows on: or it is late."""
+        """The last wall has failed, and there was time for its hole to open; or nothing strikes a wall any more, pushes it or makes it flow; or it is late."""
         g, n = self.geometry, self.n
         limit = self.energy / self.images
         power = "+".join(f"c_walls[{k}][6]" for k in range(1, n + 1))
         text("variable", f'quiet equal "v_us > {number(g.arrival_us + g.passage_us + g.crossing_us)} && c_walls[{n}][2] < {number(OVER["share"])}*c_walls[{n}][5]+{number(OVER["coming"] * limit)} && '
              f'1e-6*abs(c_walls[{n}][3]) < {number(OVER["push"])}*abs(c_walls[{n}][4])+1e-12 && 1e-6*({power}) < {number(OVER["plastic"] * limit)}"',
              "nothing comes, pushes or flows: see Howto_shield")
-        text("variable", 'over equal "v_us >= v_until || v_quiet"')
+        failed = f"(c_pieces[{n}][30] > 0 || c_pieces[{n}][36] > 0)"  # mass apart behind the last wall, a hole in it
+        text("variable", f'over equal "v_us >= v_until || {failed} && v_us >= {number(g.tstop_us)} || !{failed} && v_quiet"')
         text("fix", f"over all halt {self.seldom} v_over > 0 error continue message no")
+
+    @property
+    def latest_us(self):
+        """end of the run, whatever happens: what the case says, or longer than what is usually enough"""
+        return self.geometry.tstop_us * (1 if self.settings["tstop"] else LONGER)
 
     def film_us(self):
         """us between frames"""
-        return float(self.settings["film"])
+        return self.settings["film"]
 
     def text(self, new=True):
         text = Text()
@@ -303,12 +334,19 @@ class Shield:
         """the inputs and their data files"""
         folder = pathlib.Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
+        self.copy_to(folder)
+        for name, words in self.files().items():
+            make(folder / name, **words)
+
+    def copy_to(self, folder):
+        """what the data files are made of, and the inputs"""
         for name, text in self.texts().items():
             (folder / name).write_text(text)
-        for name, words in self.files().items():
-            shield_mesh.write(folder / name, **words)
+        if self.case.projectile.files:
+            shutil.copy(self.case.file(self.which), folder)
 
     def texts(self):
-        """{file: text}: the inputs and the material files, so that LAMMPS alone can run the folder"""
+        """{file: text}: the inputs, the material files, so that LAMMPS alone can run the folder, and the case of this run, for judge"""
         names = dict.fromkeys((self.case.material, *(wall.material for wall in self.case.walls)))
-        return {BEGIN: self.text(), CONTINUE: self.text(new=False), **{pathlib.Path(name).name: material_file(name).read_text() for name in names}}
+        return {BEGIN: self.text(), CONTINUE: self.text(new=False), **{pathlib.Path(name).name: material_file(name).read_text() for name in names},
+                CASE: yaml.safe_dump(self.case.one(self.which, self.shift).mapping(), sort_keys=False)}

@@ -4,18 +4,12 @@
 import math
 import pathlib
 
-from . import plates, runs
+from . import geometry, laws, plates
 from .errors import HVIError
 
-OPEN = 0.75  # a cloud is that wide over its way and three diameters more, as in.whipple takes it
 CORE = 1.6  # radii of the projectile: free particles under its impact
 MARGIN = 1.25  # of the radius that is struck: beyond, elements without particles
 GROWTH, LARGEST = 1.2, 4  # of elements there; in units of those that hold particles
-
-
-def layers(thickness, dx):
-    """of particles, as in.whipple has it"""
-    return math.ceil(thickness / dx - 0.01)
 
 
 def per_edge(number):
@@ -29,19 +23,12 @@ def fitting(thickness, number):
     return [math.ceil(1e4 * thickness / n) / 1e4 for n in found if n]
 
 
-def struck(case, k):
-    """radius of wall k that can be struck, mm: what in.whipple takes without a radius"""
-    angle, R, (front, rear) = math.radians(case.angle_deg), 0.5 * case.diameter_mm, case.faces()[k - 1]
-    way = OPEN * (front - case.faces()[0][1]) + 6 * R if k > 1 else max(3 * (rear - front), 6 * R)
-    return way / math.cos(angle) + 0.5 * front * math.tan(angle)
-
-
 def radii(case, k, element):
     """(core, hold, half) of wall k in mm: free particles up to core, elements with particles up to hold, the side is twice half
 
     Debris meets nothing where elements hold no particles. So they do wherever it can arrive; only wall 1 is struck in its middle alone.
     """
-    wall, reach, R = case.walls[k - 1], struck(case, k), 0.5 * case.diameter_mm / math.cos(math.radians(case.angle_deg))
+    wall, reach, R = case.walls[k - 1], geometry.reaches(case)[k - 1], case.projectile.radius_mm / math.cos(math.radians(case.angle_deg))
     half = wall.radius_mm or (reach if k == 1 else MARGIN * reach)
     core = wall.core_mm if wall.core_mm is not None else CORE * R if k == 1 else 0.5 * min(reach, half)
     hold = wall.hold_mm or (max(2 / 3 * reach, core + 4 * element) if k == 1 else reach)
@@ -52,7 +39,7 @@ def of_wall(case, k, which):
     """words of write() for wall k at the case's spacing number which; HVIError if there is no such mesh"""
     wall = case.walls[k - 1]
     dx = (wall.spacings_mm or case.spacings_mm)[which]
-    number = int(case.settings["layers"][k - 1]) if "layers" in case.settings else layers(wall.thickness_mm, dx)
+    number = geometry.layers_of(case, k, which)
     n = per_edge(number)
     if n is None:
         raise HVIError(f"{number} layers of particles (spacing {dx:g} mm) are no whole elements of 2 or 3 each way: "
@@ -65,7 +52,7 @@ def of_wall(case, k, which):
     graded = half > hold + 1.5 * element
     half = max(half, element * math.ceil(half / element - 1e-6)) if not graded else half  # whole elements
     words = {"side": 2e-3 * half, "thickness": 1e-3 * wall.thickness_mm, "element": 1e-3 * element, "n": n, "layers": number // n, "core": 1e-3 * core,
-             "quarter": case.settings.get("quarter", "auto") != "no" and not case.angle_deg}
+             "quarter": geometry.is_quarter(case)}
     if graded:
         words.update(hold=1e-3 * hold, growth=GROWTH, largest=LARGEST * 1e-3 * element)
     return {**words, "type": 1 + k, "node_type": 1 + len(case.walls) + k, "material": wall.material}
@@ -84,7 +71,7 @@ def write(path, material, **words):
     """its file, of the density of a material file"""
     from . import mesh_plate
 
-    file = next((p for p in (pathlib.Path(material), *(folder / material for folder in runs.potentials())) if p.is_file()), None)
+    file = laws.path_of(material)
     if file is None:
         raise HVIError(f"no material file {material}")
     mesh_plate.plate(**words).write(path, plates.density_of(file)[0], pathlib.Path(path).name)

@@ -150,11 +150,11 @@ def measure(shield, folder):
     found.update({
         "perforated": found[f"wall{n}_perforated"], "front_velocity_m_s": first["front_velocity"], "cloud_length_mm": 1e3 * first["cloud_length"],
         "cloud_diameter_mm": 1e3 * first["cloud_diameter"], "length_ratio": first["cloud_ratio"], "axial_velocity_ratio": first["front_velocity"] / v0,
-        "walls": n, "walls_reached": reached, "zones": 1, "quarter": "yes" if g.quarter else "no", "v0_m_s": v0, "dx_mm": 1e3 * g.a, "method": case.method() or "sph",
+        "walls": n, "walls_reached": reached, "quarter": "yes" if g.quarter else "no", "v0_m_s": v0, "dx_mm": 1e3 * g.a, "method": case.method() or "sph",
         "elements": int(elements or 0), "elements_left": int(record.fem(0) or 0), "elements_failed_without_particles": int(record.fem(9) or 0),
         "conversion_heat_ratio": q * (record.fem(7) or 0.0) / E0, "hourglass_energy_ratio": q * (record.fem(8) or 0.0) / E0,
         "particles": atoms, "particles_left_the_box": int(record.book(21)), "steps": step, "time_us": record.time_us,
-        "ended_by": "time" if record.time_us >= g.tstop_us else "event",
+        "ended_by": "time" if record.time_us >= shield.latest_us else "event",
         "energy_ratio": record.book(9), "energy_missed_ratio": record.book(30) * record.book(9) / record.book(8), "energy_start_J": q * record.book(8) / record.book(9),
         "momentum_error": error / start, "momentum_left_ratio": q * record.book(15) / p0, "mass_error": (record.book(19) + record.book(20)) / record.book(27) - 1,
         "wall_s": round(seconds, 2), "ranks": ranks, "core_s": round(core, 1), "particle_steps_per_s": round(step * atoms / max(seconds, 1e-9)),

@@ -1,6 +1,8 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""What a run of in.whipple has left: its plan, result and dumps, as the report, movies and exports take them."""
+"""What a run of a shield has left: its plan, result and dumps, as the report, movies and exports take them."""
 
+import dataclasses
+import functools
 import pathlib
 import re
 
@@ -10,6 +12,7 @@ from . import case as cases
 from . import runs
 from .dump import Dump
 from .errors import HVIError
+from .shield_input import CASE
 
 
 class Said(dict):
@@ -20,7 +23,7 @@ class Said(dict):
         self.path = path
 
     def __missing__(self, key):
-        raise HVIError(f"{self.path} has no {key}: it is of another input or of another version of in.whipple; run it again")
+        raise HVIError(f"{self.path} has no {key}: it is of another version of this package; run it again")
 
 
 class Scene:
@@ -32,7 +35,7 @@ class Scene:
         self.time = 1e6 * frame.time
         self.x, self.v = 1e3 * whole.x, 1e-3 * whole.v
         kind = whole["type"].astype(int)
-        self.body = np.where(kind == 1, 0, 1 + (kind - 2) // run.zones)
+        self.body = kind - 1
         self.radius = run.radii()[kind - 1]
         self.failed = (whole["damage"] >= 1.0) | (whole["spalled"] > 0.0)
 
@@ -48,21 +51,21 @@ class Run:
         if not self.result or runs.LAST not in self.result:
             raise HVIError(f"{self.folder}: no complete result.yaml: is the run over?")
         if not self.plan or not isinstance(self.plan.get("settings"), dict) or "materials" not in self.plan:
-            raise HVIError(f"{self.folder / 'plan.yaml'} does not say what was run (materials, settings): it is of another version of in.whipple; run it again")
+            raise HVIError(f"{self.folder / 'plan.yaml'} does not say what was run (materials, settings): it is of another version of this package; run it again")
         self.result = Said(self.folder / "result.yaml", self.result)
         self.plan, self.settings = (Said(self.folder / "plan.yaml", mapping) for mapping in (self.plan, self.plan["settings"]))
-        self.walls, self.zones, self.reached = (int(n) for n in (self.result["walls"], self.result["zones"], self.result["walls_reached"]))
-        self.materials = str(self.plan["materials"]).split("; ")
+        self.walls, self.reached = int(self.result["walls"]), int(self.result["walls_reached"])
+        self.materials = [str(name) for name in self.plan["materials"]]
 
     def of_wall(self, k, what):
         return self.plan[f"wall{k}_{what}"]
 
     def radii(self):
         """of spheres of the volume of a particle, mm, for each type"""
-        sides = [float(self.settings["dx"])]
+        sides = [self.dx]
         for k in range(1, self.walls + 1):
             high = self.of_wall(k, "thickness_mm") / self.of_wall(k, "layers")
-            sides += [((self.of_wall(k, "spacing_mm") * 2.0**z) ** 2 * high) ** (1 / 3) for z in range(self.zones)]
+            sides.append((self.of_wall(k, "spacing_mm") ** 2 * high) ** (1 / 3))
         return (0.75 / np.pi) ** (1 / 3) * np.array(sides)
 
     def faces(self, k):
@@ -70,37 +73,20 @@ class Run:
         front = self.of_wall(k, "front_mm")
         return front, front + self.of_wall(k, "thickness_mm")
 
+    @functools.cached_property
     def case(self):
-        """the Case that it was, as far as a plan says"""
-        walls = []
-        for k in range(1, self.walls + 1):
-            gap = self.faces(k)[0] - self.faces(k - 1)[1] if k > 1 else None
-            method = str(self.settings["method"]) if self.plan.get(f"wall{k}_elements") else "sph"
-            walls.append(cases.Wall(float(self.of_wall(k, "thickness_mm")), self.materials[k], gap, method=method))
-        outside, s = self.outside(), self.settings
-        return cases.Case(name=self.name, diameter_mm=float(s["D"]), material=self.materials[0], speed_km_s=1e-3 * float(s["v0"]), angle_deg=float(s["angle"]),
-                          walls=tuple(walls), spacings_mm=(float(s["dx"]),), shifts=(float(s["shift"]),), not_modelled=(outside,) if outside else ())
+        """the Case of this run"""
+        return dataclasses.replace(cases.read(self.folder / CASE), name=self.name)
 
-    def outside(self):
-        """what the shield has and the model has not, "": nothing"""
-        return str(self.settings["outside"]).strip()
+    @property
+    def R(self):
+        """radius of the projectile, mm"""
+        return self.case.projectile.radius_mm
 
-    def words(self):
-        """variables as they are typed after lmp -in in.whipple, by name: those that the run was given, or all that the plan knows"""
-        given = self.job.get("variables")
-        if given:
-            return {name: runs.words(value) for name, value in given.items()}
-        found = {name: [str(value)] for name, value in self.settings.items() if name not in ("quarter", "probes", "keep", "film", "plate", "outside")}
-        number = range(1, self.walls + 1)
-        found["material_p"] = [self.materials[0]]
-        found["material"] = self.materials[1:]
-        for name, what in (("thickness", "thickness_mm"), ("spacings", "spacing_mm"), ("layers", "layers"), ("radius", "radius_mm")):
-            found[name] = [f"{self.of_wall(k, what):g}" for k in number]
-        found["gap"] = ["0"] + [f"{self.faces(k)[0] - self.faces(k - 1)[1]:g}" for k in number if k > 1]
-        found.update({name: [str(self.settings[name])] for name in ("quarter", "probes")})
-        if self.settings["plate"]:
-            found["plate"] = str(self.settings["plate"]).split()
-        return {**found, "outside": [self.outside()]} if self.outside() else found
+    @property
+    def dx(self):
+        """of its particles, mm"""
+        return self.case.spacings_mm[0]
 
     def dumps(self):
         """paths of all frames, in order of time"""
@@ -149,7 +135,7 @@ def runs_of(folder):
     if said and not (isinstance(said.get("runs"), dict) and said["runs"]):
         raise HVIError(f"{folder / 'verdict.yaml'} names no runs: call python3 -m hvi shield again")
     if said:
-        return said, sorted((Run(folder / str(name)) for name in said["runs"]), key=lambda run: (float(run.settings["dx"]), -float(run.settings["shift"])))
+        return said, sorted((Run(folder / str(name)) for name in said["runs"]), key=lambda run: (run.dx, -run.case.shifts[0]))
     if (folder / "result.yaml").is_file():
         return None, [Run(folder)]
-    raise HVIError(f"{folder} has neither verdict.yaml (of python3 -m hvi shield) nor result.yaml (of in.whipple)")
+    raise HVIError(f"{folder} has neither verdict.yaml (of python3 -m hvi shield) nor result.yaml (of one of its runs)")

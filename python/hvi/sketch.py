@@ -7,21 +7,22 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 
-from .shield_mesh import OPEN, radii
+from .geometry import OPEN
+from .shield_mesh import radii
 
 
 def cloud(case, z):
     """(lowest, highest) x in mm that is struck at z: by the projectile on wall 1, behind it by the cloud of wall 1"""
-    angle, R = math.radians(case.angle_deg), 0.5 * case.diameter_mm
+    angle, R = math.radians(case.angle_deg), case.projectile.radius_mm
     rear = case.faces()[0][1]
     way = (OPEN * (z - rear) + 6 * R if z > rear else R) / math.cos(angle)
     return R * math.tan(angle) - way, (max(z, 0.0) + R) * math.tan(angle) + way
 
 
 def draw(case, plan):
-    """A Figure; plan: that of in.whipple, with wallK_radius_mm, wallK_middle_mm, wallK_struck_at_mm"""
+    """A Figure; plan: of shield_chain.plan_of(), with wallK_radius_mm, wallK_middle_mm, wallK_struck_at_mm"""
     sizes, middles, spots = ([plan[f"wall{k}_{what}"] for k in range(1, len(case.walls) + 1)] for what in ("radius_mm", "middle_mm", "struck_at_mm"))
-    places, R, slope = case.faces(), 0.5 * case.diameter_mm, math.tan(math.radians(case.angle_deg))
+    places, R, slope = case.faces(), case.projectile.radius_mm, math.tan(math.radians(case.angle_deg))
     end = places[-1][1]
     wide = [r if wall.method == "sph" else radii(case, k, 0.0)[2] for k, (wall, r) in enumerate(zip(case.walls, sizes), 1)]
     low, high = (min(m - r for m, r in zip(middles, wide)), max(m + r for m, r in zip(middles, wide)))
@@ -55,7 +56,7 @@ def draw(case, plan):
             axes.annotate(f"{wall.gap_mm:g} mm", (0.5 * (before + front), y), (0, -4), textcoords="offset points", ha="center", va="top", fontsize=7)
     axes.plot([begin, stop], [(z + R) * slope for z in (begin, stop)], color="black", lw=0.7, ls="--", label="path of the center")
     axes.add_patch(Circle((begin, (begin + R) * slope), R, color="#555555", lw=0))
-    axes.annotate(f"{case.diameter_mm:g} mm {_name(case.material)}\n{case.speed_km_s:g} km/s, {case.angle_deg:g} deg", (begin, (begin + R) * slope - R), (0, -3),
+    axes.annotate(f"{case.projectile}, {_name(case.material)}\n{case.speed_km_s:g} km/s, {case.angle_deg:g} deg", (begin, (begin + R) * slope - R), (0, -3),
                   textcoords="offset points", ha="center", va="top", fontsize=7)
     axes.set(aspect="equal", xlim=(left, stop), ylim=(low - 0.14 * (high - low), high + 0.16 * (high - low)), xlabel="z (mm)", ylabel="x (mm)")
     axes.spines[["top", "right"]].set_visible(False)

@@ -18,14 +18,15 @@ def number(value):
     return str(value)
 
 
-def text(names, rows, quantities=None, units=None):
-    """Columns one under the other, right-aligned, with a line of units if quantities {name: quantity} are given."""
+def text(names, rows, quantities=None, units=None, left=False):
+    """Columns one under the other, aligned to the right, or left, with a line of units if quantities {name: quantity} are given."""
     lines = [list(names)]
     if quantities and units:
         lines.append([unit_systems.name(quantities.get(name), units) for name in names])
     lines += [[number(value) for value in row] for row in rows]
     widths = [max(len(line[k]) for line in lines) for k in range(len(names))]
-    return "\n".join("  ".join(word.rjust(w) for word, w in zip(line, widths)).rstrip() for line in lines)
+    aligned = str.ljust if left else str.rjust
+    return "\n".join("  ".join(aligned(word, w) for word, w in zip(line, widths)).rstrip() for line in lines)
 
 
 def write_csv(path, names, rows):

@@ -10,6 +10,7 @@ import types
 from typing import Callable
 
 from . import case as cases
+from . import laws
 
 NEEDED = cases.LAYERS  # layers of particles in the wall that decides
 SPARED = 1e-4  # of the energy of the shot: less does no harm to a wall that was not reached
@@ -77,10 +78,10 @@ def measured(shield, result):
     m.failed = m.last and not m.plugged and (m.hole > 0 or (m.apart > 0 and m.missed <= BESIDE and not m.slips))
     solid = shield.settings["solid"]
     m.solid = solid
-    m.whole = [k for k in range(1, d + 1) if not cases.tears(case.walls[k - 1].material, solid)]
-    m.ball_whole = not cases.tears(case.material, solid)
+    m.whole = [k for k in range(1, d + 1) if not laws.tears(case.walls[k - 1].material, solid)]
+    m.ball_whole = not laws.tears(case.material, solid)
     m.thickness = case.walls[d - 1].thickness_mm
-    m.tstop = max(1.5 * shield.geometry.tstop_us, result["time_us"])
+    m.tstop = 1.5 * max(shield.geometry.tstop_us, result["time_us"])
     m.coarse = [k for k in range(1, d) if m.of("layers", k) < NEEDED]
     m.torn = [k for k in range(1, d + 1) if m.of("torn", k)]
     return m

@@ -168,7 +168,7 @@ def test_refused(call, message):
 # ---------------------------------------------------------------------- cases
 def read(folder, text):
     (folder / "emi.yaml").write_text(text)
-    return cases.read("emi.yaml", runs.Input(shield.INPUT))
+    return cases.read("emi.yaml")
 
 
 def test_shield_of_a_case(folder):

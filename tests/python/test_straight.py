@@ -1,4 +1,4 @@
-"""python3 -m hvi shield --write, --straight, judge: the input is straight, its chain has the same bits however it is cut, and rules say what numbers mean."""
+"""python3 -m hvi shield, --write, judge: the input is straight, its chain has the same bits however it is cut, and rules say what numbers mean."""
 
 import math
 import re
@@ -23,7 +23,7 @@ settings: {tstop: 8}
 
 def read(path, text=CASE):
     path.write_text(text)
-    return shield_chain.read_case(path)
+    return cases.read(path)
 
 
 @pytest.mark.parametrize("change", [("", ""), ("speed_km_s: 5", "speed_km_s: 5\nangle_deg: 40"), ("tstop: 8", "tstop: 8, edge: clamp, rim: 1")])
@@ -68,15 +68,15 @@ def test_write_run_and_judge(lmp, tmp_path, capsys, monkeypatch):
 
 
 def test_front_door_runs_it(root, lmp_exe, tmp_path, capsys, monkeypatch):
-    """as in.whipple is run: table, verdict, what is done is left alone"""
+    """table, verdict, what is done is left alone"""
     (tmp_path / "c.yaml").write_text(CASE.replace("shifts: [0]", "shifts: [0, 0.5]"))
     monkeypatch.chdir(tmp_path)
-    words = ["shield", "c.yaml", "--straight", "--lmp", str(lmp_exe), "--ranks", "1"]
+    words = ["shield", "c.yaml", "--lmp", str(lmp_exe), "--ranks", "1"]
     status = cli.main(words)
     assert status in (0, 3, 4) and "2 runs, 0 done before, 2 to run" in capsys.readouterr().out
     assert cli.main(words) == status and "2 runs, 2 done before, 0 to run" in capsys.readouterr().out
     saved = yaml.safe_load((tmp_path / "runs/c/verdict.yaml").read_text())
-    assert "--straight" in saved["command"] and not list(tmp_path.glob("runs/c/*/chain.yaml"))
+    assert not list(tmp_path.glob("runs/c/*/chain.yaml"))
     assert cli.main(["report", "runs/c"]) == 0 and (tmp_path / "runs/c/report.html").stat().st_size > 1e5
 
 
@@ -85,11 +85,11 @@ def test_what_the_machine_cannot_hold_is_refused(tmp_path, capsys, monkeypatch, 
     """from geometry alone, before a particle is made"""
     (tmp_path / "c.yaml").write_text(CASE.replace("[0.75]", f"[0.7, {dx}]"))
     monkeypatch.chdir(tmp_path)
-    for words in (["--dry-run"], ["--straight"]):
+    for words in (["--dry-run"], []):
         assert cli.main(["shield", "c.yaml", *words]) == 1
         err = capsys.readouterr().err
         assert f"spacings_mm: {dx} mm makes some" in err and message in err
-    assert not (tmp_path / "runs").exists()
+    assert not (tmp_path / "runs/c/dx-0.7_shift-0.0").exists()
 
 
 def test_rows_after_a_restart_count_once(tmp_path):

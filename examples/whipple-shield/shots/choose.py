@@ -9,7 +9,7 @@ import csv
 import math
 import pathlib
 
-from hvi import runs, shield, shots
+from hvi import shots
 
 HERE = pathlib.Path(__file__).resolve().parent
 MOST, MOST_RARE = 120e6, 450e6  # particle-steps of the plan, 3 and 10 minutes of an idle core; the latter for oblique shots and thin bumpers
@@ -79,10 +79,9 @@ def finer(chosen, far, cost):
 
 
 def main():
-    source = runs.Input(shield.INPUT)
-    study = shots.Study(HERE / "all.yaml", source)
+    study = shots.Study(HERE / "all.yaml")
     cost = costs(HERE / "plans.csv")
-    ratios = {shot.name: shots.ratios_of(shots.Outcome(shot, study.case(shot), source, HERE)) for shot in study.shots}
+    ratios = {shot.name: shots.ratios_of(shots.Outcome(shot, study.case(shot), HERE)) for shot in study.shots}
     far = {name: distance(found) for name, found in ratios.items()}
     kept, out = eligible(study.shots, cost)
     chosen = choose(kept, far)
