@@ -5,6 +5,7 @@ import dataclasses
 import fcntl
 import math
 import os
+import pathlib
 import pty
 import re
 import shutil
@@ -62,6 +63,8 @@ def test_tables_of_keys(capsys):
         assert set(table) == fields
     for key, _, text in cases.rows_of_keys():
         assert f"\n{key} " in shown and (text or key.endswith("thickness_mm"))
+    page = pathlib.Path(cases.__file__).parents[2] / "doc/src/case_keys.txt"
+    assert page.read_text() == shown[shown.index("key  "):].rstrip() + "\n", f"python3 -m hvi shield --help | sed -n '/^key  /,$p' > {page}"
 
 
 WRONG = [
