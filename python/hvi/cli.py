@@ -27,6 +27,7 @@ EXAMPLES = {
     "judge": """  python3 -m hvi judge emi/dx-0.267_shift-0.0""",
     "limit": """  python3 -m hvi limit emi.yaml --on D
   python3 -m hvi limit emi.yaml --on thickness2 --from 0.5 --to 3 --step 0.1 --jobs 2 --ranks 1""",
+    "curve": """  python3 -m hvi curve emi.yaml --speeds 3:9:4 --from 2 --to 8 --step 0.5 --jobs 2 --ranks 1""",
     "ble": """  python3 -m hvi ble emi.yaml --figure limit
   python3 -m hvi ble emi.yaml --speeds 3:9:13 --equation JSC --equation Reimerdes --out limit.csv
   python3 -m hvi ble --shots examples/whipple-shield/shots/shots.csv""",
@@ -215,6 +216,11 @@ def _case(parser):
     parser.format_help = lambda: usual() + "\n" + _keys()
 
 
+def _range(parser):
+    for name, text, default in (("from", "lowest value", "half of the case's"), ("to", "highest value", "twice the case's"), ("step", "between values that are tried", "a 20th of the case's")):
+        parser.add_argument("--" + name, dest=name + "_", type=positive, metavar="X", help=f"{text}, mm or km/s (default: {default})")
+
+
 def _keys():
     """what a case may say"""
     from . import case, tables
@@ -272,9 +278,14 @@ def options():
                   "4 not in the range")
     _case(sub)
     sub.add_argument("--on", required=True, metavar="WHAT", help="D, speed, thickness1, thickness2, ...")
-    for name, text in (("from", "lowest value"), ("to", "highest value"), ("step", "between values that are tried")):
-        default = {"from": "half of the case's", "to": "twice the case's", "step": "a 20th of the case's"}[name]
-        sub.add_argument("--" + name, dest=name + "_", type=positive, metavar="X", help=f"{text}, mm or km/s (default: {default})")
+    _range(sub)
+    _runs(sub)
+
+    sub = command("curve", "the limit over a list of speeds: table, CSV, and a picture with ballistic-limit equations; exit status 0, 4 if a speed has none in the range")
+    _case(sub)
+    sub.add_argument("--speeds", type=_speeds, default=(3.0, 9.0, 7), metavar="A:B:N", help="first, last, number of speeds, km/s (default: 3:9:7)")
+    sub.add_argument("--on", default="D", metavar="WHAT", help="D, or thickness1, thickness2, ... (default: D)")
+    _range(sub)
     _runs(sub)
 
     sub = command("ble", "ballistic-limit equations: critical diameter over speed for the shield of a case, or what they say of published shots")

@@ -97,8 +97,8 @@ def with_value(case, key, wall, value):
 class Limit:
     """The searches of all spacings and shifts, and the runs that they ask for."""
 
-    def __init__(self, case, folder, on, low=None, high=None, step=None):
-        self.case, self.folder, self.on = case, folder, on
+    def __init__(self, case, folder, on, low=None, high=None, step=None, name=""):
+        self.case, self.folder, self.on, self.name = case, folder, on, name  # name: what names of runs begin with
         self.key, self.wall, self.unit = quantity(case, on)
         middle = value_of(case, self.key, self.wall)
         low, high, step = low or 0.5 * middle, high or 2 * middle, step or 0.05 * middle
@@ -123,7 +123,7 @@ class Limit:
         found = []
         for place in self.searches[member].next():
             value = self.values[place]
-            name = f"{shield.member_name(self.case, member)}_{self.on}-{value:g}"
+            name = f"{self.name}{shield.member_name(self.case, member)}_{self.on}-{value:g}"
             job = shield.job(with_value(self.case, self.key, self.wall, value), member, self.folder / name, name, remove=["cloud*.dump", "film.*.dump"])
             self.jobs[job.name] = member, place, job
             found.append(job)

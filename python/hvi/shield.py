@@ -112,7 +112,7 @@ def said_of_finer(case, found):
 def shown(case):
     """columns of the table of runs"""
     n = len(case.walls)
-    return ["verdict", *(f"hole{k}_diameter_mm" for k in range(1, n + 1)), f"wall{n}_spall_mass_mg", "particles", "time_us", "core_s"]
+    return ["verdict", *(f"hole{k}_diameter_mm" for k in range(1, n + 1)), f"wall{n}_spall_mass_mg", "areal_density_kg_m2", "particles", "time_us", "core_s"]
 
 
 def save(path, mapping):

@@ -157,7 +157,7 @@ def measure(shield, folder):
         "ended_by": "time" if record.time_us >= shield.latest_us else "event",
         "energy_ratio": record.book(9), "energy_missed_ratio": record.book(30) * record.book(9) / record.book(8), "energy_start_J": q * record.book(8) / record.book(9),
         "momentum_error": error / start, "momentum_left_ratio": q * record.book(15) / p0, "mass_error": (record.book(19) + record.book(20)) / record.book(27) - 1,
-        "wall_s": round(seconds, 2), "ranks": ranks, "core_s": round(core, 1), "particle_steps_per_s": round(step * atoms / max(seconds, 1e-9)),
+        "areal_density_kg_m2": round(sum(wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])), 3), "wall_s": round(seconds, 2), "ranks": ranks, "core_s": round(core, 1), "particle_steps_per_s": round(step * atoms / max(seconds, 1e-9)),
         "lammps_version": lammps, "package_version": version()})
     return found
 

@@ -5,6 +5,7 @@ import dataclasses
 import functools
 import pathlib
 import re
+import warnings
 
 import numpy as np
 
@@ -76,7 +77,9 @@ class Run:
     @functools.cached_property
     def case(self):
         """the Case of this run"""
-        return dataclasses.replace(cases.read(self.folder / CASE), name=self.name)
+        with warnings.catch_warnings():  # what they say was said before it was run
+            warnings.simplefilter("ignore")
+            return dataclasses.replace(cases.read(self.folder / CASE), name=self.name)
 
     @property
     def R(self):

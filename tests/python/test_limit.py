@@ -1,5 +1,6 @@
 """python3 -m hvi limit: searches that end where they should, and say what they rest on; LAMMPS is a fake here."""
 
+import csv
 import os
 import re
 import subprocess
@@ -50,6 +51,34 @@ def test_limit_on_what_holds_when_it_is_more(folder, monkeypatch, words, limit):
     assert found["limit"] == pytest.approx(limit, abs=0.25)
     if words[0] == "thickness2":
         assert found["holds"] == "from 2" and found["fails"] == "up to 1.6" and found["undecided"] == [1.6, 2.0]
+
+
+def test_limit_on_speed(folder, monkeypatch):
+    """4 mm (7.1 / v)^1 + 0.2 and 0.4 mm and what shifts add: 5 mm holds up to 5.9 and 6.2 km/s"""
+    monkeypatch.setenv("FAKE_POWER", "1")
+    assert front("limit", "--on", "speed", "--from", "4", "--to", "9", "--step", "0.1") == 0
+    found = answer(folder, "speed")
+    assert (found["on"], found["unit"]) == ("speed_km_s", "km/s") and found["limit"] == pytest.approx(4 * 7.1 / 4.8, abs=0.1) and found["holds"] == "up to 5.9"
+
+
+def test_curve(folder, capsys, monkeypatch):
+    """a limit for each speed, with the equations beside; what was run is left alone; a speed that has none in the range says so"""
+    monkeypatch.setenv("FAKE_POWER", "1")
+    words = ["curve", "--speeds", "5:7:3", "--from", "3", "--to", "7", "--step", "0.2", "--jobs", "3"]
+    assert front(*words) == 0
+    out, where = capsys.readouterr().out, folder / "runs/emi/curve-D"
+    with open(where / "curve.csv", newline="") as table:
+        rows = list(csv.DictReader(table))
+    for row in rows:
+        v = float(row["speed_km_s"])
+        assert float(row["limit_mm"]) == pytest.approx(4 * 7.1 / v + 0.2, abs=0.2) and float(row["low"]) < float(row["limit_mm"]) < float(row["high"]) and float(row["NNO"]) > 0
+    assert [float(row["speed_km_s"]) for row in rows] == [5, 6, 7] and "cost: " in out and (where / "curve.png").stat().st_size > 10_000
+    before = begun(folder)
+    assert front(*words) == 0 and begun(folder) == before
+    assert front("curve", "--speeds", "3:7:2", "--from", "3", "--to", "7", "--step", "0.2") == 4
+    assert "no limit at 3 km/s: an end of the range" in capsys.readouterr().out
+    assert front("curve", "--speeds", "5:7:2", "--on", "thickness2", "--from", "1.2", "--to", "3.2", "--step", "0.4") in (0, 4)
+    assert "equations: none: the equations are for a diameter" in capsys.readouterr().out
 
 
 def test_no_limit_in_the_range(folder, capsys):
