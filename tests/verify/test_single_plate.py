@@ -51,6 +51,14 @@ def test_quarter_is_the_whole(lmp, root, tmp_path):
     assert abs(quarter["energy_ratio"] - 1) < 1e-3 and quarter["momentum_error"] < 1e-10
 
 
+@pytest.mark.parametrize("D, t", [(6, 30), (6, 3), (10, 20)])
+def test_a_plate_of_any_thickness_is_whole(lmp, root, tmp_path, D, t):
+    """its layers of 1 mm are all there: plates thicker than 1.5 D were cut off at the end of the box"""
+    plate(lmp, root, tmp_path, quarter="yes", dx=1, Rplate=15, tstop=0.02, D=D, t=t)
+    layer = sum((i + 0.5) ** 2 + (j + 0.5) ** 2 < 15**2 for i in range(15) for j in range(15))
+    assert yaml.safe_load((tmp_path / "plan.yaml").read_text())["plate_particles"] == t * layer
+
+
 def test_runs_on_behind_the_last_frame(lmp, root, tmp_path):
     r = plate(lmp, root, tmp_path, quarter="yes", dx=1.25, Rplate=15, frame=[1, 2], tstop=3)
     assert r["time_us"] == pytest.approx(3, abs=0.1)
