@@ -128,6 +128,13 @@ def test_restart_keeps_where_particles_were(walls):
     equal(begun, again, 1e-9)
 
 
+def test_hybrid(walls):
+    """under pair_style hybrid/overlay the rows are the same"""
+    text = scene().replace("pair_style hvi/sph cubic dissipation riemann", "pair_style hybrid/overlay zero 1e-4 hvi/sph cubic dissipation riemann")
+    text = text.replace("pair_coeff * * file", "pair_coeff * * zero\npair_coeff * * hvi/sph file")
+    assert walls(text + PRINT) == walls(scene() + PRINT)
+
+
 def test_quarter_is_a_quarter(walls):
     whole, part = walls(scene(steps=20) + PRINT), walls(scene(quarter=True, steps=20) + PRINT)
     for a, b in zip(whole, part):
