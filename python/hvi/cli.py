@@ -213,7 +213,7 @@ def _runs(parser):
 def _case(parser):
     parser.add_argument("case", metavar="CASE.yaml", help="projectile, speed, angle, walls, spacings")
     usual = parser.format_help
-    parser.format_help = lambda: usual() + "\n" + _keys()
+    parser.format_help = lambda: usual() + "\n" + _keys() + "\n"
 
 
 def _range(parser):
