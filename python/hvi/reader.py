@@ -92,6 +92,7 @@ class Reader:
         def read(node, key):
             if node.value not in known:
                 *most, last = known
-                self.wrong(key, f"must be {', '.join(most)} or {last}, not {node.value}{hint}", node)
+                said = node.value if isinstance(node, yaml.ScalarNode) else "a list"
+                self.wrong(key, f"must be {', '.join(most)} or {last}, not {said}{hint}", node)
             return node.value
         return read

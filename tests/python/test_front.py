@@ -108,6 +108,8 @@ WRONG = [
     (CASE + "settings: {layers: 3}\n", 13, "settings: layers: must be a list"),
     (CASE + "settings: {layers: [3]}\n", 13, "settings: layers: must be 2 values, one for each wall"),
     (CASE + "settings: {layers: [3, 0]}\n", 13, "settings: layers: must be a whole number from 1 on, not 0"),
+    (CASE + "settings: {edge: clamp, rim: 20}\n", 13, "settings: rim: 20 mm is no narrower than wall 1, whose radius is 15 mm"),
+    (CASE + "settings: {edge: [free]}\n", 13, "settings: edge: must be free, clamp or absorb, not a list"),
     (CASE + "settings: {edge: soft}\n", 13, "settings: edge: must be free, clamp or absorb, not soft"),
     (CASE + "angle_deg: 30\nsettings: {quarter: yes}\n", 14, "settings: quarter: yes needs angle_deg of 0"),
     (CASE + "settings:\n  D: 4\n", 14, "settings: D: no such key"),
