@@ -29,12 +29,14 @@
 
 using namespace LAMMPS_NS;
 
+static constexpr double COST_AT_REST = 0.17;    // of a particle that is inactive, over an active one
+
 // in the order of Value
 
 static const char *const NAMES[] = {
     "p",          "e",       "T",     "c",           "h",        "eps",   "epsdot", "damage",
     "initiation", "spalled", "voids", "void_damage", "fragsize", "vm",    "sxx",    "syy",
-    "szz",        "sxy",     "sxz",   "syz",         "asleep",   "nbonds"};
+    "szz",        "sxy",     "sxz",   "syz",         "asleep",   "cost",        "nbonds"};
 
 /* ---------------------------------------------------------------------- */
 
@@ -98,6 +100,7 @@ double ComputeHVIAtom::value_of(Value value, int i) const
 {
   if (value == BONDS) return nbonds[i];
   if (value == ASLEEP) return store->fields.asleep(i) ? 1.0 : 0.0;
+  if (value == COST) return store->fields.asleep(i) ? COST_AT_REST : 1.0;
 
   const int itype = atom->type[i];
   const HVI::Material *const material = store->materials.of(itype);

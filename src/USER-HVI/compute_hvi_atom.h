@@ -54,6 +54,7 @@ class ComputeHVIAtom : public Compute {
     SXZ,
     SYZ,    // of solids
     ASLEEP,
+    COST,
     BONDS
   };
 

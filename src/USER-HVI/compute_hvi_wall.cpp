@@ -41,23 +41,39 @@ static constexpr double NEAR_PLANE = 0.5;    // of the reach: a piece so near a 
 /* ---------------------------------------------------------------------- */
 
 ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), axis(-1), reach(0.0), id_fix(nullptr), first(nullptr), store(nullptr),
-    strength(nullptr)
+    Compute(lmp, narg, arg), axis(-1), reach(0.0), id_fix(nullptr), owns_fix(true), first(nullptr),
+    store(nullptr), strength(nullptr)
 {
   if (domain->dimension != 3)
     error->all(FLERR, "Compute hvi/wall needs a three-dimensional simulation");
   array_flag = 1;
   size_array_cols = NCOLUMNS;
   extarray = 0;
-  create_attribute = 1;
 
   int iarg = 3;
   if (narg < 5) utils::missing_cmd_args(FLERR, "compute hvi/wall", error);
-  if (strcmp(arg[iarg], "axis") != 0)
-    error->all(FLERR, "Compute hvi/wall begins with axis x, y or z, not {}", arg[iarg]);
-  if (strlen(arg[iarg + 1]) != 1 || arg[iarg + 1][0] < 'x' || arg[iarg + 1][0] > 'z')
-    error->all(FLERR, "Compute hvi/wall axis must be x, y or z, not {}", arg[iarg + 1]);
-  axis = arg[iarg + 1][0] - 'x';
+  const bool is_like = strcmp(arg[iarg], "like") == 0;
+  if (is_like) {
+    auto *const other = dynamic_cast<ComputeHVIWall *>(modify->get_compute_by_id(arg[iarg + 1]));
+    if (!other)
+      error->all(FLERR, "Compute hvi/wall like: there is no compute hvi/wall with the ID {}",
+                 arg[iarg + 1]);
+    axis = other->axis;
+    id_fix = utils::strdup(other->id_fix);
+    owns_fix = false;
+    for (const Wall &w : other->walls) {
+      walls.emplace_back();
+      static_cast<Place &>(walls.back()) = w;
+    }
+  } else {
+    if (strcmp(arg[iarg], "axis") != 0)
+      error->all(FLERR, "Compute hvi/wall begins with axis x, y or z, or with like ID, not {}",
+                 arg[iarg]);
+    if (strlen(arg[iarg + 1]) != 1 || arg[iarg + 1][0] < 'x' || arg[iarg + 1][0] > 'z')
+      error->all(FLERR, "Compute hvi/wall axis must be x, y or z, not {}", arg[iarg + 1]);
+    axis = arg[iarg + 1][0] - 'x';
+  }
+  create_attribute = owns_fix;
   across[0] = (axis == 0) ? 1 : 0;
   across[1] = (axis == 2) ? 1 : 2;
   iarg += 2;
@@ -73,7 +89,10 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
                      arg[iarg + 1]);
       }
       iarg += 2;
-    } else
+    } else if (is_like)
+      error->all(FLERR, "Compute hvi/wall like takes pieces and no other keyword, not {}",
+                 arg[iarg]);
+    else
       read_wall(iarg, narg, arg);
   }
   if (walls.empty()) utils::missing_cmd_args(FLERR, "compute hvi/wall wall", error);
@@ -119,6 +138,7 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
 
   // where particles were: kept as by compute displace/atom, in restart files, too
 
+  if (!owns_fix) return;
   id_fix = utils::strdup(std::string(id) + "_COMPUTE_STORE");
   first = dynamic_cast<FixStoreAtom *>(
       modify->add_fix(fmt::format("{} all STORE/ATOM 3 0 0 1", id_fix)));
@@ -132,7 +152,7 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
 
 ComputeHVIWall::~ComputeHVIWall()
 {
-  if (id_fix && modify->nfix) modify->delete_fix(id_fix);
+  if (owns_fix && id_fix && modify->nfix) modify->delete_fix(id_fix);
   delete[] id_fix;
   memory->destroy(array);
 }

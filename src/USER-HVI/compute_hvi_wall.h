@@ -59,9 +59,11 @@ class ComputeHVIWall : public Compute {
   double memory_usage() override;
 
  private:
-  struct Wall {
+  struct Place {                     // what the command says of a wall
     int lo, hi, node_lo, node_hi;    // types of its particles, and of nodes of its elements; 0: none
     double front, rear, layers, radius, center[2], struck[2];
+  };
+  struct Wall : Place {
     std::unique_ptr<ComputeHVICloud> cloud;
     std::unique_ptr<ComputeHVIHole> hole, plane;    // line of sight; in the plane of the wall
 
@@ -75,6 +77,7 @@ class ComputeHVIWall : public Compute {
   std::vector<Wall> walls;
   std::unique_ptr<ComputeHVIFragment> fragment;
   char *id_fix;
+  bool owns_fix;    // else another compute hvi/wall has made it
   class FixStoreAtom *first;    // where particles were
   class FixHVIStore *store;
   class FixHVIJohnsonCook *strength;

@@ -31,8 +31,12 @@
 
 #include <cmath>
 #include <cstring>
+#include <map>
+#include <string>
 
 using namespace LAMMPS_NS;
+
+static constexpr double SKIN_OF_SPACING = 0.7;    // see choose_skin()
 
 /* ---------------------------------------------------------------------- */
 
@@ -192,6 +196,7 @@ void PairHVISPH::init_style()
   const int ntypes = atom->ntypes;
   is_ours.assign(ntypes + 1, 0);
   for (int i = 1; i <= ntypes; i++) is_ours[i] = set.h[i] > 0.0 && store->materials.of(i);
+  choose_skin();
   check_fixes();
   check_materials();
   check_mirror();
@@ -215,6 +220,25 @@ void PairHVISPH::init_style()
   force->pair->comm_forward = MAX(force->pair->comm_forward, comm_forward);
   force->pair->comm_reverse = MAX(force->pair->comm_reverse, comm_reverse);
   neighbor->add_request(this);
+}
+
+/* ----------------------------------------------------------------------
+   The skin that LAMMPS has by default for the units, 1 mm in SI, is no choice of anybody for
+   particles of these spacings.  Any other is the user's.
+------------------------------------------------------------------------- */
+
+void PairHVISPH::choose_skin()
+{
+  static const std::map<std::string, double> DEFAULTS = {
+      {"lj", 0.3}, {"si", 0.001}, {"cgs", 0.1}, {"micro", 0.1}, {"nano", 0.1}};
+  const auto units = DEFAULTS.find(update->unit_style);
+  if (units == DEFAULTS.end() || neighbor->skin != units->second || force->pair != this) return;
+  double widest = 0.0;
+  for (int i = 1; i <= atom->ntypes; i++) {
+    if (is_ours[i] && spacings[i] == 0.0) return;
+    if (is_ours[i]) widest = MAX(widest, spacings[i]);
+  }
+  if (widest > 0.0) neighbor->skin = SKIN_OF_SPACING * widest;
 }
 
 /* ----------------------------------------------------------------------

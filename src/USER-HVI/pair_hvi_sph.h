@@ -64,6 +64,8 @@ class PairHVISPH :
 
   HVI::SphSettings set;
   std::vector<std::string> specs;          // by type: what made materials, for restart files
+  std::vector<double> spacings;            // by type: of its particles at rest; 0: not given
+  std::vector<double> own_mass;            // by type: that pair_coeff has set; 0: none
   double **visc_a, **visc_b, **tension;    // by types, rows have ntypes+1 entries
   double **ratio, **weight;                // the same, of a run: see find_weights()
 
@@ -83,6 +85,12 @@ class PairHVISPH :
   double rho_far, v_quiet;                   // differences that count as none
   bool placed;                               // all are in the cells of lists
   std::vector<int> rows;                     // of the list, of those that are awake
+
+  struct EosState {    // pressure and dp/drho at constant entropy, of a density and an energy per mass
+    double rho = -1.0, e = 0.0, p = 0.0, csq = 0.0;
+  };
+  std::vector<EosState> eos_states;    // by type: of the last particle that was asked for
+
   double
       fastest;    // of the last forces: 1/time in which signals pass half of what a kernel reaches
   double narrowest;    // and the smallest h
@@ -96,6 +104,7 @@ class PairHVISPH :
 
   void allocate();
   void deallocate();
+  void choose_skin();
   void set_material(int ilo, int ihi, int jlo, int jhi, const std::vector<std::string> &,
                     bool restored);
 

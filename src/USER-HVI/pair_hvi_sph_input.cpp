@@ -19,14 +19,17 @@
 #include "domain.h"
 #include "error.h"
 #include "hvi_kernel.h"
+#include "math_special.h"
 #include "memory.h"
 
 #include <cmath>
 #include <cstring>
+#include <map>
 
 using namespace LAMMPS_NS;
 
 static constexpr char OWNER[] = "pair style hvi/sph";    // of materials
+static constexpr double H_OF_SPACING = 1.2;    // smoothing length in spacings: see Howto_choose
 
 /* ---------------------------------------------------------------------- */
 
@@ -51,6 +54,8 @@ void PairHVISPH::allocate()
       tension[i][j] = (i == j || set.laws.stock) ? 1.0 : 0.0;
     }
   specs.assign(np1, "");
+  spacings.assign(np1, 0.0);
+  own_mass.assign(np1, 0.0);
   set.h.assign(np1, 0.0);
   store = FixHVIStore::instance(lmp);
   store->materials.forget(OWNER);    // of an earlier pair style of this name
@@ -239,7 +244,7 @@ void PairHVISPH::settings(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   I J MATERIAL h H  |  I J tension yes|no viscosity a b
+   I J MATERIAL h H | spacing A  |  I J tension yes|no viscosity a b
 ------------------------------------------------------------------------- */
 
 void PairHVISPH::coeff(int narg, char **arg)
@@ -274,7 +279,7 @@ void PairHVISPH::coeff(int narg, char **arg)
     const std::size_t nvalues = key == "tension" ? 1 : 2;
     if (key != "tension" && key != "viscosity")
       error->all(FLERR,
-                 "Unknown pair_coeff hvi/sph keyword: {} (use file NAME h H, eos STYLE ARGS h H, "
+                 "Unknown pair_coeff hvi/sph keyword: {} (use file NAME spacing A, eos STYLE ARGS h H, "
                  "nodes, tension yes|no or viscosity a b)",
                  key);
     if (n + nvalues >= words.size())
@@ -356,43 +361,47 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
     used = 2 + nargs;
   }
 
-  if (used >= nwords || words[used] != "h")
-    error->all(FLERR, "Pair_coeff hvi/sph: after the material must come h and its value{}",
+  if (used >= nwords || (words[used] != "h" && words[used] != "spacing"))
+    error->all(FLERR,
+               "Pair_coeff hvi/sph: after the material must come h or spacing and its value{}",
                used < nwords ? ", not " + words[used] : std::string());
-  if (used + 2 > nwords) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph h", error);
-  const double h = utils::numeric(FLERR, words[used + 1], false, lmp);
-  if (!(h > 0.0) || !std::isfinite(h))
-    error->all(FLERR, "Pair_coeff hvi/sph h must be > 0, not {}", words[used + 1]);
-  used += 2;
-  double volume = 0.0;
-  while (used < nwords &&
-         ((words[used] == "volume" && volume == 0.0) ||
-          (words[used] == "strength" && !made->liquid))) {
-    if (words[used] == "strength") {
-      if (used + 2 > nwords) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph strength", error);
+  double h = 0.0, spacing = 0.0, volume = 0.0;
+  const std::map<std::string, double *> lengths = {
+      {"h", &h}, {"spacing", &spacing}, {"volume", &volume}};
+  while (used < nwords) {
+    const std::string &key = words[used];
+    const auto found = lengths.find(key);
+    const bool liquid = key == "strength";
+    if (liquid ? made->liquid : (found == lengths.end() || *found->second > 0.0)) break;
+    if (used + 2 > nwords)
+      utils::missing_cmd_args(FLERR, fmt::format("pair_coeff hvi/sph {}", key), error);
+    if (liquid) {
       if (words[used + 1] != "none")
         error->all(FLERR,
                    "Pair_coeff hvi/sph strength must be none, not {}: laws of strength are chosen "
                    "by fix hvi/johnson-cook",
                    words[used + 1]);
       made->liquid = true;
-      used += 2;
-      continue;
+    } else {
+      double &value = *found->second;
+      value = utils::numeric(FLERR, words[used + 1], false, lmp);
+      if (!(value > 0.0) || !std::isfinite(value))
+        error->all(FLERR, "Pair_coeff hvi/sph {} must be > 0, not {}", key, words[used + 1]);
     }
-    if (used + 2 > nwords) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph volume", error);
-    volume = utils::numeric(FLERR, words[used + 1], false, lmp);
-    if (!(volume > 0.0) || !std::isfinite(volume))
-      error->all(FLERR, "Pair_coeff hvi/sph volume must be > 0, not {}", words[used + 1]);
-    if (!(made->eos->rho0() > 0.0))
-      error->all(FLERR, "Pair_coeff hvi/sph volume: {} has no density at rest", made->name);
-    if (!atom->mass)
-      error->all(FLERR,
-                 "Pair_coeff hvi/sph volume sets masses of types, but particles have their own");
     used += 2;
   }
   if (used < nwords)
     error->all(FLERR, "Pair_coeff hvi/sph: unexpected {} after {} {}", words[used], words[used - 2],
                words[used - 1]);
+  if ((volume > 0.0 || spacing > 0.0) && !(made->eos->rho0() > 0.0))
+    error->all(FLERR, "Pair_coeff hvi/sph {}: {} has no density at rest",
+               volume > 0.0 ? "volume" : "spacing", made->name);
+  if (volume > 0.0 && !atom->mass)
+    error->all(FLERR,
+               "Pair_coeff hvi/sph volume sets masses of types, but particles have their own");
+  if (h == 0.0) h = H_OF_SPACING * spacing;
+  const bool keeps_mass = volume == 0.0;    // that the type has from a data file, say
+  if (keeps_mass && spacing > 0.0) volume = MathSpecial::powint(spacing, set.laws.dim);
 
   std::string spec = words[0];
   for (std::size_t n = 1; n < nwords; n++) spec += " " + words[n];
@@ -403,7 +412,12 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
     store->materials.set(i, {made, OWNER, volume, restored});
     specs[i] = spec;
     set.h[i] = h;
-    if (!restored && volume > 0.0) atom->set_mass(FLERR, i, made->eos->rho0() * volume);
+    spacings[i] = spacing;
+    const bool other = atom->mass && atom->mass_setflag[i] && atom->mass[i] != own_mass[i];
+    if (!restored && atom->mass && volume > 0.0 && !(keeps_mass && other)) {
+      own_mass[i] = made->eos->rho0() * volume;
+      atom->set_mass(FLERR, i, own_mass[i]);
+    }
     count++;
   }
   if (count == 0)

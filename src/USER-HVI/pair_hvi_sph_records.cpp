@@ -54,6 +54,7 @@ void PairHVISPH::gather()
   const HVI::SphLaws &laws = set.laws;
   fastest = 0.0;
   narrowest = HVI::NO_BOUND;
+  eos_states.assign(atom->ntypes + 1, EosState());
 
   for (int i = 0; i < nall; i++) {
     const int itype = type[i];
@@ -65,8 +66,16 @@ void PairHVISPH::gather()
     if (!is_ours[itype]) continue;    // of another style in a hybrid
     const HVI::Eos &eos = *store->materials.of(itype)->eos;
     const double m = rmass ? rmass[i] : atom->mass[itype];
-    double p, csq;
-    if (!std::isfinite(esph[i]) || !eos.evaluate(rho[i], esph[i] / m, p, csq)) no_answer(i, rho[i]);
+
+    // undisturbed matter of a type is in one state: its pressure is known from the particle before
+
+    EosState &known = eos_states[itype];
+    const double e = esph[i] / m;
+    if (rho[i] != known.rho || e != known.e) {
+      known = {rho[i], e, 0.0, 0.0};
+      if (!std::isfinite(e) || !eos.evaluate(rho[i], e, known.p, known.csq)) no_answer(i, rho[i]);
+    }
+    double p = known.p, csq = known.csq;
 
     // failed particles are not pulled; signals in solids are longitudinal
 

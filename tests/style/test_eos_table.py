@@ -235,7 +235,7 @@ def test_wrong_table_in_a_material_file(lmp, tmp_path, nranks):
 def test_missing_words(lmp, tmp_path):
     assert "Cannot find table file x.table" in refused(lmp, "eos table x.table")
     (tmp_path / "h").write_text(TABLE)  # so h is taken for the file
-    assert "after the material must come h and its value, not" in refused(lmp, "eos table")
+    assert "after the material must come h or spacing and its value, not" in refused(lmp, "eos table")
 
 
 @pytest.mark.parametrize("how, says", [

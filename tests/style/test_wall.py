@@ -128,6 +128,21 @@ def test_restart_keeps_where_particles_were(walls):
     equal(begun, again, 1e-9)
 
 
+LIKE = MODEL.replace("compute w all", "compute first all").replace(" pieces 9e-4", "") + "compute w all hvi/wall like first pieces 9e-4\n"
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_walls_of_another(walls, nranks):
+    """like: the same rows, one record of first places for both, also after a restart"""
+    text = scene(steps=40) + PRINT
+    assert walls(text.replace(MODEL, LIKE), nranks) == walls(text, nranks)
+    walls(scene(steps=40).replace(MODEL, LIKE) + "write_restart half\n", nranks)
+    begun, again = (walls("read_restart half\n" + model + PRINT, nranks) for model in (MODEL.replace("compute w ", "compute first ").replace("c_w", "c_first")
+                                                                                     + "compute w all hvi/wall like first pieces 9e-4\n", LIKE))
+    equal(begun, again, 1e-12)
+    assert begun[0]["failed_depth"] > 0
+
+
 def test_hybrid(walls):
     """under pair_style hybrid/overlay the rows are the same"""
     text = scene().replace("pair_style hvi/sph cubic dissipation riemann", "pair_style hybrid/overlay zero 1e-4 hvi/sph cubic dissipation riemann")
@@ -148,7 +163,7 @@ WALLS = "compute w all hvi/wall axis z "
 
 
 @pytest.mark.parametrize("command, message", [
-    ("compute w all hvi/wall", "Illegal compute hvi/wall command: missing argument"), ("compute w all hvi/wall wall 2 0 1", "begins with axis x, y or z, not wall"),
+    ("compute w all hvi/wall", "Illegal compute hvi/wall command: missing argument"), ("compute w all hvi/wall wall 2 0 1", "begins with axis x, y or z, or with like ID, not wall"),
     ("compute w all hvi/wall axis q", "axis must be x, y or z, not q"), (WALLS, "compute hvi/wall wall command: missing argument"),
     (WALLS + "wall 2 0", "compute hvi/wall wall command: missing argument"), (WALLS + "wall 2 0 0", "wall must be > 0, not 0"),
     (WALLS + "wall 9 0 1e-3", "Numeric index 9 is out of bounds (1-3)"), (WALLS + "layers 2", "layers belongs to a wall, and comes after it"),
@@ -156,6 +171,9 @@ WALLS = "compute w all hvi/wall axis z "
     (WALLS + "wall 2 0 1e-3 pieces 0", "pieces must be no or a distance > 0, not 0"), (WALLS + "wall 2 0 1e-3 hole yes", "Unknown compute hvi/wall keyword: hole"),
     (WALLS + "wall 3 6e-3 1e-3 wall 2 0 1e-3", "wall 2 begins at 0, before the rear of wall 1 at 0.007"), (WALLS + "wall 2 0 1e-3 wall 2 6e-3 1e-3", "walls 1 and 2 share a type"),
     (WALLS + "wall 2 0 1e-3 center 0", "compute hvi/wall center command: missing argument"),
+    (WALLS + "wall 2 0 1e-3\ncompute v all hvi/wall like u pieces 1e-3", "there is no compute hvi/wall with the ID u"), ("compute w all hvi/wall like", "missing argument"),
+    (WALLS + "wall 2 0 1e-3\ncompute v all hvi/wall like w wall 3 6e-3 1e-3", "like takes pieces and no other keyword, not wall"),
+    (WALLS + "wall 2 0 1e-3\ncompute v all hvi/wall like w\nuncompute w\nthermo_style custom step c_v[1][1]", "the fix w_COMPUTE_STORE that it made is gone"),
     ("group none empty\ncompute w none hvi/wall axis z wall 2 0 1e-3\nthermo_style custom step c_w[1][1]", "group none has no particles of type 2, wall 1")])
 def test_wrong_input(walls, command, message):
     text = scene(steps=0)
