@@ -29,14 +29,15 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr double COST_AT_REST = 0.17;    // of a particle that is inactive, over an active one
+static constexpr double COST_AT_REST =
+    0.17;    // of a particle that is inactive, over an active one
 
 // in the order of Value
 
 static const char *const NAMES[] = {
-    "p",          "e",       "T",     "c",           "h",        "eps",   "epsdot", "damage",
-    "initiation", "spalled", "voids", "void_damage", "fragsize", "vm",    "sxx",    "syy",
-    "szz",        "sxy",     "sxz",   "syz",         "asleep",   "cost",        "nbonds"};
+    "p",          "e",       "T",     "c",           "h",        "eps",  "epsdot", "damage",
+    "initiation", "spalled", "voids", "void_damage", "fragsize", "vm",   "sxx",    "syy",
+    "szz",        "sxy",     "sxz",   "syz",         "asleep",   "cost", "nbonds"};
 
 /* ---------------------------------------------------------------------- */
 

@@ -86,8 +86,10 @@ class PairHVISPH :
   bool placed;                               // all are in the cells of lists
   std::vector<int> rows;                     // of the list, of those that are awake
 
-  struct EosState {    // pressure and dp/drho at constant entropy, of a density and an energy per mass
-    double rho = -1.0, e = 0.0, p = 0.0, csq = 0.0;
+  // of a density and an energy per mass: pressure, dp/drho at constant entropy, cube root of rho/rho0
+
+  struct EosState {
+    double rho = -1.0, e = 0.0, p = 0.0, csq = 0.0, width = 1.0;
   };
   std::vector<EosState> eos_states;    // by type: of the last particle that was asked for
 

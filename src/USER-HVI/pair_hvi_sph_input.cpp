@@ -278,10 +278,11 @@ void PairHVISPH::coeff(int narg, char **arg)
     const std::string &key = words[n];
     const std::size_t nvalues = key == "tension" ? 1 : 2;
     if (key != "tension" && key != "viscosity")
-      error->all(FLERR,
-                 "Unknown pair_coeff hvi/sph keyword: {} (use file NAME spacing A, eos STYLE ARGS h H, "
-                 "nodes, tension yes|no or viscosity a b)",
-                 key);
+      error->all(
+          FLERR,
+          "Unknown pair_coeff hvi/sph keyword: {} (use file NAME spacing A, eos STYLE ARGS h H, "
+          "nodes, tension yes|no or viscosity a b)",
+          key);
     if (n + nvalues >= words.size())
       utils::missing_cmd_args(FLERR, fmt::format("pair_coeff hvi/sph {}", key), error);
 

@@ -72,8 +72,10 @@ void PairHVISPH::gather()
     EosState &known = eos_states[itype];
     const double e = esph[i] / m;
     if (rho[i] != known.rho || e != known.e) {
-      known = {rho[i], e, 0.0, 0.0};
+      known.rho = rho[i];
+      known.e = e;
       if (!std::isfinite(e) || !eos.evaluate(rho[i], e, known.p, known.csq)) no_answer(i, rho[i]);
+      if (records.traction && eos.rho0() > 0.0) known.width = std::cbrt(rho[i] / eos.rho0());
     }
     double p = known.p, csq = known.csq;
 
@@ -120,7 +122,7 @@ void PairHVISPH::gather()
         T.vy = felt[1];
         T.vz = felt[2];
       }
-      if (eos.rho0() > 0.0) s.w *= std::cbrt(rho[i] / eos.rho0());
+      s.w *= known.width;
     }
     s.p = laws.symmetric ? p / (rho[i] * rho[i]) : p;
     s.c = std::sqrt(csq);
