@@ -223,6 +223,11 @@ void ComputeHVIFragmentAtom::choose(const std::vector<char> *set, int stay_alone
 void ComputeHVIFragmentAtom::find_chosen(std::vector<int64_t> &lowest)
 {
   find_fragments(nullptr);
+  name_found(lowest);
+}
+
+void ComputeHVIFragmentAtom::name_found(std::vector<int64_t> &lowest) const
+{
   lowest.assign(atom->nlocal, 0);
   for (int i = 0; i < atom->nlocal; i++)
     if (id[i] != 0) lowest[i] = std::abs(components.component(i).id);

@@ -48,6 +48,7 @@ class ComputeHVIFragmentAtom : public Compute {
 
   void choose(const std::vector<char> *, int damage);
   void find_chosen(std::vector<int64_t> &lowest);
+  void name_found(std::vector<int64_t> &lowest) const;    // those of the last search
 
  protected:
   ComputeHVIFragmentAtom(class LAMMPS *, int, char **, int keywords);

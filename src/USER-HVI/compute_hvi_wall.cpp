@@ -35,8 +35,10 @@
 using namespace LAMMPS_NS;
 
 static constexpr double BIG = 1.0e20;
-static constexpr double WHOLE = 0.99;     // of a plate that is no smaller than its share of the model
-static constexpr double NEAR_PLANE = 0.5;    // of the reach: a piece so near a mirror plane goes on behind it
+static constexpr double WHOLE =
+    0.99;    // of a plate that is no smaller than its share of the model
+static constexpr double NEAR_PLANE =
+    0.5;    // of the reach: a piece so near a mirror plane goes on behind it
 
 /* ---------------------------------------------------------------------- */
 
@@ -96,6 +98,9 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
       read_wall(iarg, narg, arg);
   }
   if (walls.empty()) utils::missing_cmd_args(FLERR, "compute hvi/wall wall", error);
+  for (Wall &w : walls)
+    for (int k = 0; k < 2; k++)
+      if (std::isnan(w.struck[k])) w.struck[k] = w.center[k];
   for (size_t k = 1; k < walls.size(); k++) {
     if (walls[k].front < walls[k - 1].rear)
       error->all(FLERR,
@@ -126,11 +131,12 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
     comm_forward = fragment->comm_forward;    // LAMMPS makes buffers for the computes that it knows
     for (Wall &w : walls) {
       const std::string middle = text(0.5 * (w.front + w.rear));
-      const std::vector<std::string> where = {"axis",           name,    "center", text(w.struck[0]),
-                                              text(w.struck[1]), "plane", middle};
+      const std::vector<std::string> where = {
+          "axis", name, "center", text(w.struck[0]), text(w.struck[1]), "plane", middle};
       std::vector<std::string> all = where;
       all.insert(all.end(), {"thickness", text(BIG)});
-      w.cloud = make("hvi/cloud", {"axis", name, "plane", text(w.rear)}, (ComputeHVICloud *) nullptr);
+      w.cloud =
+          make("hvi/cloud", {"axis", name, "plane", text(w.rear)}, (ComputeHVICloud *) nullptr);
       w.hole = make("hvi/hole", all, (ComputeHVIHole *) nullptr);
       w.plane = make("hvi/hole", where, (ComputeHVIHole *) nullptr);
     }
@@ -225,8 +231,6 @@ void ComputeHVIWall::read_wall(int &iarg, int narg, char **arg)
     for (int k = 0; k < 2; k++) (key == "center" ? w.center : w.struck)[k] = number(1 + k);
   if (!(w.layers >= 1.0))
     error->all(FLERR, "Compute hvi/wall layers must be 1 or more, not {}", arg[iarg + 1]);
-  if (std::isnan(w.struck[0]) || key == "center")
-    for (int k = 0; k < 2; k++) w.struck[k] = w.center[k];
   iarg += two ? 3 : 2;
 }
 
@@ -384,7 +388,7 @@ void ComputeHVIWall::sum_up()
         s[ENERGY] += energy;
         s[MASS] += m;
         top[FAR_FREE] = MAX(top[FAR_FREE],
-                              std::hypot(x0[across[0]] - w.center[0], x0[across[1]] - w.center[1]));
+                            std::hypot(x0[across[0]] - w.center[0], x0[across[1]] - w.center[1]));
       } else
         s[HELD_MASS] += m;
       if (!strength) continue;
@@ -402,26 +406,41 @@ void ComputeHVIWall::sum_up()
   MPI_Allreduce(MPI_IN_PLACE, most.data(), most.size(), MPI_DOUBLE, MPI_MAX, world);
   for (int k = 0; k < nwalls; k++)
     for (int c = 0; c < CLOUD_MASS; c++)
-      array[k][c] = (c == TIP || c == FAILED_DEPTH || c == REAR_STRAIN || c == MISSED_REACH ||
-                     c == FAR_FREE)
+      array[k][c] =
+          (c == TIP || c == FAILED_DEPTH || c == REAR_STRAIN || c == MISSED_REACH || c == FAR_FREE)
           ? most[k * NCOLUMNS + c]
           : sum[k * NCOLUMNS + c];
 }
 
 /* ----------------------------------------------------------------------
-   what hangs together in all matter: by sound material, and at all
+   What hangs together in all matter: by sound material, and at all.  A wall that nothing has
+   reached is in one piece: energies of matter at rest are 0 to the last digit.
 ------------------------------------------------------------------------- */
 
 void ComputeHVIWall::find_pieces()
 {
   const int nlocal = atom->nlocal;
+  std::vector<char> counts(atom->ntypes + 1, 1);
+  for (size_t k = 0; k < walls.size(); k++) {
+    Wall &w = walls[k];
+    w.untouched = array[k][ENERGY] == 0.0 && array[k][PASSED_MASS] == 0.0;
+    for (int t = w.lo; t <= w.hi; t++) counts[t] = !w.untouched;
+  }
   chosen.assign(nlocal, 0);
-  for (int i = 0; i < nlocal; i++) chosen[i] = (atom->mask[i] & groupbit) ? 1 : 0;
+  for (int i = 0; i < nlocal; i++)
+    chosen[i] = (atom->mask[i] & groupbit) && counts[atom->type[i]];
   fragment->choose(&chosen, strength ? 1 : 0);
   fragment->find_chosen(sound);
   fragment->choose(&chosen, 0);
   fragment->find_chosen(together);
-  for (size_t k = 0; k < walls.size(); k++) measure(walls[k], array[k]);
+  for (size_t k = 0; k < walls.size(); k++)
+    if (walls[k].untouched) {
+      double mine = 0.0;
+      for (int i = 0; i < nlocal; i++)
+        if ((atom->mask[i] & groupbit) && walls[k].owns(atom->type[i])) mine += mass_of(i);
+      MPI_Allreduce(&mine, &array[k][BODY_MASS], 1, MPI_DOUBLE, MPI_SUM, world);
+    } else
+      measure(walls[k], array[k]);
 }
 
 /* ----------------------------------------------------------------------
@@ -524,7 +543,7 @@ void ComputeHVIWall::measure(Wall &w, double *row)
   ComputeHVIFragment::Heaviest piece = fragment->find_heaviest();
   row[FRAGMENTS] = piece.number;
   if (piece.id) {
-    fragment->find_chosen(own);
+    fragment->name_found(own);
     row[LARGEST_MASS] = piece.mass * images_of(own, piece.id, true);
     row[LARGEST_VELOCITY] = piece.velocity[axis];
   }
@@ -532,7 +551,7 @@ void ComputeHVIWall::measure(Wall &w, double *row)
   piece = fragment->find_heaviest();
   row[PIECES_APART] = piece.number;
   if (piece.id) {
-    fragment->find_chosen(own);
+    fragment->name_found(own);
     row[LARGEST_APART_MASS] = piece.mass * images_of(own, piece.id, false);
   }
   find_hole(w, row);
@@ -554,7 +573,7 @@ void ComputeHVIWall::find_hole(Wall &w, double *row)
     chosen[i] = (atom->mask[i] & groupbit) && w.owns(atom->type[i]);
   fragment->choose(&chosen, 0);
   const int64_t plate = fragment->find_heaviest().id;
-  fragment->find_chosen(own);
+  fragment->name_found(own);
   for (int i = 0; i < atom->nlocal; i++) chosen[i] = chosen[i] && own[i] == plate;
 
   const std::pair<ComputeHVIHole *, int> looks[2] = {{w.hole.get(), HOLE_FOUND},

@@ -59,13 +59,16 @@ class ComputeHVIWall : public Compute {
   double memory_usage() override;
 
  private:
-  struct Place {                     // what the command says of a wall
-    int lo, hi, node_lo, node_hi;    // types of its particles, and of nodes of its elements; 0: none
+  struct Place {    // what the command says of a wall
+    int lo, hi, node_lo,
+        node_hi;    // types of its particles, and of nodes of its elements; 0: none
     double front, rear, layers, radius, center[2], struck[2];
   };
   struct Wall : Place {
     std::unique_ptr<ComputeHVICloud> cloud;
     std::unique_ptr<ComputeHVIHole> hole, plane;    // line of sight; in the plane of the wall
+
+    bool untouched = false;    // at rest as it was made, and nothing is behind it
 
     bool owns(int itype) const { return itype >= lo && itype <= hi; }
     bool has_node(int itype) const { return itype >= node_lo && itype <= node_hi; }
@@ -77,7 +80,7 @@ class ComputeHVIWall : public Compute {
   std::vector<Wall> walls;
   std::unique_ptr<ComputeHVIFragment> fragment;
   char *id_fix;
-  bool owns_fix;    // else another compute hvi/wall has made it
+  bool owns_fix;                // else another compute hvi/wall has made it
   class FixStoreAtom *first;    // where particles were
   class FixHVIStore *store;
   class FixHVIJohnsonCook *strength;

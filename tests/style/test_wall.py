@@ -128,6 +128,18 @@ def test_restart_keeps_where_particles_were(walls):
     equal(begun, again, 1e-9)
 
 
+def test_defaults(walls):
+    """layers 1, radius without end, struck in the middle, which is on the axis: as said"""
+    text = scene(steps=40) + PRINT
+    said = "wall 2 0 1.2e-3 layers 2 radius 5.4e-3 wall 3 6e-3 1.8e-3 layers 3 radius 6e-3"
+    assert said in text
+    one, two, three = (walls(text.replace(said, words)) for words in (
+        "wall 2 0 1.2e-3 wall 3 6e-3 1.8e-3", "wall 2 0 1.2e-3 layers 1 radius 1e20 center 0 0 struck 0 0 wall 3 6e-3 1.8e-3 layers 1 radius 1e20 center 0 0 struck 0 0",
+        "wall 2 0 1.2e-3 struck 0 0 center 1e-3 0 wall 3 6e-3 1.8e-3"))
+    assert one == two and one[0]["hole_found"] == 1
+    assert three[0]["hole_diameter"] == one[0]["hole_diameter"] and three[0]["far_free"] > one[0]["far_free"]
+
+
 LIKE = MODEL.replace("compute w all", "compute first all").replace(" pieces 9e-4", "") + "compute w all hvi/wall like first pieces 9e-4\n"
 
 
