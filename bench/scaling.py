@@ -139,10 +139,10 @@ def scene(name, variables):
     """The head of an input, up to its runs."""
     if name == "plate":
         with open(PLATE) as f:
-            text, mark, rest = f.read().partition("# runs to the times of the frames")
+            text, mark, _ = f.read().partition("variable     left equal")
         if not mark:
-            sys.exit("%s has no line '# runs to the times of the frames'" % PLATE)
-        return text + "label fly\nthermo 1000000\nthermo_style custom step cpu nbuild f_move time f_balance\nthermo_modify lost ignore\n"
+            sys.exit("%s has no line 'variable left'" % PLATE)
+        return text + "undump frame\nthermo 1000000\nthermo_style custom step cpu nbuild f_move time f_share\nthermo_modify lost ignore\n"
     with open(SOLID) as f:
         text, mark, rest = f.read().partition("run          ${stir}")
     if not mark:
@@ -213,7 +213,7 @@ def exchanges_of(found, lists):
 
 
 def plate_variables(dx):
-    return {"dx": dx, "quarter": "yes", "keep": 0}
+    return {"dx": dx}
 
 
 UNTIL = "variable ahead equal 16e-6-time\nfix stop all halt 1 v_ahead < 0.0 error continue message no\nrun 1000000\n"
@@ -261,7 +261,7 @@ def costs(args, data):
 
 def follow(args, data):
     """The plate on one rank in one run: positions and who is asleep into dumps; time and lists of each 50 steps."""
-    tail = "dump d all custom 50 dump.* x y c_asleep\ndump_modify d format float %.5g\nthermo 50\n" + UNTIL
+    tail = "compute asleep all hvi/atom asleep\ndump d all custom 50 dump.* x y c_asleep\ndump_modify d format float %.5g\nthermo 50\n" + UNTIL
     log = run(args, "follow", "plate", plate_variables(args.dx), tail, 1)
     atoms = read_log(log)["atoms"]
     rows = re.findall(r"^ +(\d+) +(\S+) +(\d+) +(\S+) +\S+ +(\S+) *$", log, re.M)

@@ -8,10 +8,8 @@ import os
 import pathlib
 import re
 import shlex
-import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
@@ -125,37 +123,17 @@ def own_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-def whole_log(log):
-    """text of a log and of those that the input went on with by the command log"""
-    text = log.read_text() if log.exists() else ""
-    for name in re.findall(r"^log +([^\s$]+)(?: append)?$", text, re.M):
-        text += (log.parent / name).read_text()
-    return text
-
-
-def kill_when(process, ready, timeout):
-    """ends a program, and all ranks if it is mpirun, without any notice"""
-    end = time.monotonic() + timeout
-    while process.poll() is None and not ready() and time.monotonic() < end:
-        time.sleep(0.005)
-    children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
-    for pid in children.read_text().split() if children.exists() else []:
-        os.kill(int(pid), signal.SIGKILL)
-    if "mpirun" not in process.args:  # it ends when its ranks have
-        process.kill()
-
-
 @pytest.fixture
 def lmp(tmp_path, lmp_exe):
     """Runs LAMMPS on an input text (or the Path of an input file) and returns a Result.
 
     lmp(text, nranks=1, vars={"name": value or list}, expect_fail=False, exe=other program, extra=["-sf", "opt"],
-        cwd=folder, timeout=seconds, env={...}, kill=function)
-    A wrong return code or a hang fails the test. Each call has its own log. With kill, all ranks get SIGKILL once it returns True.
+        cwd=folder, timeout=seconds, env={...})
+    A wrong return code or a hang fails the test. Each call has its own log.
     """
     count = 0
 
-    def run(text, nranks=1, vars=None, cwd=None, expect_fail=False, exe=None, extra=(), timeout=300, env=None, kill=None):
+    def run(text, nranks=1, vars=None, cwd=None, expect_fail=False, exe=None, extra=(), timeout=300, env=None):
         nonlocal count
         count += 1
         cwd = pathlib.Path(cwd or tmp_path)
@@ -178,8 +156,6 @@ def lmp(tmp_path, lmp_exe):
         process = subprocess.Popen(command, cwd=cwd, env={**os.environ, **(env or {})}, text=True, errors="replace",
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    start_new_session=True)
-        if kill:
-            kill_when(process, kill, timeout)
         try:
             out, err = process.communicate(timeout=timeout)
         except subprocess.TimeoutExpired:
@@ -190,10 +166,10 @@ def lmp(tmp_path, lmp_exe):
                 os.killpg(process.pid, 9)
                 out, err = process.communicate()
             pytest.fail(f"no end after {timeout} s: {shlex.join(command)}\n{out[-3000:]}\n{err[-2000:]}", pytrace=False)
-        result = Result(command, cwd, process.returncode, out, err, whole_log(log))
-        if (expect_fail or kill) and result.returncode == 0:
+        result = Result(command, cwd, process.returncode, out, err, log.read_text() if log.exists() else "")
+        if expect_fail and result.returncode == 0:
             pytest.fail(f"should have failed: {result}", pytrace=False)
-        if not (expect_fail or kill) and result.returncode != 0:
+        if not expect_fail and result.returncode != 0:
             pytest.fail(str(result), pytrace=False)
         return result
 

@@ -22,7 +22,7 @@ import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
-from conftest import Result, whole_log  # noqa: E402
+from conftest import Result  # noqa: E402
 
 ENERGY, MOMENTUM = 1e-3, 1e-12  # of the initial total; of the sum of |p|: what every case asks for where the books are closed
 BOOKS = {"energy": ENERGY, "momentum": MOMENTUM}
@@ -99,7 +99,7 @@ def executor(exe, folder):
             command += ["-var", name, *(value if isinstance(value, (list, tuple)) else [value])]
         command = ["timeout", "-k", "5", str(timeout), *map(str, command)]
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", stdin=subprocess.DEVNULL)
-        r = Result(command, folder, done.returncode, done.stdout, done.stderr, whole_log(log))
+        r = Result(command, folder, done.returncode, done.stdout, done.stderr, log.read_text() if log.exists() else "")
         if done.returncode:
             raise Stopped(r.error or (f"no end after {timeout} s" if done.returncode in (124, 137) else f"ended with {done.returncode}"))
         return r

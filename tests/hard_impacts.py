@@ -1,17 +1,18 @@
-"""Hard cases of impacts for hard.py (which finds them in hard_solids.py): examples/single-plate/in.plate, coarse; elements; discrete elements.
+"""Hard cases of impacts for hard.py (which finds them in hard_solids.py): in.plate and in.hybrid of examples/single-plate, coarse; elements; discrete elements.
 
-Settings of in.plate are further words of pair hvi/sph, or dicts of variables; "stock STYLE" is hard_stock.py.
+Settings of these inputs are further words of pair hvi/sph, or dicts of variables; "stock STYLE" is hard_stock.py.
 """
 
 import pathlib
 
 import hvi
 import numpy as np
+import plate_scenes
 import yaml
 from fem_mechanics_scenes import collision
 from hard import BOOKS, Case, Stopped
 from hard_stock import stock
-from hvi import bodies, mesh_plate
+from hvi import bodies, mesh_plate, runs
 from solid_runs import material
 from tensile_scenes import nearest
 
@@ -33,22 +34,25 @@ def fit(v0, t, p="Al6061-T6", target="Al6061-T6"):
     return 2.8 * (rp / rt) ** -0.035 * (v0 / ct) ** 0.335 * (v0 / cp) ** 0.113 * t**0.516 + 0.6
 
 
-def single_plate(lmp, folder, setting, v0=7000, t=2.0, p="Al6061-T6", body=None, wall=None, **variables):
-    """in.plate, a sphere of 10 mm; body, wall: what makes their files, of the spacing. A dict of result.yaml and of what the last frame says"""
-    v = dict(dx=0.667, Rplate=30, tstop=16, quarter="yes", keep=0, D=10)
+def single_plate(lmp, folder, setting, v0=7000, t=2.0, p="Al6061-T6", body=None, wall=None, end_on=False, **variables):
+    """in.plate, a sphere of 10 mm; body, wall: what makes their files, of the spacing; a wall of elements makes it in.hybrid. A dict of result.yaml and of
+    what the last frame says"""
+    v = dict(dx=0.667, Rplate=30, tstop=16, D=10)
     v.update(variables)
     v.update(setting if isinstance(setting, dict) else {"pair": setting})
     v.update(v0=v0, t=t, out=folder, material_p=ALUMINUM, material_t=ALUMINUM)
     if p != "Al6061-T6":
         v["material_p"] = material(folder / "tungsten.hvi", *TUNGSTEN, units="si") if p == "tungsten" else ROOT / "potentials" / f"{p}.hvi"
-    quarter = v["quarter"] == "yes"
-    if body:
-        v["shape"] = body(folder / "ball.data", 1e-3 * v["dx"], quarter)
+    quarter = "angle" not in v
+    ball = body and body(folder / "ball.data", 1e-3 * v["dx"], quarter)
     if wall:
         v["plate"] = wall(folder / "wall.data", v)
-    lmp(ROOT / "examples" / "single-plate" / "in.plate", vars=v)
+        v.pop("Rplate")
+        lmp(plate_scenes.FOLDER / "in.hybrid", vars=v)
+    else:
+        lmp(plate_scenes.text(quarter, body=ball, angle=not quarter, end_on=end_on), vars=v)
     r = yaml.safe_load((folder / "result.yaml").read_text())
-    frame = hvi.Dump(folder / f"frame.{v['tstop']}.dump", mirror=["none"])[-1]
+    frame = hvi.Dump(folder / "plate.dump", mirror=["none"])[-1]
     x = np.column_stack([frame["x"], frame["y"], frame["z"]])
     sound = (frame["spalled"] == 0) & (frame["damage"] < 1)
     near = nearest(x)
@@ -130,7 +134,8 @@ def crumpled(lmp, folder, convert):
 
 def debris(lmp, folder, lattice):
     """examples/debris-cloud, coarse, at 20 km/s"""
-    lmp(ROOT / "examples" / "debris-cloud" / "in.debris", vars=dict(v0=20000, N=4000, tstop=4, frames=1, lattice=lattice, out=folder))
+    runs.Input(ROOT / "examples" / "debris-cloud" / "in.debris").copy_to(folder)
+    lmp(folder / "in.debris", vars=dict(v0=20000, N=4000, tstop=4, frames=1, lattice=lattice, out=folder))
     r = yaml.safe_load((folder / "result.yaml").read_text())
     return dict(energy=abs(r["energy_ratio"] - 1), momentum=r["momentum_error"], mass=abs(r["mass_error"]), fragmentation=r["fragmentation"])
 
@@ -193,11 +198,11 @@ CASES = [
     Case("thick-0.5", "t/D 0.5, 7 km/s", impact(t=5.0, dx=0.625), BOTH, HOLE, (), {"corrected riemann": CLUMPS}),
     Case("thick-2", "t/D 2, 7 km/s", impact(EVEN, t=20.0, dx=1, Rplate=35, tstop=20), BOTH, EVEN, (),
          {"corrected riemann": CLUMPS, "corrected viscosity": CLUMPS}),
-    *[Case(f"oblique-{a}", f"{a} degrees from the normal, 7 km/s", impact(OBLIQUE, angle=a, quarter="no", dx=1, Rplate=25, tstop=12), BOTH, OBLIQUE,
+    *[Case(f"oblique-{a}", f"{a} degrees from the normal, 7 km/s", impact(OBLIQUE, angle=a, dx=1, Rplate=25, tstop=12), BOTH, OBLIQUE,
            RIEMANN if a == 75 else (), {"corrected riemann": CLUMPS}) for a in (45, 75)],
     Case("hollow", "a hollow sphere, 7 km/s", impact(BODY, dx=0.5, Rplate=20, tstop=10, body=ball("glass", 3.5e-3)), BOTH, BODY, RIEMANN,
          {"corrected riemann": CLUMPS}),
-    Case("end-on", "a cylinder end-on, 7 km/s", impact(BODY, shape="cylinder"), WORDS, BODY),
+    Case("end-on", "a cylinder end-on, 7 km/s", impact(BODY, end_on=True), WORDS, BODY),
     Case("copper", "copper on aluminum, 3 km/s", impact(p="Cu-OFHC", v0=3000, tstop=20), WORDS, HOLE),
     Case("tungsten", "tungsten on aluminum, 3 km/s", impact(p="tungsten", v0=3000, tstop=20), WORDS, HOLE, RIEMANN),
     Case("glass", "a sphere like glass on a plate of a lattice, 7 km/s", impact(body=ball("glass")), WORDS, HOLE),
@@ -205,8 +210,7 @@ CASES = [
          RIEMANN),
     Case("step-factor", "fix hvi/dt with three times the factor", too_long, WORDS, {"caught": (1, np.inf)}, RIEMANN),
     Case("elements", "elements within the hole, 7 km/s", impact(dx=0.5, Rplate=20, tstop=10, wall=elements),
-         {"hybrid": {"method": "hybrid"}, "hybrid artificial stress": {"method": "hybrid", "pair": "dissipation riemann artstress 0.3 4"},
-          "tied": {"method": "tied"}}, HOLE, ("hybrid",), {"hybrid": CLUMPS, "tied": TIED}),
+         {"hybrid": {}, "hybrid artificial stress": {"pair": "dissipation riemann artstress 0.3 4"}, "tied": {"fem": "strain 0.3 convert no"}}, HOLE, ("hybrid",), {"hybrid": CLUMPS, "tied": TIED}),
     Case("crumple", "blocks of elements meet at 7 km/s", crumpled, {"hybrid": "yes", "tied": "no"}, {**BOOKS, "hourglass": 0.1, "step": 1.0},
          ("hybrid", "tied"), {"tied": TIED}),
     Case("debris", "bonded discrete elements at 20 km/s", debris, {"discrete sc": "sc", "discrete fcc": "fcc"},

@@ -22,9 +22,9 @@ WIDTH, HALF = 2.0, 5.0
 
 
 def read(path):
-    """type; position in mm; von Mises stress in MPa"""
+    """time in us; type; position in mm; von Mises stress in MPa"""
     frame = hvi.Dump(path)[-1]
-    return frame["type"], 1e3 * frame.x, 1e-6 * frame["vm" if "vm" in frame else "c_state[4]"]
+    return 1e6 * frame.time, frame["type"], 1e3 * frame.x, 1e-6 * frame["vm"]
 
 
 def profile(x, vm, angle):
@@ -50,7 +50,7 @@ def main(files):
     fig, axes = plt.subplots(2, len(files), figsize=(6.5 * len(files), 10), squeeze=False, layout="constrained", sharey="row")
     print("frame, front at 0, 45, 90 degrees in mm, 45 over the mean of 0 and 90; stress 5 mm behind it in MPa, likewise")
     for name, (above, curve) in zip(files, axes.T):
-        kind, x, vm = read(name)
+        time, kind, x, vm = read(name)
         m = (kind == 2) & (np.abs(x[:, 2]) < 6)
         x, vm = x[m], vm[m]
         ends, stress = [], []
@@ -63,7 +63,7 @@ def main(files):
         print(name, *("%.1f" % e for e in ends), "%.3f" % (2 * ends[1] / (ends[0] + ends[2])), *("%.0f" % e for e in stress),
               "%.2f" % (2 * stress[1] / (stress[0] + stress[2])))
         dots = above.scatter(x[:, 0], x[:, 1], c=vm, s=3, lw=0, cmap="viridis", vmin=0, vmax=400)
-        above.set(aspect="equal", xlabel="x (mm)", ylabel="y (mm)", title=os.path.basename(name)[6:-5] + " us")
+        above.set(aspect="equal", xlabel="x (mm)", ylabel="y (mm)", title=f"{time:.3g} us")
         curve.set(xlabel="distance from the axis (mm)", ylabel="von Mises stress (MPa)")
         curve.legend(title="mean about, from the x axis")
     fig.colorbar(dots, ax=axes[0], label="von Mises stress (MPa)")

@@ -10,8 +10,9 @@ for what in plain:0 rotated:45 layers:"0 45"; do
   mkdir -p "$out/$name"
   $python -m hvi plate "$out/$name/plate.data" --radius 75e-3 --thickness 2e-3 --spacing 0.5e-3 --layers 4 --angles $angles \
     --material "$top/potentials/Al6061-T6.hvi" --quarter >/dev/null
-  "$top/cmake/env.sh" mpirun -np 2 "${HVI_LMP:-$top/build/lmp}" -in in.plate -var quarter yes -var dx 0.5 -var Rplate 75 -var tstop 12 \
-    -var frame 10.5 12 -var plate "$out/$name/plate.data" -var out "$out/$name" -log "$out/$name/log.lammps" >"$out/$name/output.txt"
+  sed "s|^create_atoms 2 region plate|read_data    $out/$name/plate.data add append offset 1 0 0 0 0|" in.plate >"$out/$name/in.plate"
+  "$top/cmake/env.sh" mpirun -np 2 "${HVI_LMP:-$top/build/lmp}" -in "$out/$name/in.plate" -var dx 0.5 -var Rplate 75 -var tstop 12 \
+    -var frame 1.5 -var out "$out/$name" -log "$out/$name/log.lammps" >"$out/$name/output.txt"
   echo "$name"
-  $python front.py "$out/$name"/frame.10.5.dump "$out/$name"/frame.12.dump
+  $python front.py $(ls "$out/$name"/frame.*.dump | tail -2)    # 10.5 and 12 us
 done | tee "$out/fronts.txt"

@@ -2,7 +2,7 @@
 """Pictures of a run of in.plate, from its frames and result.yaml: python3 plot.py [FOLDER] -> plate.png
 
 A row per frame: plate and projectile, axial velocity, von Mises stress from the side, the plate from the front. From the side
-particles of quarter models are at their distance from the axis; of others a slice of 4 mm is shown.
+particles of quarter models are at their distance from the axis; of whole ones a slice of 4 mm is shown.
 """
 import glob
 import os
@@ -20,22 +20,20 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
 import hvi  # noqa: E402
 
 
-def read(path, quarter):
+def read(frame):
     """columns by name, lengths in mm, of the whole"""
-    frame = hvi.Dump(path, mirror=["x=0", "y=0"] if quarter else "none")[-1].whole()
-    d = {n: frame["vm" if "vm" in frame else "c_state[4]"] if n == "vm" else frame[n] for n in ("type", "x", "y", "z", "vz", "vm")}
-    return {n: a * (1e3 if n in "xyz" else 1) for n, a in d.items()}
+    whole = frame.whole()
+    return {n: whole[n] * (1e3 if n in "xyz" else 1) for n in ("type", "x", "y", "z", "vz", "vm")}
 
 
 def main(folder):
     with open(os.path.join(folder, "result.yaml")) as f:
         result = yaml.safe_load(f)
-    files = glob.glob(os.path.join(folder, "frame.*.dump"))
-    names = sorted((float(os.path.basename(f)[6:-5]), f) for f in files if float(os.path.basename(f)[6:-5]) <= result["time_us"] + 0.01)
-    if not names:
+    found = [hvi.Dump(path)[-1] for path in sorted(glob.glob(os.path.join(folder, "frame.*.dump")))[1:]]  # not the start
+    if not found:
         sys.exit(f"no frame.*.dump in {folder}: run in.plate there first")
-    quarter = result["model_share"] < 1
-    frames = [(time, read(name, quarter)) for time, name in names]
+    quarter = len(found[-1].planes) == 2
+    frames = [(1e6 * frame.time, read(frame)) for frame in found]
     for _, d in frames:  # what is shown from the side: of a quarter model all of it
         d["shown"] = d["y"] > 0 if quarter else np.abs(d["y"]) < 2
         d["r"] = np.sign(d["x"]) * np.hypot(d["x"], d["y"]) if quarter else d["x"]
@@ -53,7 +51,7 @@ def main(folder):
         fast = speed.scatter(d["z"][shown], d["r"][shown], s=size, c=1e-3 * d["vz"][shown], cmap="inferno_r", vmin=-1, vmax=6, lw=0)
         for ax, x, y, m in ((stress, "z", "r", near), (above, "x", "y", d["plate"])):
             loaded = ax.scatter(d[x][m], d[y][m], s=size, c=1e-6 * d["vm"][m], cmap="viridis", vmin=0, vmax=400, lw=0)
-        side.set_title(f"{time:g} us", loc="left")
+        side.set_title(f"{time:.3g} us", loc="left")
         side.set_ylabel("distance from the axis (mm)" if quarter else "x (mm)")
         above.set_ylabel("y (mm)")
         for ax, x, y in ((side, z_range, r_range), (speed, z_range, r_range), (stress, (-6, 6), r_range), (above, r_range, r_range)):

@@ -2,6 +2,7 @@
 
 import hvi
 import numpy as np
+import plate_scenes
 import pytest
 from hvi import cli, hole, mirror
 from hvi.data import DataFile
@@ -162,12 +163,9 @@ def test_a_record_is_needed(tmp_path, capsys):
 @pytest.mark.parametrize("quarter", ["yes", "no"])
 def test_impact(lmp, root, tmp_path, quarter):
     """in.plate as it is, coarse: the hole of the moving plate, with what has failed, by the record in its dump"""
-    text = (root / "examples/single-plate/in.plate").read_text()
-    last = text.rindex("shell        rm")
     more = "".join(f"print 'value {k} $(c_hole[{k}]:%.17g)'\n" for k in range(1, 12))
-    (tmp_path / "in.more").write_text(text[:last] + more + "write_dump all custom fine.dump ${columns} format float %.17g\n")
-    r = lmp(tmp_path / "in.more", cwd=tmp_path, env={"LAMMPS_POTENTIALS": str(root / "potentials")},
-            vars={"out": tmp_path, "dx": 0.8, "t": 2.4, "Rplate": 15, "tstop": 3, "quarter": quarter})
+    r = lmp(plate_scenes.text(quarter=quarter == "yes") + more + "write_dump all custom fine.dump ${columns} modify ${names} format float %.17g\n",
+            env={"LAMMPS_POTENTIALS": str(root / "potentials")}, vars={"dx": 0.8, "t": 2.4, "Rplate": 15, "tstop": 3})
     want = [float(line.split()[2]) for line in r.log.splitlines() if line.startswith("value ")]
     assert len(want) == 11 and want[10] == 1 and want[6] == (0.25 if quarter == "yes" else 1)
     dump = hvi.Dump(tmp_path / "fine.dump")
