@@ -4,11 +4,11 @@
 Of a method: words (of pair_style hvi/sph). Settings: n (particles through the flyer), kernel, h (in spacings), C, spall.
 """
 
-import yaml
-
 from . import ROOT, answer, merged
 
 from hard import Stopped, executor
+from hvi import measures
+from hvi.errors import HVIError
 
 VARIABLES = {"n": "n", "words": "pair", "kernel": "kernel", "h": "eta", "C": "C", "spall": "spall", "solid": "solid"}
 SETTINGS = set(VARIABLES)
@@ -19,9 +19,9 @@ def run(case, settings, folder, lmp, ranks=1, timeout=600):
     words = {"out": folder, **{word: s[name] for name, word in VARIABLES.items() if name in s}}
     try:
         executor(lmp, folder)(ROOT / "examples" / "spall" / "in.spall", nranks=ranks, vars=words, timeout=timeout)
-    except Stopped as why:
+        r = measures.measure(folder)
+    except (Stopped, HVIError) as why:
         return answer(folder, 3 * s["n"], {}, failed=str(why))
-    r = yaml.safe_load((folder / "result.yaml").read_text())
     errors = {"pull-back": 100 * abs(r["pull_back_m_s"] / case["exact"] - 1)}
     numbers = {k: r[k] for k in ("pull_back_m_s", "spall_strength_GPa", "spall_plane_mm", "first_failure_us", "void_work_J_m2", "failed_particles")}
     failed = r["record"] if r["record"] != "ok" else ""

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Records of plate impacts, and what the runs of run.sh gave.
 
-    python3 plot.py FOLDER...   one or more runs (result.yaml, surface.dat, profile.dat): draws FOLDER/record.png
+    python3 plot.py FOLDER...   one or more runs after hvi measure (result.yaml, surface.dat, profile.dat): draws FOLDER/record.png
     python3 plot.py             the runs of run.sh under runs/: the figures and tables of README.md
     python3 plot.py --readme    the same, and puts the tables into README.md
     python3 plot.py --raised    writes runs/raised/FILE.hvi: sigma so large that matter stretched at the file's rate bears the file's sigma, for run.sh
@@ -33,19 +33,13 @@ NS = (8, 16, 32, 64, 128, 256, 512)
 THICK = ("20", "6.3", "2", "0.63", "0.2", "0.063")
 COLOR = {"voids": "C0", "principal": "C3", "none": "0.5"}
 
-METAL = {"Al6061": ("6061", "C0"), "Al1100": ("1100-O", "C9"), "Al5083": ("5083", "C2"), "Cu": ("copper", "C1"), "Fe": ("iron", "C4"), "steel304": ("steel 304", "C5"),
-         "steel1020": ("mild steel", "0.3")}
-
-
-def targets():
-    """{name: (material file, density, bulk speed of sound)} of in.spall"""
-    with open(os.path.join(here, "in.spall")) as f:
-        found = re.findall(r'"\$\{target\} == (\w+)"(?: then)? "variable file_t index (\S+)\.hvi" "variable rho_t index (\S+)" "variable c_t index (\S+)"', f.read())
-    return {name: (file, float(rho), float(c)) for name, file, rho, c in found}
+# of the material file of the target: its name here, and its color
+METAL = {"Al6061-T6": ("6061", "C0"), "Al1100-O": ("1100-O", "C9"), "Al5083-H116": ("5083", "C2"), "Cu-OFHC": ("copper", "C1"), "Fe-Armco": ("iron", "C4"),
+         "steel-304": ("steel 304", "C5"), "steel-1020": ("mild steel", "0.3")}
 
 
 def read(name):
-    """result.yaml, and the record: t (us), u, largest tension, failed particles"""
+    """result.yaml, and the record: t (us), u, largest tension, push, failed particles"""
     folder = name if os.path.isdir(name) else os.path.join("runs", name)
     with open(os.path.join(folder, "result.yaml")) as f:
         return yaml.safe_load(f), np.loadtxt(os.path.join(folder, "surface.dat")).T
@@ -64,9 +58,10 @@ def table(rows):
         page.write_text("\n".join(text[:start] + lines + text[end:]))
 
 
-def rate_without_fracture(name, sigma, rho, c):
+def rate_without_fracture(name, sigma):
     """-(du/dt)/(2 c) of the free surface of a run that does not spall, between 10 and 90 % of du = 2 sigma/(rho c), as the rates of shots.csv"""
     r, (t, u, *_) = read(name)
+    rho, c = r["target_density_kg_m3"], r["target_sound_speed_m_s"]
     du, top = 2 * sigma / (rho * c), r["top_m_s"]
     low = next((k for k in range(u.argmax(), len(u)) if u[k] < top - 0.9 * du), None)
     if low is None:
@@ -84,7 +79,7 @@ def raised(file):
 
 def write_raised():
     os.makedirs("runs/raised", exist_ok=True)
-    for file, _, _ in targets().values():
+    for file in METAL:
         head, section, rest = pathlib.Path(root, "potentials", file + ".hvi").read_text().partition("\nspall voids\n")
         more, n = re.subn(r"(?m)^  sigma +(\S+)", lambda found: f"  sigma {raised(file) * float(found[1]):.6g}", rest, count=1)
         if n != 1:
@@ -93,7 +88,7 @@ def write_raised():
 
 
 def record(folder):
-    r, (t, u, pull, bad) = read(folder)
+    r, (t, u, *_) = read(folder)
     x = np.loadtxt(os.path.join(folder, "profile.dat"))
     fig, (a, b) = plt.subplots(1, 2, figsize=(10, 3.6), layout="constrained")
     a.plot(t, u)
@@ -181,12 +176,11 @@ def measured(shots):
     found = {}
     for s in shots:
         name = "shot-" + s["name"].replace(" ", "_")
-        file, rho, c = targets()[s["target"]]
-        k = voids.constants(pathlib.Path(root), file)
+        k = voids.constants(pathlib.Path(root), s["target"])
         v, w, more, q = (read(f"{name}-{how}")[0] for how in ("voids-64", "voids-128", "raised-128", "none-128"))
-        p = read(f"{name}-principal-128")[0] if s["target"] == "Al6061" else None
+        p = read(f"{name}-principal-128")[0] if s["target"] == "Al6061-T6" else None
         sigma = float(s["sigma"])
-        rate = rate_without_fracture(f"{name}-none-128", 1e9 * sigma, rho, c)
+        rate = rate_without_fracture(f"{name}-none-128", 1e9 * sigma)
         given = float(s["rate"]) if s["note"] == "t" else np.nan
         spalls, pulls = w["record"] == "ok", w["record"] == "ok" or w["record"].startswith("a pull-back")
         color, filled = METAL[s["target"]][1], s["flyer"] != "quartz"
@@ -224,7 +218,7 @@ def measured(shots):
     e = np.geomspace(3e4, 1e6, 20)
     for name in found:
         if any(g == g for *_, g, _ in found[name]):
-            k, (label, color) = voids.constants(pathlib.Path(root), targets()[name][0]), METAL[name]
+            k, (label, color) = voids.constants(pathlib.Path(root), name), METAL[name]
             ax[1].loglog(e, 1e-9 * k["sigma"] * (e / k["rate"]) ** k["m"], "--", lw=0.8, color=color)
             ax[1].plot([], [], "s", color=color, mfc="none", label=f"{label}: measured")
             ax[1].plot([], [], "o", color=color, label="computed")
@@ -241,9 +235,9 @@ def measured(shots):
     for name, values in found.items():
         sigma, got, parted, _, more = np.array(values).T
         of, then = (got / sigma)[got == got], (more / sigma)[more == more]
-        phi_c = voids.constants(pathlib.Path(root), targets()[name][0])["phi_c"]
+        phi_c = voids.constants(pathlib.Path(root), name)["phi_c"]
         summary.append([METAL[name][0], str(len(sigma)), str(len(of)), f"{parted.sum():.0f}", *(f"{x:.2f}" for x in (of.mean(), of.min(), of.max(), of.std() / of.mean())),
-                        f"{sigma.max() / sigma.min():.2f}", f"{phi_c:.3f}", f"{100 * raised(targets()[name][0]) - 100:.0f} %",
+                        f"{sigma.max() / sigma.min():.2f}", f"{phi_c:.3f}", f"{100 * raised(name) - 100:.0f} %",
                         str(len(then)), f"{then.mean():.2f}" if len(then) else "-"])
     table(summary)
 
@@ -257,6 +251,8 @@ if __name__ == "__main__":
     else:
         with open(os.path.join(here, "shots.csv")) as f:
             shots = list(csv.DictReader(line for line in f if not line.startswith("#")))
+        for shot in shots:
+            shot.update({body: shot[body].removesuffix(".hvi") for body in ("flyer", "target")})
         convergence()
         rates(shots)
         measured(shots)

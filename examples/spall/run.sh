@@ -1,5 +1,5 @@
 #!/bin/sh
-# All runs of README.md, one folder each under runs/: sh run.sh [LAMMPS command, default: build/lmp]. Some minutes.
+# All runs of README.md, one folder each under runs/, and what they say: sh run.sh [LAMMPS command, default: build/lmp]. Some minutes.
 here=$(cd "$(dirname "$0")" && pwd)
 lmp=${*:-$here/../../build/lmp}
 export LAMMPS_POTENTIALS="$here/../../potentials:$here"
@@ -24,15 +24,15 @@ THICK
 done
 python3=${HVI_PYTHON:-python3}
 $python3 "$here"/plot.py --raised || exit 1
-file() { sed -n "s/.*{target} == $1\" .*file_t index \([^ \"]*\).*/\1/p" "$here"/in.spall; } # of the metal
 sed '/^#/d; /^name,/d' "$here"/shots.csv | while IFS=, read -r shot metal paper flyer target hf ht v0 rest; do
   todo="voids-64 voids-128 none-128"
-  [ "$target" = Al6061 ] && todo="$todo principal-128"    # other files have no section spall limit
-  same=
-  [ "$flyer" = "$target" ] && same="-var file_f runs/raised/$(file "$target")"
-  run "shot-$(echo "$shot" | tr ' ' _)-raised-128" -var flyer "$flyer" -var target "$target" -var hf "$hf" -var ht "$ht" -var v0 "$v0" \
-    -var n 128 $same -var file_t runs/raised/"$(file "$target")" || exit 1
+  [ "$target" = Al6061-T6.hvi ] && todo="$todo principal-128"    # other files have no section spall limit
+  raised=runs/raised/$target
+  [ "$flyer" = "$target" ] && same=$raised || same=$flyer
+  shot=shot-$(echo "$shot" | tr ' ' _)
+  run "$shot"-raised-128 -var flyer "$same" -var target "$raised" -var hf "$hf" -var ht "$ht" -var v0 "$v0" -var n 128 || exit 1
   for s in $todo; do
-    run "shot-$(echo "$shot" | tr ' ' _)-$s" -var flyer "$flyer" -var target "$target" -var hf "$hf" -var ht "$ht" -var v0 "$v0" -var spall "${s%-*}" -var n "${s#*-}"
+    run "$shot-$s" -var flyer "$flyer" -var target "$target" -var hf "$hf" -var ht "$ht" -var v0 "$v0" -var spall "${s%-*}" -var n "${s#*-}"
   done || exit 1
-done
+done || exit 1
+PYTHONPATH=$here/../../python $python3 -m hvi measure runs/*-* >runs/results

@@ -80,6 +80,8 @@ EXAMPLES = {
       --density 1=2785 --density 2=2785""",
     "material": """  python3 -m hvi material Al7075-T6.hvi --figure Al7075-T6
   python3 -m hvi material potentials/*.hvi""",
+    "measure": """  python3 -m hvi measure .
+  python3 -m hvi measure runs/*""",
     "compare": """  python3 -m hvi compare run1/result.yaml run2/result.yaml
   python3 -m hvi compare run1 run2 --rtol 0.05 --keys length_ratio fragmentation
   python3 -m hvi compare run1/debris.dump run2/debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 \\
@@ -462,6 +464,10 @@ def options():
     sub = command("material", "checks material files, says what they have, lack and assume, and for which use; of one file the curves, too")
     sub.add_argument("files", nargs="+", metavar="FILE.hvi", help="material file, here or in LAMMPS_POTENTIALS; of several a table")
     _output(sub, "Hugoniot, isentrope, yield stress and spall strength of one file")
+
+    sub = command("measure", "what a run of an example has recorded, such as the free surface of in.spall, is measured and put into its result.yaml")
+    sub.add_argument("folders", nargs="+", metavar="DIR", help="folder of a run, with result.yaml; what is measured is told by its files: surface.dat")
+    sub.set_defaults(run=functools.partial(_main_of, "measures"))
 
     sub = command("compare", "two runs side by side: result.yaml (or its folder), or the same measures of two dumps")
     for name in "AB":

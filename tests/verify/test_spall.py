@@ -7,7 +7,7 @@ import re
 
 import numpy as np
 import pytest
-import yaml
+from hvi import measures
 from reference.voids import C0, CL, RHO0, S1, SHEAR, constants, law
 from solid_runs import consistency, row
 
@@ -73,7 +73,7 @@ RUNS = {}  # several tests look at the same run
 
 @pytest.fixture
 def shot(lmp, root, tmp_path):
-    """result.yaml of in.spall, and the record: t (us), u, largest tension, failed particles"""
+    """result.yaml of in.spall after hvi measure, and the record: t (us), u, largest tension, push, failed particles"""
 
     def run(**variables):
         key = tuple(sorted(variables.items()))
@@ -82,7 +82,7 @@ def shot(lmp, root, tmp_path):
             folder.mkdir()
             env = {"LAMMPS_POTENTIALS": f"{root}/potentials:{root}/examples/spall"}
             lmp(root / "examples" / "spall" / "in.spall", cwd=folder, vars={**variables, "out": folder}, env=env)
-            RUNS[key] = yaml.safe_load((folder / "result.yaml").read_text()), np.loadtxt(folder / "surface.dat").T
+            RUNS[key] = measures.measure(folder), np.loadtxt(folder / "surface.dat").T
             result = RUNS[key][0]
             print(variables, {k: result[k] for k in ("pull_back_m_s", "spall_strength_GPa", "strain_rate_per_s", "spall_plane_mm", "void_work_J_m2")})
             assert abs(result["energy_ratio"] - 1) < 1e-4 and result["momentum_error"] < 1e-13
@@ -93,8 +93,8 @@ def shot(lmp, root, tmp_path):
 
 @pytest.mark.parametrize("n", [16, 64])
 def test_what_is_read_off_a_record(shot, n):
-    """pull-back, strength, strain rate by their definitions, from the record, independently of the input's loop"""
-    r, (t, u, _, bad) = shot(n=n)
+    """pull-back, strength, strain rate by their definitions, from the record, independently of hvi.pullback"""
+    r, (t, u, pull, push, bad) = shot(n=n)
     half = np.flatnonzero(u < 0.5 * u.max())
     top = np.where(t > t[half[half < u.argmax()][-1]] + 0.5e6 * 2e-3 / C0, u, 0).argmax()  # not what rings behind the shock
     rise = next(k for k in range(top, len(u)) if u[k] - u[top:k + 1].min() > 0.1 * (u[top] - u[top:k + 1].min()) and u[top:k + 1].min() < 0.98 * u[top])
@@ -108,6 +108,9 @@ def test_what_is_read_off_a_record(shot, n):
     assert r["spall_strength_GPa"] == pytest.approx(0.5e-9 * RHO0 * C0 * du, rel=1e-4)
     assert r["strain_rate_per_s"] == pytest.approx(rate, rel=0.03)  # a sample of either end
     assert r["first_failure_us"] == pytest.approx(t[np.flatnonzero(bad > 0)[0]], abs=1.01 * (t[1] - t[0]))
+    assert r["failed_particles"] == bad[-1] and r["record_us"] == pytest.approx(t[-1], abs=1.01 * (t[1] - t[0]))
+    assert (r["largest_tension_GPa"], r["peak_GPa"]) == pytest.approx((1e-9 * pull.max(), 1e-9 * push.max()), rel=1e-5)
+    assert r["failed_from_mm"] <= r["spall_plane_mm"] <= r["failed_to_mm"] < r["failed_from_mm"] + r["failed_particles"] * 2 / n
     # the plateau: both elastic waves, as in test_solids.py
     hel = 324.1e6 * RHO0 * CL**2 / (2 * SHEAR)
     if n >= 64:
@@ -116,9 +119,17 @@ def test_what_is_read_off_a_record(shot, n):
 
 def test_a_record_without_spall(shot):
     """no limit of tension, so no failure; and a record that ends before the surface falls says so"""
-    assert shot(n=32, spall="none")[0]["failed_particles"] == 0
+    r = shot(n=32, spall="none")[0]
+    assert r["failed_particles"] == 0 and np.isnan([r["spall_plane_mm"], r["first_failure_us"], r["failed_from_mm"], r["failed_to_mm"]]).all()
     r = shot(n=32, tstop=1.1)[0]
-    assert r["record"].startswith("no pull-back") and r["failed_particles"] == 0
+    assert r["record"].startswith("no pull-back") and r["failed_particles"] == 0 and np.isnan(r["spall_strength_GPa"])
+
+
+def test_density_and_sound_are_those_of_the_target(shot):
+    """of its material file, of which the bulk speed of sound is C; the record is 3.5 flyers and the target long at that speed"""
+    r = shot(n=16, flyer="quartz.hvi", target="Cu-OFHC.hvi", hf=1, ht=2)[0]
+    assert (r["target_density_kg_m3"], r["target_sound_speed_m_s"]) == (8930, 3940)
+    assert r["record_us"] == pytest.approx((2e-3 + 3.5e-3) / 3940 * 1e6, rel=0.01)
 
 
 @pytest.mark.parametrize("n", [(16, 32, 64, 128), pytest.param((16, 32, 64, 128, 256), marks=pytest.mark.long)], ids=len)
@@ -169,7 +180,7 @@ def test_damage_by_strain_leaves_a_plane_pull_to_voids(shot, root, tmp_path):
     (tmp_path / "without.hvi").write_text(without)
     how = dict(n=32)
     voids, both = shot(**how)[0], shot(damage="yes", **how)[0]
-    strain = shot(damage="yes", target="mine", file_t=tmp_path / "without.hvi", rho_t=2703, c_t=5240, **how)[0]
+    strain = shot(damage="yes", target=tmp_path / "without.hvi", **how)[0]
     for key in ("pull_back_m_s", "spall_plane_mm", "failed_particles", "void_work_J_m2"):
         assert both[key] == voids[key] > 0, key
     assert strain["spall_strength_GPa"] < 0.4 * both["spall_strength_GPa"] and strain["failed_particles"] > 3 * both["failed_particles"]
