@@ -61,7 +61,7 @@ demo-dem:
 	@cmake/deps.sh build demo
 	@$(MAKE) build
 	@mkdir -p $(OUT)/demo-dem
-	cd examples/debris-cloud && $(TOP)/cmake/env.sh mpirun -np $(RANKS) $(OUT)/lmp -in in.debris -var size small \
+	cd examples/debris-cloud && $(TOP)/cmake/env.sh mpirun -np $(RANKS) $(OUT)/lmp -in in.debris \
 	  -var out $(OUT)/demo-dem -log $(OUT)/demo-dem/log.lammps
 	@echo; cat $(OUT)/demo-dem/result.yaml; echo "picture: $(OUT)/demo-dem/cloud.png"
 

@@ -24,8 +24,8 @@ STOCK = ["fragment", "aggregate", "cluster"]
 SIZES = {"small": {"still": "20", "move": "300"}, "full": {"still": "10", "move": "400"}}
 
 
-def lammps(args, script, variables, label, may_fail=False):
-    """Run one input; return its log as text.  If it may fail: None if it did, or took 10 minutes."""
+def lammps(args, script, variables, label, may_fail=False, folder=None):
+    """Run one input, in args.out if no other folder is given; return its log as text.  If it may fail: None if it did, or took 10 minutes."""
     log = os.path.join(args.out, "log.%s" % re.sub(r"\W+", "-", label))
     cmd = ["mpirun", "-np", str(args.ranks), os.path.join(args.build, "lmp"), "-in", script,
            "-log", log, "-screen", "none"]
@@ -33,7 +33,7 @@ def lammps(args, script, variables, label, may_fail=False):
         cmd += ["-var", key, value]
     if may_fail:
         cmd = ["timeout", "600"] + cmd
-    done = subprocess.run(cmd, cwd=args.out, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run(cmd, cwd=folder or args.out, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode and may_fail:
         return None
     if done.returncode:
@@ -59,17 +59,17 @@ def states(args):
     out = os.path.join(args.out, "fragments-" + args.size)
     files = [os.path.join(out, "state.%d" % n) for n in range(len(STATES))]
     a, b = (os.path.join(out, "debris.restart." + x) for x in "ab")
-    variables = {"debris": os.path.join(ROOT, "examples/debris-cloud/in.debris"), "out": out,
-                 "size": "paper" if args.size == "full" else "small", "C": "0.25"}
+    variables = {"out": out, "N": "740000" if args.size == "full" else "30000", "C": "0.25"}
+    example = os.path.join(ROOT, "examples/debris-cloud")    # which has the inputs that these include
     os.makedirs(out, exist_ok=True)
     start = time.time()
     if not os.path.exists(files[1]):
-        lammps(args, os.path.join(HERE, "dem/in.states"), dict(variables, tstop="3"), "states-impact")
+        lammps(args, os.path.join(HERE, "dem/in.states"), dict(variables, tstop="3"), "states-impact", folder=example)
         shutil.move(a, files[0])
         shutil.move(b, files[1])
     if not os.path.exists(files[2]):
-        shutil.copy(files[1], b)
-        lammps(args, os.path.join(HERE, "dem/in.states"), dict(variables, resume="b"), "states-flight")
+        end = "32" if args.size == "full" else "12"
+        lammps(args, os.path.join(HERE, "dem/in.states.continue"), {**variables, "tstop": end, "from": files[1]}, "states-flight", folder=example)
         shutil.move(b, files[2])
     print("states of the debris cloud: %.0f s" % (time.time() - start), flush=True)
     for name in os.listdir(out):    # dumps of hundreds of Mbytes

@@ -2,7 +2,7 @@
 """Many runs of a LAMMPS input: each in its own folder, some at a time, those that are done left alone.
 
 A run is done if its folder has a complete result.yaml and its job.yaml says that input, files that it includes, variables
-and material files were the same. One that was interrupted goes on from its restart files where the input can. Ctrl-C ends
+and material files were the same. One that was interrupted goes on from its restart files where a second input does that. Ctrl-C ends
 what runs; what another process is still at (after kill -9 of the first) is waited for.
 """
 
@@ -57,8 +57,6 @@ class Input:
             for name, values in re.findall(r'\bvariable\s+(\w+)\s+index\b(?=([^"#\n]*))', text):
                 self.known[name] = self.known.get(name, False) or len(values.split()) > 1
                 self.defaults.setdefault(name, values.split())  # the first is the default
-            for name in re.findall(r"\bis_defined\(variable,(\w+)\)", text):  # lists that have no default
-                self.known.setdefault(name, True)
         joined = re.sub(r"&[ \t]*\n", " ", "\n".join(self.texts.values()))
         said = [line.split() for line in re.findall(r"^\s*hvi/variables\s+known\s(.*)", joined, re.M)]
         if said:  # the input itself says which; what it names as optional may be lists
@@ -105,14 +103,16 @@ def job_name(case):
 
 
 class Job:
-    """One run of an input in its own folder."""
+    """One run of an input in its own folder; goes_on: the input that goes on with it, restart: pattern of the files from which."""
 
     def __init__(self, source, name, variables, folder, restart=None, remove=(), weight=1.0,
-                 product="result.yaml", last=LAST, made=None):
+                 product="result.yaml", last=LAST, made=None, goes_on=None):
         self.input, self.name, self.variables, self.folder = source, name, variables, pathlib.Path(folder)
-        self.restart, self.remove, self.weight = restart, remove, weight  # weight: how much of all work this is
+        self.restart, self.remove, self.weight, self.goes_on = restart, remove, weight, goes_on  # weight: how much of all work this is
         self.product, self.last = product, last  # the file that it is run for, and the last key in it
         self.record = {"input": source.checksum(), "variables": variables}
+        if goes_on:
+            self.record["continue"] = goes_on.checksum()
         self.make, meshes = made or (None, {})  # a function of path and words, {file: words}: what the run finds in its folder
         if meshes:
             self.record["made"] = meshes
@@ -153,12 +153,11 @@ class Job:
 
     def words(self):
         """LAMMPS's options"""
-        options = ["-in", self.input.name, "-log", "log.lammps"]
+        files = self.restart_files()
+        options = ["-in", (self.goes_on if files else self.input).name, "-log", "log.lammps"]
         for name, value in self.variables.items():
             options += ["-var", name, *words(value)]
-        if files := self.restart_files():
-            options += ["-var", "resume", files[-1].suffix[1:] if "*" in self.restart else "yes"]
-        return options
+        return options + (["-var", "from", str(files[-1].relative_to(self.folder))] if files else [])
 
     def take(self):
         """True if no other process is at this run; from now on none can be. Processes that it starts keep the lock."""
@@ -185,7 +184,8 @@ class Job:
         self.saved = self._saved()
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / self.product).unlink(missing_ok=True)
-        self.input.copy_to(self.folder)
+        for source in filter(None, (self.input, self.goes_on)):
+            source.copy_to(self.folder)
         for name, said in self.record.get("made", {}).items():
             self.make(self.folder / name, **said)
         (self.folder / "job.yaml").write_text(yaml.safe_dump(self.record, sort_keys=False))

@@ -6,10 +6,10 @@ import pathlib
 
 import yaml
 
-from . import runs
+from . import measures, runs
 from .errors import HVIError
 
-KEYS = {"input", "variables", "grid", "ranks", "timeout", "restart", "remove", "full"}
+KEYS = {"input", "variables", "grid", "ranks", "timeout", "restart", "continue", "remove", "full"}
 SHOWN = ("verdict", "perforated", "particles", "steps", "time_us", "core_s")
 
 
@@ -36,14 +36,22 @@ class Study:
         self.path, self.name = path, path.stem + ("-full" if full else "")
         self.ranks, self.timeout = study.get("ranks"), study.get("timeout")
         self.restart, self.remove = study.get("restart"), study.get("remove") or []
-        self.input = path.parent / str(study.get("input"))
-        if not self.input.is_file():
-            raise HVIError(f"{path}: input {study.get('input')} is not there (paths count from the study file)")
-        self.input = runs.Input(self.input)
+        if (self.restart is None) != ("continue" not in study):
+            raise HVIError(f"{path}: restart (files to go on from) and continue (the input that does) are given together, or neither")
+        self.input = self._input(study, "input")
+        self.goes_on = self._input(study, "continue") if self.restart else None
         self.fixed = self._mapping(study, "variables")
         self.cases = self._cases(study)
         for case in self.cases:
             self.input.check({**self.fixed, **case}, path)
+            if self.goes_on:
+                self.goes_on.check({**self.fixed, **case, "from": ""}, path)
+
+    def _input(self, study, key):
+        file = self.path.parent / str(study.get(key))
+        if not file.is_file():
+            raise HVIError(f"{self.path}: {key} {study.get(key)} is not there (paths count from the study file)")
+        return runs.Input(file)
 
     def _mapping(self, study, key):
         value = study.get(key) or {}
@@ -72,7 +80,7 @@ class Study:
         return found
 
     def jobs(self, folder):
-        return [runs.Job(self.input, name, {**self.fixed, **case}, folder / self.name / name, self.restart, self.remove)
+        return [runs.Job(self.input, name, {**self.fixed, **case}, folder / self.name / name, self.restart, self.remove, goes_on=self.goes_on)
                 for case, name in ((case, runs.job_name(case)) for case in self.cases)]
 
 
@@ -89,8 +97,16 @@ def one(path, args):
             print(" ".join(runner.command(job)))
         return True
     table = folder / f"{study.name}.csv"
+
+    def measured():
+        """the jobs; what those that are done have recorded is in their results"""
+        for job in jobs:
+            if job.result() and measures.functions_of(job.folder):
+                measures.measure(job.folder)
+        return jobs
+
     try:
-        with runs.table_of(lambda: jobs, table):
+        with runs.table_of(measured, table):
             failed = runner.run(todo, study.name)
             print(runs.overview(jobs, SHOWN))
     finally:

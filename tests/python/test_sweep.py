@@ -2,19 +2,21 @@
 
 import csv
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
 
+import hvi
 import pytest
 import yaml
 
-# some hundred particles; result.yaml as in the examples; mode: good, or a way to fail
+# some hundred particles; result.yaml as in the examples; mode: good, or a way to fail; from: what it goes on from
 INPUT = """variable n index 5
 variable speed index 1.0
 variable mode index good
-variable resume index no
+variable from index no
 if "${mode} == slow" then "shell sleep 60"
 if "${mode} == refused" then "print 'this mode is refused'" "quit 1"
 atom_style bond
@@ -32,7 +34,7 @@ run 10
 if "${mode} == silent" then "quit 0"
 if "${mode} == cut" then "print 'particles: 125' file result.yaml" "quit 0"
 print 'particles: $(atoms:%.0f)' file result.yaml
-print 'resumed: from ${resume}' append result.yaml
+print 'resumed: from ${from}' append result.yaml
 print 'package_version: 0.1.0' append result.yaml
 """
 STUDY = {"input": "in.tiny", "variables": {"n": 5}, "grid": {"speed": [1.0, 2.0], "mode": ["good"]}}
@@ -41,6 +43,8 @@ STUDY = {"input": "in.tiny", "variables": {"n": 5}, "grid": {"speed": [1.0, 2.0]
 @pytest.fixture
 def folder(tmp_path):
     (tmp_path / "in.tiny").write_text(INPUT)
+    (tmp_path / "in.plain").write_text(INPUT.replace("variable from index no\n", ""))
+    (tmp_path / "in.tiny.continue").write_text("# the second input\n" + INPUT)
     return tmp_path
 
 
@@ -67,6 +71,15 @@ def table(folder):
 
 def log_times(folder):
     return {p.parent.name: p.stat().st_mtime_ns for p in folder.glob("runs/tiny/*/log.lammps")}
+
+
+def test_records_are_measured(sweep, folder, root):
+    """a study of examples/spall: pull-back and strength are in its table, as hvi measure puts them into result.yaml"""
+    study = {"input": str(root / "examples/spall/in.spall"), "variables": {"n": 8}, "grid": {"v0": [500]}}
+    assert sweep(study).returncode == 0
+    row = table(folder)["v0-500"]
+    result = yaml.safe_load((folder / "runs/tiny/v0-500/result.yaml").read_text())
+    assert 0.5 < float(row["spall_strength_GPa"]) < 1.5 and float(row["spall_strength_GPa"]) == result["spall_strength_GPa"]
 
 
 def test_failed_job_is_reported_and_others_finish(sweep, folder):
@@ -114,15 +127,16 @@ def test_goes_on_where_it_stopped(sweep, folder):
 
 
 def test_goes_on_within_a_job(sweep, folder):
-    """from the newest restart file; not if the variables have changed, and not after a failure"""
-    study = {**STUDY, "grid": {"mode": ["good"]}, "restart": "tiny.restart.*"}
+    """by the second input from the newest restart file; not if the variables have changed, and not after a failure"""
+    study = {**STUDY, "grid": {"mode": ["good"]}, "restart": "tiny.restart.*", "continue": "in.tiny.continue"}
     job = folder / "runs/tiny/mode-good"
     assert sweep(study).returncode == 0 and table(folder)["mode-good"]["resumed"] == "from no"
     for suffix in "ba":
         (job / f"tiny.restart.{suffix}").write_text("")
         time.sleep(0.02)
     (job / "result.yaml").unlink()
-    assert sweep(study).returncode == 0 and table(folder)["mode-good"]["resumed"] == "from a"
+    assert sweep(study).returncode == 0 and table(folder)["mode-good"]["resumed"] == "from tiny.restart.a"
+    assert "# the second input" in (job / "log.lammps").read_text()
     (job / "result.yaml").unlink()
     assert sweep({**study, "variables": {"n": 6}}).returncode == 0 and table(folder)["mode-good"]["resumed"] == "from no"
     assert not list(job.glob("tiny.restart.*"))
@@ -130,7 +144,7 @@ def test_goes_on_within_a_job(sweep, folder):
     study["grid"] = {"mode": ["bad"]}
     assert sweep(study).returncode == 1
     (folder / "runs/tiny/mode-bad/tiny.restart.a").write_text("")
-    assert "-var resume a" in sweep(study, "--dry-run").text
+    assert "-in in.tiny.continue" in (text := sweep(study, "--dry-run").text) and "-var from tiny.restart.a" in text
     assert sweep(study).returncode == 1 and not (folder / "runs/tiny/mode-bad/tiny.restart.a").exists()
 
 
@@ -172,6 +186,10 @@ def test_full_size_and_dry_run(sweep, folder):
     ("grid: [", "tiny.yaml: not YAML: "),
     ("- grid", "not a mapping of"),
     ({**STUDY, "input": "in.missing"}, "input in.missing is not there"),
+    ({**STUDY, "restart": "tiny.restart.*"}, "restart (files to go on from) and continue (the input that does) are given together"),
+    ({**STUDY, "continue": "in.tiny.continue"}, "given together"),
+    ({**STUDY, "restart": "tiny.restart.*", "continue": "in.missing"}, "continue in.missing is not there"),
+    ({**STUDY, "restart": "tiny.restart.*", "continue": "in.plain", "variables": {}}, "in.plain has no variable 'from'"),
     ({**STUDY, "grids": {}}, "unknown key grids"),
     ({**STUDY, "grid": {"speed": 1.0}}, "speed must be a list"),
     ({**STUDY, "grid": {}}, "nothing to vary"),
@@ -223,19 +241,52 @@ def test_debris_cloud_in_a_sweep(sweep, root, folder):
     assert not list(folder.glob("runs/tiny/*/*.dump"))
 
 
-def test_plan_of_the_debris_cloud(lmp, root, tmp_path):
-    """what is planned is what is run; a dry run stops there; lines say what is still to go"""
-    path, case = root / "examples/debris-cloud/in.debris", {"N": 2000, "tstop": 4, "out": tmp_path}
-    r = lmp(path, vars={**case, "dry": "yes"})
-    plan = yaml.safe_load((tmp_path / "plan.yaml").read_text())
-    assert "This was the plan" in r.log and plan["seconds"] > 0 and [p.name for p in tmp_path.glob("*.yaml")] == ["plan.yaml"]
-    assert not list(tmp_path.glob("*.dump")) + list(tmp_path.glob("debris.*"))
-    r = lmp(path, vars=case)
-    result = yaml.safe_load((tmp_path / "result.yaml").read_text())
-    for key in ("particles", "plate_layers", "spacing_mm"):
-        assert result[key] == plan[key]
-    assert result["steps"] == pytest.approx(plan["steps"], rel=0.4) and plan["tstop_us"] == 4
-    assert sum(p.stat().st_size for p in (*tmp_path.glob("debris.*"), tmp_path / "bonds.dump")) == pytest.approx(1e6 * plan["disk_MB"], rel=0.3)
-    togo = r.runs[0]["v_togo"]
-    assert (togo[1:] > 0).all() and togo[-1] < 0.7 * togo[1:].max()
-    assert "dry must be yes or no, not perhaps" in lmp(path, vars={**case, "dry": "perhaps"}, expect_fail=True).stdout
+def test_inputs_of_the_debris_cloud_are_straight(root):
+    """no label, jump or condition; at most 90 lines; the second has the same variables, spacings, box and rest"""
+    first, second, rest = ((root / "examples/debris-cloud" / name).read_text() for name in ("in.debris", "in.debris.continue", "legs.debris"))
+    for text in (first, second, rest):
+        assert not re.findall(r"^\s*(label|jump|next|if|quit|clear|shell)\b", text, re.M) and text.isascii()
+        assert len(text.splitlines()) <= 90
+    at_top = [line for line in second.splitlines() if " index " in line and " from " not in line]
+    assert len(at_top) == 15 and [line for line in at_top if line not in first.splitlines()] == []
+    begin, end = "# spacings", "binsize $(1.3*v_req)\n"
+    assert first[first.index(begin):first.index(end)] == second[second.index(begin):second.index(end)]
+    assert first.count("include ") == 1 and re.findall(r"^include +(\S+)", second, re.M) == ["${out}/debris.front", "legs.debris"]
+
+
+def reach_of(log):
+    """of the first neighbor lists"""
+    return set(re.findall(r"ghost atom cutoff = (\S+)", log.read_text()))
+
+
+def test_debris_cloud_goes_on(sweep, root, folder):
+    """by in.debris.continue, from a restart file of the impact and one of the flight, before the front is noted and after: the same cloud"""
+    example = root / "examples/debris-cloud"
+    study = {"input": str(example / "in.debris"), "variables": {"N": 2000, "keep": 2040}, "grid": {"lattice": ["sc"]},
+             "restart": "debris.restart.*", "continue": str(example / "in.debris.continue"), "remove": ["*.png"]}
+    assert sweep(study).returncode == 0
+    (whole,) = table(folder).values()
+    job = folder / "runs/tiny/lattice-sc"
+    begun, reach = hvi.Dump(job / "debris.dump"), reach_of(job / "log.lammps")
+    assert 4080 < int(whole["steps"]) < 6120  # a: step 2040 of the impact; b: 4080, when the front is noted already
+    assert int(whole["particles_left_the_box"]) < 20  # the box grows with the cloud
+    a, b, front = ((job / name).read_bytes() for name in ("debris.restart.a", "debris.restart.b", "debris.front"))
+    for file, state, noted in (("a", a, b""), ("a", a, front), ("b", b, front)):
+        for path in (*job.glob("debris.restart.*"), job / "result.yaml"):
+            path.unlink()
+        (job / f"debris.restart.{file}").write_bytes(state)
+        (job / "debris.front").write_bytes(noted)
+        assert sweep(study).returncode == 0
+        assert f"read_restart debris.restart.{file}\n" in (job / "log.lammps").read_text()
+        assert file == "b" or reach_of(job / "log.lammps") == reach
+        (row,) = table(folder).values()
+        assert all(row[key] == whole[key] for key in ("particles", "plate_layers", "bonds_start", "spacing_mm"))
+        assert int(row["steps"]) == pytest.approx(int(whole["steps"]), rel=0.1) and 12 <= float(row["time_us"]) < 12.3
+        for key, most in (("energy_ratio", 1e-5), ("bonds_left", 0.01), ("front_velocity_m_s", 0.01), ("hole_diameter_mm", 0.02), ("energy_start_J", 1e-6)):
+            assert float(row[key]) == pytest.approx(float(whole[key]), rel=most), key
+        assert float(row["axial_velocity_ratio_displacement"]) == pytest.approx(float(whole["axial_velocity_ratio_displacement"]), abs=0.05)
+        assert float(row["momentum_error"]) < 1e-12 and abs(float(row["mass_error"])) < 1e-12
+        assert 9 <= float(row["displacement_from_us"]) < 9.3 and (not noted or row["displacement_from_us"] == whole["displacement_from_us"])
+        went_on = hvi.Dump(job / "debris.dump")
+        assert len(went_on) > len(begun) and list(went_on.steps[:len(begun)]) == list(begun.steps)  # appended to
+        begun = went_on
