@@ -18,7 +18,9 @@ import numpy as np
 import yaml
 
 here = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, here)
 sys.path.insert(0, os.path.join(os.environ.get("HVI_ROOT", os.path.join(here, "..", "..")), "tests"))
+from laminates import CASES, case_of
 from reference import fronts, layers, measures
 
 GAUGES = "ABC"
@@ -26,20 +28,20 @@ COLORS = {"none": "C0", "0.3": "C2", "0.8": "C3", "auto": "C1", "riemann": "C4"}
 
 
 class Run:
-    """One run with its exact solution. Density and pressure are in units of 1000 for real materials, as in layers.CASES."""
+    """One run with its exact solution"""
 
     def __init__(self, folder):
         self.folder = folder
         with open(os.path.join(folder, "result.yaml")) as f:
             self.result = r = yaml.safe_load(f)  # LAMMPS may print 1e-15, text to YAML
         r.update({k: float(r[k]) for k in ("momentum_error", "mass_error")})
-        scale = max(1.0, 1000.0 * (r["case"] != "test"))
-        rho = [a / scale for a in r["rho"]]
-        self.layers = layers.laminate(rho, r["Ca"], r["gap"])
+        if r["n"] % 10:
+            sys.exit(f"{folder}: n must be a multiple of 10, not {r['n']}: layers are a whole number of spacings then")
+        self.case = case_of(r["rho"], r["Ca"])
+        self.layers = layers.laminate(r["rho"], r["Ca"], r["gap"])
         self.n, self.t = r["n"], r["time"]
-        self.x, self.u, p, density, self.ratio, material = np.loadtxt(os.path.join(folder, "profile.dat")).T
-        self.p, self.rho = p / scale, density / scale
-        self.mass = np.array(rho)[material.astype(int) - 1] / self.n
+        self.x, self.u, self.p, self.rho, self.ratio, material = np.loadtxt(os.path.join(folder, "profile.dat")).T
+        self.mass = np.array(r["rho"])[material.astype(int) - 1] / self.n
         self.gauges = np.loadtxt(os.path.join(folder, "gauges.dat"))
         self.exact = fronts.Tracking(self.layers, self.t * (1 + 1e-12), 0.003)
         self.m = np.linspace(0, self.mass.sum(), 40000)
@@ -49,12 +51,10 @@ class Run:
         """L1 errors, largest pressure and particles out of order, in result.yaml too"""
         l1 = measures.l1(self.mass, self.x, (self.u, self.p, self.rho), self.exact, self.t)
         self.l1 = dict(zip(("l1_u", "l1_p", "l1_density"), map(float, l1)))
-        extra = {**self.l1, "p_max_exact": float(self.fields[2].max()), "crossings": int(np.sum(np.diff(self.x) <= 0.0))}
-        with open(os.path.join(self.folder, "result.yaml")) as f:
-            lines = [line for line in f if line.split(":")[0] not in extra]
+        extra = {**self.l1, "p_max_exact": self.fields[2].max()}
+        self.result.update({key: float(f"{value:.6g}") for key, value in extra.items()}, crossings=int(np.sum(np.diff(self.x) <= 0.0)))
         with open(os.path.join(self.folder, "result.yaml"), "w") as f:
-            f.writelines(lines + [f"{key}: {value:.6g}\n" for key, value in extra.items()])
-        self.result.update(extra)
+            yaml.safe_dump(self.result, f, sort_keys=False)
 
     def judge_gauges(self):
         """per gauge: worst arrival of a shock, in spacings over the wave speed; worst mean over a plateau, part of u0"""
@@ -81,11 +81,12 @@ class Run:
         return out
 
     def title(self):
-        return "Test case" if self.result["case"] == "test" else self.result["case"].replace("_", "-")
+        return "Test case" if self.case == "test" else self.case.replace("_", "-")
 
     def label(self):
-        d = self.result["dissipation"]
-        return str(self.result["alpha_rho"]) if d == "paper" else d
+        """coefficient of the density dissipation, or riemann"""
+        alpha = self.result["pair"].split()[-1]
+        return "none" if alpha == "0" else alpha
 
     def name(self):
         return "riemann" if self.label() == "riemann" else r"$\alpha_\rho$ " + self.label()
@@ -191,7 +192,7 @@ def main():
         several = [runs[f"test-{gap}-{a}"] for a in COLORS if f"test-{gap}-{a}" in runs]
         if several:
             profiles(several, f"profiles-gap{gap}.png")
-    cases = [case for case in layers.CASES if case + "-0.3" in runs]
+    cases = [case for case in CASES if case + "-0.3" in runs]
     columns = [[runs[f"{case}-{a}"] for a in ("0.3", "auto", "riemann") if f"{case}-{a}" in runs] for case in cases]
     if columns:
         gauges(columns, "gauges.png")

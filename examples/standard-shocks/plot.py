@@ -24,6 +24,7 @@ sys.path.insert(0, os.path.join(os.environ.get("HVI_ROOT", os.path.join(here, ".
 import shock_scenes as scenes
 from reference import impedance
 
+METHODS = {"viscosity 1 2": "monaghan", "viscosity 1 2 interface auto": "auto", "dissipation riemann": "riemann"}  # words of the pair style
 COLORS = {"monaghan": "C0", "auto": "C1", "riemann": "C3"}
 NAMES = {"sod": ("density", "velocity", "pressure"), "noh": ("density", "outward velocity", "pressure"),
          "flyer": ("density, kg/m^3", "velocity, m/s", "pressure, GPa")}
@@ -36,17 +37,15 @@ class Run:
         self.folder = folder
         with open(os.path.join(folder, "result.yaml")) as f:
             self.result = r = yaml.safe_load(f)
-        self.problem, self.n, self.dim, self.method = r["problem"], r["n"], r["dimension"], r["dissipation"]
+        self.problem, self.n, self.dim, self.method = r["problem"], r["n"], r["dimension"], METHODS.get(r["pair"], r["pair"])
         table = np.loadtxt(os.path.join(folder, "profile.dat"))
         case, frame = getattr(self, self.problem)(r, table)
         self.case = case
         self.l1, self.x, _, self.got, self.inside = case.errors(self.n, case.scene(self.n), frame)
         self.line = case.line()
-        with open(os.path.join(folder, "result.yaml")) as f:
-            keys = {"l1_density": "rho", "l1_u": "u", "l1_p": "p"}
-            lines = [line for line in f if line.split(":")[0] not in keys]
+        r.update({key: float(f"{self.l1[k]:.6g}") for key, k in {"l1_density": "rho", "l1_u": "u", "l1_p": "p"}.items()})
         with open(os.path.join(folder, "result.yaml"), "w") as f:
-            f.writelines(lines + [f"{key}: {self.l1[k]:.6g}\n" for key, k in keys.items()])
+            yaml.safe_dump(r, f, sort_keys=False)
 
     @staticmethod
     def sod(r, table):
@@ -105,7 +104,7 @@ def draw(axes, runs, l1=True):
         ax.plot(there, exact[k], "k-", lw=0.9, label="exact")
         for run in runs:
             x, got, *_ = run.fields()
-            ax.plot(x, got[k], ".", ms=3, color=COLORS[run.method], label=run.label() + (f": {100 * list(run.l1.values())[k]:.2f} %" if l1 else ""))
+            ax.plot(x, got[k], ".", ms=3, color=COLORS.get(run.method), label=run.label() + (f": {100 * list(run.l1.values())[k]:.2f} %" if l1 else ""))
         ax.set_title(name, fontsize=10)
         ax.legend(fontsize=7)
 
@@ -141,7 +140,7 @@ def noh(runs):
         ax.plot(there, exact[0], "k-", lw=0.9, label="exact")
         for run in several:
             x, got, *_ = run.fields()
-            ax.plot(x, got[0], ".", ms=3 if run.dim < 3 else 1.5, color=COLORS[run.method], label=f"{run.label()}: {100 * run.l1['rho']:.1f} %")
+            ax.plot(x, got[0], ".", ms=3 if run.dim < 3 else 1.5, color=COLORS.get(run.method), label=f"{run.label()}: {100 * run.l1['rho']:.1f} %")
         ax.set_title(f"density, {several[0].dim}D, t = 0.6")
         ax.set_xlabel("r")
         ax.legend(fontsize=7)
@@ -156,7 +155,7 @@ def flyer(runs):
         ax.plot(there, exact[2], "k-", lw=0.9, label="exact")
         for run in several:
             x, got, *_ = run.fields()
-            ax.plot(x, got[2], ".", ms=3, color=COLORS[run.method], label=run.label())
+            ax.plot(x, got[2], ".", ms=3, color=COLORS.get(run.method), label=run.label())
         ax.set_title("pressure, GPa, Al on Al, 5 km/s" + (", enlarged" if zoom else ""), fontsize=10)
         ax.set_xlabel("x, mm")
         if zoom:
@@ -186,7 +185,7 @@ def table(runs):
     for name, run in sorted(runs.items(), key=lambda a: a[1].result.get("v0_m_s", 0)):
         r = run.result
         if run.problem == "flyer" and run.n == 200:
-            print("| %g%s | %s | %.3f | %.3f | %s |" % (r["v0_m_s"], "" if r["target"] == r["flyer"] else f", {r['flyer']} on {r['target']}", run.method,
+            print("| %g%s | %s | %.3f | %.3f | %s |" % (r["v0_m_s"], "" if r["target"] == r["flyer"] else f", {r['flyer']} on {r['target']}".replace(".hvi", ""), run.method,
                   1e-9 * r["pressure_Pa"], 1e-9 * r["pressure_exact_Pa"],
                   " | ".join("%.3f" % (100 * float(r[f"{k}_error"])) for k in ("pressure", "density", "velocity", "shock_speed"))))
 

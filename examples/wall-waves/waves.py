@@ -24,7 +24,7 @@ SOURCE = {(1, 60): 74.3, (1, 95): 68.4, (1, 130): 61.9, (2, 60): 63.9, (2, 95): 
 
 
 def read(path, distances):
-    """{(wall, distance): {name: array}}: means of the two probes of a place, near the faces; *_bend: half their difference"""
+    """{(wall, distance): {name: array}}: means of the two probes of a place, at the faces; *_bend: half their difference"""
     blocks, steps, rows = [], [], 0
     with open(path) as stream:
         for line in stream:
@@ -41,13 +41,12 @@ def read(path, distances):
     if rows:  # the last one is not complete: the run goes on, or was stopped
         blocks.pop(), steps.pop()
     found = np.array(blocks)
-    walls, rest = divmod(found.shape[1], 2 * len(distances))
-    if rest or walls not in (1, 2):
-        raise SystemExit(f"{path} has {found.shape[1]} probes, not two at each of {len(distances)} distances on one wall or two: see --at")
+    if found.shape[1] != 4 * len(distances):
+        raise SystemExit(f"{path} has {found.shape[1]} probes, not four (two walls, two faces) at each of {len(distances)} distances: see --at")
     records = {}
     for k, distance in enumerate(distances):
-        for wall in range(walls):
-            front, rear = (found[:, 2 * (walls * k + wall) + face].T for face in (0, 1))
+        for wall in range(2):
+            front, rear = (found[:, 4 * k + 2 * wall + face].T for face in (0, 1))
             record = dict(zip(NAMES, 0.5 * (front + rear)))
             record["step"] = np.array(steps)
             record["r"] = 1e3 * np.hypot(record["x"][0], record["y"][0])  # of the element, which is where its center is
