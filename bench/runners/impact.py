@@ -1,8 +1,10 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """Impacts of the examples beside experiments: an input that writes result.yaml, run with -var settings. What a case file has for it:
 
-scene: input that is run, from the folder bench on; a method may have one of its own. Settings are its variables.
+scene: input that is run, from the folder bench on; a method may have one of its own. Settings are its variables. Or a case of hvi shield, a YAML file: settings
+  are dx (mm), shift, method, and those of a case; or a study of hvi shots
 base: variables of all runs; common: those of runs of scene only, not of a method's own; methods: those of each, over base; or cannot: why
+after: measure: what a run has recorded is measured by hvi measure and put into its result.yaml
 measures: {name of a number: key of result.yaml}, or in one of methods (stock inputs)
 reference: {name: measured value}, or targets: {method: {name: value}}; errors: "mean error" over these and one of each, %
 finest: {numbers: {name: value}}, our own finest run, or in one of methods: error "to finest", %
@@ -11,8 +13,8 @@ divide: {dx: [t, layers]}: a variable as the quotient of two, of which the secon
 table: {file: CSV, names: [...], variables: [columns], reference: {name: column}}: rows of a table are the parts
 crossing: {of: name, at: value, over: variable, scale: factor, as: name, reference: value}: the variable at which a number of the parts falls
   through a value
-shots: {study: FILE, names: [...]}: the parts are published shots of hvi shots, and the error is the share of wrong verdicts, %;
-  setting finer divides the spacings that the study's rule gives
+shots: [names]: the parts are published shots of the study, and the error is the share of wrong verdicts, %; setting finer divides the spacings that its
+  rule gives
 meshes: {file: words of hvi mesh}: walls of elements for methods that have them, of 2 or 3 particles each way
 drift: true: the error is the largest and the last deviation of the books of energy, %
 combine: {name: measures}: a further error, the mean of those of these measures
@@ -28,21 +30,21 @@ import re
 import sys
 import time
 
-from . import Cannot
+from . import Cannot, shields
 
 BENCH = pathlib.Path(__file__).resolve().parents[1]
 ROOT = BENCH.parent
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests")]
 
 from hard import Stopped, executor  # noqa: E402
-from hvi import geometry, runs, shield_mesh, shots  # noqa: E402
+from hvi import measures, runs, shield_mesh, shots  # noqa: E402
 from hvi.errors import HVIError  # noqa: E402
 
 OPEN = 1e-3  # of the initial energy: a ledger that is farther off at the end is a failure; during the impact of few particles it swings by more
 OURS = ("method", "ranks", "repeat")  # settings that are none of the input's
 OWN = ("scene", "measures", "finest", "meshes", "cannot")  # words of a method that are none, either
 UNIT = re.compile(r"_(mm|km_s|m_s|GPa)$")
-BIG = ("*.dump", "*.data", "*.restart.*", "*.png")
+BIG = ("*.dump", "*.data", "*.restart.*", "*.restart", "*.png")
 
 
 def run(case, settings, folder, lmp, ranks=1, timeout=600):
@@ -55,7 +57,7 @@ def run(case, settings, folder, lmp, ranks=1, timeout=600):
         raise Cannot(method["cannot"])
     os.environ.setdefault("LAMMPS_POTENTIALS", os.pathsep.join([str(ROOT / "potentials"), str(ROOT / "examples" / "spall")]))
     variables = variables_of(case, method, settings)
-    source = runs.Input(BENCH / method.get("scene", case["scene"]))
+    source = source_of(BENCH / method.get("scene", case["scene"]))
     record = {"particles": 0, "steps": 0, "loop_s": 0.0, "errors": {}, "numbers": {}, "ledger": {}, "failed": ""}
     end, done, moved = time.monotonic() + timeout, [], 0
     for number, (part, given, reference) in enumerate(parts(case, name, variables, source)):
@@ -65,7 +67,7 @@ def run(case, settings, folder, lmp, ranks=1, timeout=600):
             make_mesh(where / file, given, words)
         source.check(given, case["title"])
         try:
-            found, ledger, seconds = one(source, given, where, lmp, ranks, max(end - time.monotonic(), 1.0))
+            found, ledger, seconds = one(source, given, where, lmp, ranks, max(end - time.monotonic(), 1.0), case.get("after"))
         except Stopped as why:
             record["failed"] = f"{part}: {why}" if part else str(why)
             return record
@@ -87,6 +89,11 @@ def run(case, settings, folder, lmp, ranks=1, timeout=600):
     return record
 
 
+def source_of(scene):
+    """an input, or what writes one"""
+    return shields.Shields(scene) if scene.suffix == ".yaml" else runs.Input(scene)
+
+
 def variables_of(case, method, settings):
     """of the input: what the case says, over that the method, over that the settings"""
     return {**({} if "scene" in method else case.get("common", {})), **case.get("base", {}), **{k: v for k, v in method.items() if k not in OWN},
@@ -96,7 +103,7 @@ def variables_of(case, method, settings):
 def parts(case, name, variables, source):
     """[(name, variables, reference), ...] of the runs that are one point together"""
     if "shots" in case:
-        return of_shots(case["shots"], dict(variables))
+        return [(shot.name, {"shot": shot.name, **variables}, {"verdict": shots.OBSERVED[shot.observed]}) for shot, _ in source.published(case["shots"])]
     if "table" in case:
         return from_table(case["table"], variables)
     found, reference = [], case.get("targets", {}).get(name, case.get("reference", {}))
@@ -108,16 +115,6 @@ def parts(case, name, variables, source):
             given[quotient] = round(float(given[over]) / float(given.pop(under)), 9)
         found.append((part.get("name", ""), given, part.get("reference", reference)))
     return found
-
-
-def of_shots(words, variables):
-    """published shots at the spacings of their study over the setting finer; the reference is the verdict that was seen"""
-    finer = float(variables.pop("finer", 1.0))
-    study = shots.Study(BENCH / words["study"])
-    study.rule = {name: value * (1.0 if name == "ratio" else finer) for name, value in study.rule.items()}
-    named = shots.named(study.shots, words["names"], words["study"])
-    return [(shot.name, {**study.case(shot).variables(0, study.shifts[0]), **variables}, {"verdict": shots.OBSERVED[shot.observed]})
-            for shot in named]
 
 
 def from_table(words, variables):
@@ -133,24 +130,28 @@ def from_table(words, variables):
 def make_mesh(path, variables, words):
     """the wall in elements of n particles of the spacing each way; Cannot if the layers of particles are no whole elements"""
     dx = float(variables["dx"])
-    layers = geometry.layers(1e3 * words["thickness"], dx)
-    n = shield_mesh.per_edge(layers)
-    if n is None:
-        raise Cannot(f"{layers} layers of particles (spacing {dx:g} mm) are no whole elements of 2 or 3 each way")
+    layers, n = shields.elements(1e3 * words["thickness"], dx)
     element = 1e-3 * n * dx
     shield_mesh.write(path, **words, element=element, n=n, layers=layers // n, growth=shield_mesh.GROWTH, largest=shield_mesh.LARGEST * element)
 
 
-def one(source, variables, folder, lmp, ranks, timeout):
-    """runs the input; (result.yaml, ledger, loop time in s)"""
+def one(source, variables, folder, lmp, ranks, timeout, after=None):
+    """runs the input, and hvi measure if that comes after; (result.yaml, ledger, loop time in s)"""
     words = {k: v if isinstance(v, list) else str(v) for k, v in variables.items()}
     try:
-        r = executor(lmp, folder)(source.path, nranks=ranks, vars=words, timeout=timeout)
+        if isinstance(source, shields.Shields):
+            r, result = source.run(executor(lmp, folder), variables, folder, nranks=ranks, timeout=timeout)
+        else:
+            source.copy_to(folder)  # with what it includes
+            r, result = executor(lmp, folder)(folder / source.name, nranks=ranks, vars=words, timeout=timeout), None
     except Stopped as why:  # an input that refuses something prints it before it quits
         lines = [line for path in folder.glob("log.*") for line in path.read_text().splitlines()]
         said = [line for line in lines if line.strip() and not line.startswith(("quit", "Total wall"))]
         raise Stopped(f"{why}: {said[-1]}" if said and str(why).startswith("ended with") else str(why)) from None
-    result = runs.read_yaml(folder / "result.yaml")
+    try:
+        result = result or (measures.measure(folder) if after == "measure" else runs.read_yaml(folder / "result.yaml"))
+    except HVIError as why:
+        raise Stopped(str(why)) from None
     if not result or "particles" not in result or "steps" not in result:
         raise Stopped("no complete result.yaml")
     ledger = {}

@@ -75,7 +75,7 @@ SETTINGS = {
     "solid": Key(word, laws.SOLID, "words of fix hvi/johnson-cook"),
     "fem": Key(word, "strain 0.3", "words of fix hvi/fem"),
     "C": Key(number(above=0), 0.6, "of fix hvi/dt"),
-    "skin": Key(number(above=0), 0.8, "of the neighbor lists, in spacings"),
+    "skin": Key(number(above=0), None, "of the neighbor lists, in spacings; default 0.7, of pair_coeff spacing"),
     "back": Key(number(least=0), 0, "mm that are modelled in front of wall 1; 0: half of the way to the last wall, at least 20"),
     "edge": Key(choice("free", "clamp", "absorb"), "free", "outermost rim of the walls"),
     "rim": Key(number(above=0), 5, "its width, mm"),

@@ -92,7 +92,8 @@ class Job(runs.Job):
     def take(self):
         """as runs.Job; a call that went on when the front door was killed may have ended since"""
         taken = super().take()
-        if taken and self.begun() and self.result() is None:
+        lost = (runs.read_yaml(self.folder / CHAIN) or {}).get("leg", 0) > self.chain()["leg"]  # its restart file is gone: it begins anew
+        if taken and self.begun() and self.result() is None and not lost:
             log = self.folder / f"log.{self.chain()['leg'] + 1}.lammps"
             if log.is_file() and "Total wall time" in log.read_text(errors="replace")[-200:]:
                 self.advance()

@@ -5,6 +5,7 @@ Both end a run by LAMMPS's fix halt: at the time `until`, or when the event is o
 """
 
 import functools
+import itertools
 import math
 import pathlib
 import shutil
@@ -16,13 +17,14 @@ from .errors import HVIError
 
 BEGIN, CONTINUE, CASE = "in.shield", "in.continue", "case.yaml"
 OFTEN, MOST = 20, 200  # steps between rows of walls.dat; most between rows of pieces.dat and history.dat, and between looks whether the event is over
-LOOKS = 50  # rows of those, about
+LOOKS = 25  # rows of those in the time that is enough, about
 LONGER = 3  # times the time that is enough for what fails: the end at the latest, for what neither fails nor comes to rest
 # when an event is over: still to come, of what the last wall has been given, and of the impact, as the verdict has it; change of its momentum per us; plastic work of all
 # walls per us, of the impact
 OVER = {"share": 0.03, "coming": 1e-4, "push": 0.01, "plastic": 1e-3}
 COLUMNS = "id type mass x y z vx vy vz v_dumped c_state[*]"
 STATE = ("p", "damage", "spalled", "vm", "e", "eps", "fragsize")
+ETA = 1.2  # of pair_coeff ... spacing: smoothing length in spacings
 FRICTION = 3 * 5300.0  # m/s: a wave loses exp(-3) of its amplitude on the way through an absorbing rim and back
 
 
@@ -47,6 +49,11 @@ def number(value):
     return f"{value:.10g}"
 
 
+def fraction(value):
+    """what is above a whole number, below 1 as it is written, too"""
+    return number(float(number(value - math.floor(value))) % 1)
+
+
 def types(numbers):
     """a range of consecutive types, as LAMMPS writes it"""
     return f"{numbers[0]}" if len(numbers) == 1 else f"{numbers[0]}*{numbers[-1]}"
@@ -67,11 +74,17 @@ class Text:
     """lines of an input: command, arguments, comment"""
 
     def __init__(self):
-        self.lines = []
+        self.lines, self.last = [], None
 
     def __call__(self, command, arguments, comment=""):
         line = f"{command:<15} {arguments}"
         self.lines.append(f"{line:<80} # {comment}" if comment else line)
+
+    def lattice(self, arguments):
+        """one that is not that of before"""
+        if arguments != self.last:
+            self("lattice", arguments)
+        self.last = arguments
 
     def say(self, comment):
         self.lines += ["", f"# {comment}"]
@@ -117,6 +130,10 @@ class Shield:
         g = self.geometry
         free = [wall for k, wall in enumerate(g.walls, 1) if k not in self.elements]
         return (self.in_projectile() + sum(math.pi * (wall.radius / wall.spacing) ** 2 * wall.layers for wall in free)) / self.images
+
+    def hold(self, k):
+        """m from its middle: debris meets elements of wall k up to there, since those beyond hold no particles; None where there are none of these"""
+        return shield_mesh.of_wall(self.case, k, self.which).get("hold") if k in self.elements else None
 
     def files(self):
         """{file: words of make()} of what is not on a lattice"""
@@ -168,18 +185,26 @@ class Shield:
             text("fix", "masses all property/atom rmass ghost yes", "nodes have masses of their own")
         mirrors = " mirror x 0 lo mirror y 0 lo" if g.quarter else ""
         text("pair_style", f"hvi/sph {s['kernel']} {s['pair']}{mirrors}")
-        eta = float(s["eta"])
-        lengths = [(1, (self.case.material, eta * g.a)), *((1 + k, (of.material, eta * max(wall.spacing, wall.dz))) for k, (wall, of) in enumerate(zip(g.walls, self.case.walls), 1))]
-        for kinds, (material, h) in alike(lengths):
-            text("pair_coeff", f"{types(kinds)} {types(kinds)} file {pathlib.Path(material).name} h {number(h)}")
+        rows = [(1, f"{self.file_of(self.case.material)} {self.lengths(g.a, g.a)}")]
+        rows += [(1 + k, f"{self.file_of(of.material)} {self.lengths(wall.spacing, wall.dz)}") for k, (wall, of) in enumerate(zip(g.walls, self.case.walls), 1)]
+        for (kinds, what), comment in itertools.zip_longest(alike(rows), ["smoothing length, masses, densities, skin follow from spacings"]):
+            text("pair_coeff", f"{types(kinds)} {types(kinds)} file {what}", comment or "")
         if self.elements:
             text("pair_coeff", f"{n + 2}*{2 * n + 1} {n + 2}*{2 * n + 1} nodes")
         self.masses(text)
-        for kinds, rho in alike([(1 + k, rho) for k, rho in enumerate(self.rho)]):
-            text("set", f"type {types(kinds)} sph/rho {number(rho)}")
         v, angle = 1e3 * self.case.speed_km_s, math.radians(self.case.angle_deg)
         text("velocity", f"ball set {number(round(v * math.sin(angle), 6))} 0 {number(round(v * math.cos(angle), 6))} units box")
         text.lines.append("")
+
+    @staticmethod
+    def file_of(material):
+        return pathlib.Path(material).name
+
+    def lengths(self, spacing, high):
+        """words of pair_coeff; particles of a cell that is no cube have a volume of their own"""
+        longest, eta = max(spacing, high), float(self.settings["eta"])
+        return (f"spacing {number(longest)}" + ("" if eta == ETA else f" h {number(eta * longest)}")
+                + ("" if abs(high / spacing - 1) < 1e-9 else f" volume {number(spacing**2 * high)}"))
 
     def projectile(self, text):
         """a cubic lattice about its center, or a file"""
@@ -188,7 +213,7 @@ class Shield:
             text("read_data", f"{BALL} add append shift 0 0 {number(-g.R)}")
             return
         origin = 0.5 + self.shift - g.R / g.a
-        text("lattice", f"sc {number(g.a)} origin 0.5 0.5 {number(origin - math.floor(origin))}")
+        text.lattice(f"sc {number(g.a)} origin 0.5 0.5 {fraction(origin)}")
         for line in self.case.projectile.regions(number):
             text(*line)
         text("create_atoms", "1 region ball")
@@ -196,20 +221,23 @@ class Shield:
     def wall(self, text, k, wall):
         """layers of squares between its faces"""
         origin = wall.front / wall.dz
-        text("lattice", f"custom {number(wall.spacing)} a1 1 0 0 a2 0 1 0 a3 0 0 {number(wall.dz / wall.spacing)} basis 0.5 0.5 0.5 origin 0 0 {number(origin - math.floor(origin))}")
+        text.lattice(f"custom {number(wall.spacing)} a1 1 0 0 a2 0 1 0 a3 0 0 {number(wall.dz / wall.spacing)} basis 0.5 0.5 0.5 origin 0 0 {fraction(origin)}")
         text("region", f"wall{k} cylinder z {number(wall.middle)} 0 {number(wall.radius)} {number(wall.front)} {number(wall.rear)} units box")
         text("create_atoms", f"{1 + k} region wall{k}")
 
     def masses(self, text):
-        """the particles of the projectile share its mass; a particle of a wall has that of its cell"""
-        command, name = ("set", "type {} mass {}") if self.elements else ("mass", "{} {}")
+        """the particles of the projectile share its mass; those of walls have that of their cells from pair_coeff, unless each has its own beside elements"""
         share = f"$({number(self.mass())}/{self.images}/count(ball))" if self.images > 1 else f"$({number(self.mass())}/count(ball))"
-        text(command, name.format(1, share), "the mass of the projectile over its particles")
+        if not self.elements:
+            text("mass", f"1 {share}", "the mass of the projectile over its particles")
+            return
+        text("set", f"type 1 mass {share}", "the mass of the projectile over its particles")
         rows = [(1 + k, number(self.rho[k] * wall.spacing**2 * wall.dz)) for k, wall in enumerate(self.walls, 1) if k not in self.elements]
         for kinds, mass in alike(rows):
-            text(command, name.format(types(kinds), mass))
-        if self.elements:  # LAMMPS wants masses of types, too
-            text("mass", f"* {number(self.mass())}", "of no use: each particle has its own")
+            text("set", f"type {types(kinds)} mass {mass}")
+        text("mass", f"* {number(self.mass())}", "of no use: each particle has its own")
+        for kinds, rho in alike([(1 + k, rho) for k, rho in enumerate(self.rho)]):
+            text("set", f"type {types(kinds)} sph/rho {number(rho)}")
 
     def model(self, text, new):
         """fixes that move and load"""
@@ -227,31 +255,30 @@ class Shield:
                     text("set", f"type {types(kinds)} sph/rho {rho}")
                 text("group", f"matter type 1:{1 + self.n}")
         text("fix", f"step all hvi/dt {s['C']}", "time step; f_step[2] is the time")
-        text("neighbor", f"{number(float(s['skin']) * g.widest)} bin")
-        text("compute", "cost all hvi/atom asleep", "matter at rest costs little")
-        text("variable", "cost atom 1-0.83*c_cost")
+        if s["skin"]:
+            text("neighbor", f"{number(float(s['skin']) * g.widest)} bin")
+        text("compute", "cost all hvi/atom cost", "matter at rest costs little")
+        text("variable", "cost atom c_cost")
         text("fix", "share all balance 50 1.05 shift xy 20 1.02 weight var cost")
-        text("compute", f"book all hvi/energy{' clamps rim' if self.settings['edge'] != 'free' else ''}", "energy and momentum balance")
-        self.edge(text, new)
-
-    def edge(self, text, new):
-        kind = self.settings["edge"]
-        if kind == "free":
-            return
-        rim = 1e-3 * float(self.settings["rim"])
-        if new:
-            for k, wall in enumerate(self.walls, 1):
-                text("region", f"rim{k} cylinder z {number(wall.middle)} 0 {number(wall.radius - rim)} {number(wall.front - wall.thickness)} {number(wall.rear + wall.thickness)} side out units box")
-                text("group", f"beyond region rim{k}")
-                text("group", f"wall type {1 + k}" + (f" {1 + self.n + k}" if k in self.elements else ""))
-                text("group", f"rim{k} intersect beyond wall")
-                text("group", "beyond delete")
-                text("group", "wall delete")
-            text("group", "rim union " + " ".join(f"rim{k}" for k in range(1, self.n + 1)))
+        kind, rim = self.settings["edge"], 1e-3 * float(self.settings["rim"])
+        if new and kind != "free":
+            self.rim(text, rim)
+        text("compute", f"book all hvi/energy{' clamps rim' if kind != 'free' else ''}", "energy and momentum balance")
         if kind == "clamp":
             text("fix", "rim rim setforce 0 0 0")
-        else:
+        elif kind == "absorb":
             text("fix", f"rim rim viscous $({number(FRICTION / rim)}*mass(rim)/count(rim))", "absorbs waves")
+
+    def rim(self, text, rim):
+        """the group of what is no farther than that from the edge of a wall"""
+        for k, wall in enumerate(self.walls, 1):
+            text("region", f"rim{k} cylinder z {number(wall.middle)} 0 {number(wall.radius - rim)} {number(wall.front - wall.thickness)} {number(wall.rear + wall.thickness)} side out units box")
+            text("group", f"beyond region rim{k}")
+            text("group", f"wall type {1 + k}" + (f" {1 + self.n + k}" if k in self.elements else ""))
+            text("group", f"rim{k} intersect beyond wall")
+            text("group", "beyond delete")
+            text("group", "wall delete")
+        text("group", "rim union " + " ".join(f"rim{k}" for k in range(1, self.n + 1)))
 
     def measures(self, text):
         """what is written while it runs; when it ends"""
@@ -259,12 +286,11 @@ class Shield:
         rows = []
         for k, wall in enumerate(g.walls, 1):
             nodes = f" nodes {1 + self.n + k}" if k in self.elements else ""
-            rows.append(f"wall {1 + k} {number(wall.front)} {number(wall.thickness)}{nodes} layers {wall.layers} radius {number(wall.radius)}"
+            rows.append(f"wall {1 + k} {number(wall.front)} {number(wall.thickness)}{nodes} layers {wall.layers} radius {number(self.hold(k) or wall.radius)}"
                         + (f" center {number(wall.middle)} 0 struck {number(wall.struck)} 0" if self.case.angle_deg else ""))
-        both = " &\n                ".join(["all hvi/wall axis z", *rows])
         text.say("what happens to the walls: a row of walls.dat and pieces.dat for each")
-        text("compute", f"walls {both}")
-        text("compute", f"pieces {both} &\n                pieces {number(g.near)}")
+        text("compute", " &\n                ".join(["walls all hvi/wall axis z", *rows]))
+        text("compute", f"pieces all hvi/wall like walls pieces {number(g.near)}", "what hangs together")
         text("compute", f"state all hvi/atom {' '.join(STATE)}")
         text("variable", "us equal 1e6*f_step[2]")
         text("fix", f"walls all ave/time {OFTEN} 1 {OFTEN} c_walls[*] mode vector append walls.dat format \" %.10g\"")
@@ -302,7 +328,7 @@ class Shield:
         text("variable", f'quiet equal "v_us > {number(g.arrival_us + g.passage_us + g.crossing_us)} && c_walls[{n}][2] < {number(OVER["share"])}*c_walls[{n}][5]+{number(OVER["coming"] * limit)} && '
              f'1e-6*abs(c_walls[{n}][3]) < {number(OVER["push"])}*abs(c_walls[{n}][4])+1e-12 && 1e-6*({power}) < {number(OVER["plastic"] * limit)}"',
              "nothing comes, pushes or flows: see Howto_shield")
-        failed = f"(c_pieces[{n}][30] > 0 || c_pieces[{n}][36] > 0)"  # mass apart behind the last wall, a hole in it
+        failed = f"(f_pieces[{n}][30] > 0 || f_pieces[{n}][36] > 0)"  # mass apart behind the last wall, a hole in it
         text("variable", f'over equal "v_us >= v_until || {failed} && v_us >= {number(g.tstop_us)} || !{failed} && v_quiet"')
         text("fix", f"over all halt {self.seldom} v_over > 0 error continue message no")
 

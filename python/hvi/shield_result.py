@@ -117,7 +117,7 @@ def measure(shield, folder):
         near = np.flatnonzero(p.tip[:, k] >= close[k]) if k < n - 1 else []
         row = max(near[0] - 1, 0) if len(near) else len(record.seldom) - 1
         at = {name: float(getattr(p, name)[row, k]) for name in WALL}
-        rho, name = shield.rho[k + 1], f"wall{k + 1}_"
+        rho, name, hold = shield.rho[k + 1], f"wall{k + 1}_", shield.hold(k + 1)
         missed = q * at["missed_mass"] / mp
         if k == n - 1 and record.book(15) > 0:  # left the box forward on the whole, through its sides
             missed = max(missed, q * record.book(20) / mp)
@@ -133,7 +133,7 @@ def measure(shield, folder):
             "deepest_failed_layer": math.ceil(at["failed_depth"] / wall.dz), "rear_plastic_strain": at["rear_strain"],
             "push_percent_per_us": push(record, k, g.tstop_us) if k == reached - 1 else 0.0, "plastic_percent_per_us": 100 * q * 1e-6 * at["plastic_power"] / E0,
             "converted_fraction": float((p.held_mass[0, k] - at["held_mass"]) / p.mass[0, k]), "still_to_come": q * at["coming_energy"] / E0, "missed_fraction": missed, "missed_reach_mm": 1e3 * at["missed_reach"],
-            "torn": bool(k + 1 in shield.elements and at["far_free"] > wall.radius - 4 * wall.spacing)}.items()})
+            "torn": bool(hold and at["far_free"] > hold - 4 * wall.spacing)}.items()})
         found[name + "detached_spall"] = at["spall_mass"] > 0
     for k in range(1, n + 1):
         found.setdefault(f"wall{k}_reached", False)
@@ -145,7 +145,7 @@ def measure(shield, folder):
     seconds, ranks = sum(s for s, _, _ in runs_), max((r for _, r, _ in runs_), default=1)
     core = sum(s * r for s, r, _ in runs_)
     elements = record.fem(0, 0)
-    atoms = (runs_[-1][2] if runs_ else 0) + int(record.book(21))
+    atoms, left = runs_[-1][2] if runs_ else 0, int(record.book(21))
     step = int(record.history_steps[-1])
     found.update({
         "perforated": found[f"wall{n}_perforated"], "front_velocity_m_s": first["front_velocity"], "cloud_length_mm": 1e3 * first["cloud_length"],
@@ -153,13 +153,22 @@ def measure(shield, folder):
         "walls": n, "walls_reached": reached, "quarter": "yes" if g.quarter else "no", "v0_m_s": v0, "dx_mm": 1e3 * g.a, "method": case.method() or "sph",
         "elements": int(elements or 0), "elements_left": int(record.fem(0) or 0), "elements_failed_without_particles": int(record.fem(9) or 0),
         "conversion_heat_ratio": q * (record.fem(7) or 0.0) / E0, "hourglass_energy_ratio": q * (record.fem(8) or 0.0) / E0,
-        "particles": atoms, "particles_left_the_box": int(record.book(21)), "steps": step, "time_us": record.time_us,
+        "particles": (matter(folder, atoms) if elements else atoms) + left, "particles_left_the_box": left, "steps": step, "time_us": record.time_us,
         "ended_by": "time" if record.time_us >= shield.latest_us else "event",
         "energy_ratio": record.book(9), "energy_missed_ratio": record.book(30) * record.book(9) / record.book(8), "energy_start_J": q * record.book(8) / record.book(9),
         "momentum_error": error / start, "momentum_left_ratio": q * record.book(15) / p0, "mass_error": (record.book(19) + record.book(20)) / record.book(27) - 1,
-        "areal_density_kg_m2": round(sum(wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])), 3), "wall_s": round(seconds, 2), "ranks": ranks, "core_s": round(core, 1), "particle_steps_per_s": round(step * atoms / max(seconds, 1e-9)),
+        "areal_density_kg_m2": round(sum(wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])), 3), "wall_s": round(seconds, 2), "ranks": ranks, "core_s": round(core, 1), "particle_steps_per_s": round(step * (atoms + left) / max(seconds, 1e-9)),
         "lammps_version": lammps, "package_version": version()})
     return found
+
+
+def matter(folder, atoms):
+    """of so many atoms those that are no nodes of elements, which are in no dump"""
+    try:
+        with open(pathlib.Path(folder) / "shield.dump", encoding="utf-8") as lines:
+            return next(int(following) for line, following in zip(lines, lines) if line.startswith("ITEM: NUMBER OF ATOMS"))
+    except (OSError, StopIteration, ValueError):
+        return atoms
 
 
 def push(record, k, tstop_us):

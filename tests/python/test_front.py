@@ -123,6 +123,17 @@ WRONG = [
      "settings: quarter: yes needs mirror planes, and a cylinder of 5 mm, 3 mm long, pitched by 20 degrees has none"),
     (change("material: Al6061-T6", "material: copper"), 9, "wall 2: material: no material copper; did you mean Cu-OFHC?"),
     (change("walls:\n", "walls: none\nwall:\n"), 6, "walls: must be a list of walls"),
+    (change("walls:\n", "walls: []\nwall:\n"), 6, "walls: must be a list of walls"),
+    (change("{thickness_mm: 0.8,", "{thickness_mm: 0,"), 7, "wall 1: thickness_mm: must be above 0 mm, not 0"),
+    (change("gap_mm: 60", "gap_mm: -3"), 10, "wall 2: gap_mm: must be above 0 mm, not -3"),
+    (change("gap_mm: 60", "gap_mm: 60\n    spacings_mm: [0, 0.4]"), 11, "wall 2: spacings_mm: must be above 0 mm, not 0"),
+    (change("[0.2, 0.4]", "[0.4, 0]"), 11, "spacings_mm: must be above 0 mm, not 0"),
+    (CASE + "angle_deg: -10\n", 13, "angle_deg: must be at least 0 and below 90 degrees, not -10"),
+    (CASE + "settings: {quarter: half}\n", 13, "settings: quarter: must be auto, yes or no, not half"),
+    (CASE + "settings: {rim: 0}\n", 13, "settings: rim: must be above 0, not 0"),
+    (CASE + "settings: {eta: 0}\n", 13, "settings: eta: must be above 0, not 0"),
+    (CASE + "settings: {skin: 0}\n", 13, "settings: skin: must be above 0, not 0"),
+    (CASE + "settings: {back: -1}\n", 13, "settings: back: must be at least 0, not -1"),
     (change("walls:", "walls: ["), 7, "not YAML: "),
     ("", None, "emi.yaml is empty"),
     ("- 1\n", 1, "the case: must be 'name: value' lines"),
@@ -151,6 +162,7 @@ def test_own_material_without_strength(folder, capsys):
 def test_cases_of_the_example(root):
     found = [cases.read(path) for path in (root / "examples/whipple-shield/cases").glob("*.yaml")]
     assert len(found) >= 3
+    assert cases.read(root / "examples/whipple-shield/studies/convergence.yaml").spacings_mm == (0.4, 0.267, 0.2)
 
 
 # ---------------------------------------------------------------------- shield

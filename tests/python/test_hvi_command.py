@@ -240,7 +240,7 @@ def test_compare_results(command, files):
 
 
 def test_compare_lists_in_results(files):
-    """as in.whipple writes them: reasons, and margins"""
+    """as hvi shield writes them: reasons, and margins"""
     text = "verdict: fails\nreasons:\n  - a hole of {0} mm\n  - spall\nmargins:\n  hole_mm: {0}\n  layers: 3\nsteps: 5\n"
     for name, hole in (("a", 4), ("b", 5)):
         (files / f"{name}.yaml").write_text(text.format(hole))

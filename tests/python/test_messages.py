@@ -20,7 +20,7 @@ def quoted(root):
         yield from (line.strip() for line in block.splitlines())
 
 
-ELSEWHERE = {"ERROR: Unrecognized pair style 'hvi/sph'": "LAMMPS", "verdict: undecided": "in.whipple"}
+ELSEWHERE = {"ERROR: Unrecognized pair style 'hvi/sph'": "LAMMPS", "verdict: undecided": "hvi shield"}
 
 
 def test_quoted_messages_are_in_the_code(root, texts):

@@ -13,7 +13,7 @@ from hvi import cli
 
 EXAMPLES = sorted(path.parent for path in (ROOT / "examples").glob("**/README.md"))
 # what a block of commands leaves behind for the next ones
-MADE = re.compile(r"cloud\d\.dump|wall\d\.data|runs|fronts")
+MADE = re.compile(r"cloud\d\.dump|wall\d\.data|runs(/.*)?|fronts")
 QUICK = {"layered-shock": 0, "standard-shocks": 0, "stock-comparison": 0, "spall": 0}  # number of the command: a second
 
 

@@ -39,6 +39,14 @@ def test_inputs_are_straight(tmp_path, change):
     assert first[first.index("fix             move all hvi/sph"):] == second[second.index("fix             move all hvi/sph"):]
 
 
+@pytest.mark.parametrize("thickness, gap, material, more", [(2.25, 8.25, "Al2024-T3", 3), (2.25, 8.1, "Al2024-T3", 4), (1.5, 8.25, "Al6061-T6", 4), (2.0, 8.1, "Al6061-T6", 5)])
+def test_lines_of_a_further_wall(tmp_path, thickness, gap, material, more):
+    """region, create_atoms, a row of compute hvi/wall; a lattice of its own and a law of its own where they differ"""
+    wall = f"  - {{thickness_mm: {thickness}, material: {material}, gap_mm: {gap}}}\n"
+    two, three = (len(shield_chain.shield_of(read(tmp_path / "c.yaml", CASE.replace("spacings_mm", new + "spacings_mm")), 0, 0.0).text().splitlines()) for new in ("", wall))
+    assert three - two == more and two <= 71
+
+
 def test_write_run_and_judge(lmp, tmp_path, capsys, monkeypatch):
     """a folder that LAMMPS alone can run, with no materials elsewhere; cut into three it has the same bits, and both the same verdict"""
     (tmp_path / "c.yaml").write_text(CASE)
@@ -78,6 +86,17 @@ def test_front_door_runs_it(root, lmp_exe, tmp_path, capsys, monkeypatch):
     saved = yaml.safe_load((tmp_path / "runs/c/verdict.yaml").read_text())
     assert not list(tmp_path.glob("runs/c/*/chain.yaml"))
     assert cli.main(["report", "runs/c"]) == 0 and (tmp_path / "runs/c/report.html").stat().st_size > 1e5
+    page = (tmp_path / "runs/c/report.html").read_text()
+    assert "Plane of wall 2" in page and "Wall 2: no picture" not in page
+
+
+def test_report_of_a_coarse_film(root, lmp_exe, tmp_path, monkeypatch):
+    """the last frame before wall 2 is that of the start: the page says so in place of the picture"""
+    (tmp_path / "c.yaml").write_text(CASE.replace("tstop: 8", "tstop: 4, film: 3.5"))
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["shield", "c.yaml", "--lmp", str(lmp_exe), "--ranks", "1"]) in (0, 3, 4) and cli.main(["report", "runs/c"]) == 0
+    page = (tmp_path / "runs/c/report.html").read_text()
+    assert "Wall 2: no picture. The last frame before it is struck is of 0.0 us" in page and "Plane of wall 2" not in page
 
 
 @pytest.mark.parametrize("dx, message", [("0.004", "more than LAMMPS can number"), ("0.0095", "MB of memory")])

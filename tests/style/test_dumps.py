@@ -4,20 +4,21 @@ import re
 
 import hvi
 import numpy as np
+import plate_scenes
 import pytest
 import yaml
-from hvi import mirror
+from hvi import mirror, runs, shield_chain
+from shield_runs import read, wall
 
+pytestmark = pytest.mark.filterwarnings("ignore::hvi.errors.HVIWarning")  # of few layers
 ALWAYS = ["id", "type", "mass", "x", "y", "z", "vx", "vy", "vz", "time_si"]
 STATE = ["p", "damage", "spalled", "vm", "fragsize"]
-# input, variables (seconds each), dumps, columns, model
+# input or its text, variables (seconds each), or a wall and words of a case of hvi shield; dumps, columns, model
 CASES = {
-    "plate": ("single-plate/in.plate", dict(dx=1.25, Rplate=15, frame=[0.5, 1], tstop=1), "frame.*.dump", STATE, "whole"),
-    "quarter plate": ("single-plate/in.plate", dict(dx=1.25, Rplate=15, frame=[0.5, 1], tstop=1, quarter="yes"), "frame.*.dump", STATE,
-                      "quarter (mirror x 0 lo, mirror y 0 lo)"),
-    "shield": ("whipple-shield/in.whipple", dict(dx=0.8, walls=1, radius1=8, tstop=1.5), "*.dump", [*STATE, "e", "eps"],
-               "quarter (mirror x 0 lo, mirror y 0 lo)"),
-    "oblique shield": ("whipple-shield/in.whipple", dict(dx=0.8, walls=1, radius1=8, tstop=2, angle=30), "*.dump", [*STATE, "e", "eps"], "whole"),
+    "plate": (plate_scenes.text(quarter=False), dict(dx=1.25, Rplate=15, frame=0.5, tstop=1), "*.dump", STATE, "whole"),
+    "quarter plate": ("single-plate/in.plate", dict(dx=1.25, Rplate=15, frame=0.5, tstop=1), "*.dump", STATE, "quarter (mirror x 0 lo, mirror y 0 lo)"),
+    "shield": (wall(0.8, radius=8), dict(tstop=1.5, film=0.5), "*.dump", [*STATE, "e", "eps"], "quarter (mirror x 0 lo, mirror y 0 lo)"),
+    "oblique shield": (wall(0.8, radius=8), dict(tstop=2, film=0.5, angle=30), "*.dump", [*STATE, "e", "eps"], "whole"),
     "debris": ("debris-cloud/in.debris", dict(N=2000, tstop=1, frames=2, Rplate=10), "debris.dump", [], "whole"),
 }
 
@@ -34,7 +35,16 @@ def case(request, lmp, root, tmp_path_factory, cache):
     if name not in cache:
         folder = tmp_path_factory.mktemp("case")
         script, variables, pattern, _, _ = CASES[name]
-        lmp(root / "examples" / script, cwd=folder, env={"LAMMPS_POTENTIALS": str(root / "potentials")}, vars={"out": folder, **variables})
+        if isinstance(script, dict):
+            shield_chain.write_run(read(folder / "case.yaml", script, **variables), 0, 0, folder)
+            lmp(folder / "in.shield", cwd=folder, env={"LAMMPS_POTENTIALS": ""})
+            shield_chain.judge(folder)
+        elif "\n" in script:
+            lmp(script, cwd=folder, env={"LAMMPS_POTENTIALS": str(root / "potentials")}, vars={"out": folder, **variables})
+        else:
+            source = runs.Input(root / "examples" / script)
+            source.copy_to(folder)  # with what it includes
+            lmp(folder / source.name, cwd=folder, env={"LAMMPS_POTENTIALS": str(root / "potentials")}, vars={"out": folder, **variables})
         cache[name] = sorted(folder.glob(pattern))
         assert cache[name]
     return name, cache[name]
@@ -89,7 +99,7 @@ def ovito(path):
             said[item[6:]] = float(lines[k])
         elif item.startswith("ITEM: BOX BOUNDS"):
             said["box"] = [[float(word) for word in line.split()] for line in lines[k:k + 3]]
-            assert [len(row) for row in said["box"]] == [2, 2, 2] and all(word in "ff ss ms mm pp".split() for word in item.split()[3:6])
+            assert [len(row) for row in said["box"]] == [2, 2, 2] and all(re.fullmatch("pp|[fsm]{2}", word) for word in item.split()[3:6])
         elif item.startswith("ITEM: ATOMS"):
             names, n = item.split()[2:], int(said["NUMBER OF ATOMS"])
             assert len(set(names)) == len(names) and all(re.fullmatch(r"\w+", name) for name in names)

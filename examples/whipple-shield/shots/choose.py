@@ -52,7 +52,7 @@ def eligible(found, cost):
         elif not BUMPERS[0] <= thin(shot) <= BUMPERS[-1]:
             out.setdefault("bumper over diameter", []).append(shot.name)
         elif shot.name not in cost:
-            out.setdefault("no plan: in.whipple ends, or the plan takes more than 20 s", []).append(shot.name)
+            out.setdefault("no plan", []).append(shot.name)
         elif cost[shot.name] > (MOST_RARE if is_rare(shot) else MOST):
             out.setdefault("cost", []).append(shot.name)
         else:

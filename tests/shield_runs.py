@@ -1,0 +1,39 @@
+"""For tests of hvi shield with LAMMPS: a case of a few words, its written input run once, its result; no front door."""
+
+import pytest
+import yaml
+from hvi import case as cases
+from hvi import shield_chain, shield_input
+
+
+def wall(thickness, gap=None, radius=None, **more):
+    """as a case has it, mm"""
+    return {"thickness_mm": thickness, **{key: value for key, value in (("gap_mm", gap), ("radius_mm", radius)) if value is not None}, **more}
+
+
+def mapping(*walls, D=5, v=7.1, ball="Al2024-T3", material="Al2024-T3", dx=0.8, angle=0, method="sph", not_modelled=(), **settings):
+    """a case of one spacing and shift: diameter in mm, speed in km/s; walls of the material unless they say another"""
+    return {"projectile": {"diameter_mm": D, "material": ball}, "speed_km_s": v, "angle_deg": angle, "walls": [{"material": material, **of} for of in walls],
+            "spacings_mm": [dx], "shifts": [0], "method": method, **({"not_modelled": list(not_modelled)} if not_modelled else {}), "settings": {"film": -1, **settings}}
+
+
+def read(path, *walls, **words):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(yaml.safe_dump(mapping(*walls, **words)))
+    return cases.read(path)
+
+
+@pytest.fixture
+def shield(lmp, tmp_path):
+    """shield(*walls, nranks=1, folder="run", edit=function of the input's text, **words of mapping()) -> result.yaml"""
+    def run(*walls, nranks=1, folder="run", edit=None, **words):
+        where = tmp_path / folder
+        shield_chain.write_run(read(tmp_path / f"{folder}.yaml", *walls, **words), 0, 0, where)
+        script = where / shield_input.BEGIN
+        if edit:
+            script.write_text(edit(script.read_text()))
+        r = lmp(script, nranks=nranks, cwd=where, env={"LAMMPS_POTENTIALS": ""})
+        (where / "log.lammps").write_text(r.log)
+        return shield_chain.judge(where)
+
+    return run

@@ -1,0 +1,51 @@
+"""Shields with walls of elements: they break as particles do, energy and momentum stay balanced, and where elements cannot break the verdict is undecided."""
+
+import re
+
+import hvi
+import pytest
+from shield_runs import shield, wall  # noqa: F401
+
+pytestmark = pytest.mark.filterwarnings("ignore::hvi.errors.HVIWarning")  # of few layers
+FRONT, REAR = wall(0.8, radius=10), wall(0.8, gap=12, radius=16)
+SMALL = dict(dx=0.4, tstop=5)
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_hybrid_walls(shield, tmp_path, nranks):
+    """beside all-SPH: holes, clouds, momentum; and what became of the elements"""
+    r = shield({**FRONT, "core_mm": 4, "hold_mm": 8}, {**REAR, "core_mm": 7, "hold_mm": 14}, nranks=nranks, method="hybrid", **SMALL)
+    sph = shield(FRONT, REAR, folder="sph", **SMALL)
+    assert (r["method"], sph["method"], sph["elements"], sph["elements_left"]) == ("hybrid", "sph", 0, 0)
+    heads = [(tmp_path / f"run/wall{k}.data").read_text()[:400] for k in (1, 2)]
+    assert 0 < r["elements_left"] < r["elements"] == sum(int(re.search(r"^(\d+) elements$", head, re.M)[1]) for head in heads)
+    assert abs(r["energy_ratio"] - 1) < 1e-4 and r["momentum_error"] < 1e-12 and abs(r["mass_error"]) < 1e-12
+    for key, rel in (("hole1_diameter_mm", 0.12), ("wall1_cloud_velocity_ratio", 0.1), ("wall1_cloud_energy_ratio", 0.02), ("wall1_momentum_ratio", 0.03),
+                     ("wall1_energy_ratio", 0.03), ("wall2_momentum_ratio", 0.05), ("wall2_energy_ratio", 0.1), ("front_velocity_m_s", 0.02)):
+        assert r[key] == pytest.approx(sph[key], rel=rel), key
+    assert 0 < r["wall1_converted_fraction"] < 0.2 and 0 < r["wall2_converted_fraction"] < 0.3
+    assert 0 < r["conversion_heat_ratio"] < 0.01 and 0 < r["hourglass_energy_ratio"] < 0.02
+    warned = [text for text in r.get("notes", []) if "energy have become heat" in text or "in hourglass forces" in text]
+    assert len(warned) == (r["conversion_heat_ratio"] > 1e-3) + (r["hourglass_energy_ratio"] > 1e-3)
+    assert r["verdict"] == "undecided" and any("2 layer(s) of particles" in text for text in r["reasons"])
+    assert not any("hold_mm" in text for text in r["reasons"])
+    frame = hvi.Dump(str(tmp_path / "run/shield.dump"))[0]
+    assert set(frame["type"]) == {1, 2, 3} and r["particles"] == len(frame) + r["particles_left_the_box"]  # nodes are in no dump, and are no particles
+
+
+def test_elements_that_cannot_break(shield):
+    """too few of them hold particles: they fail and stay, and the others become particles to the last: no verdict"""
+    r = shield({**FRONT, "core_mm": 0.8, "hold_mm": 2.8}, method="hybrid", dx=0.4, tstop=3)
+    undecided(r, "elements that hold no particles have failed and stay -- take a larger hold_mm")
+    undecided(r, "wall 1 has become particles up to elements that hold none -- take a larger hold_mm")
+    assert r["conversion_heat_ratio"] > 1e-3 and any("have become heat when elements became particles" in text for text in r["notes"])
+
+
+def test_tied_elements_do_not_break(shield):
+    r = shield({**FRONT, "core_mm": 4, "hold_mm": 8}, method="tied", dx=0.4, tstop=3)
+    undecided(r, "method tied lets no element become particles -- take method hybrid")
+    assert r["elements_left"] == r["elements"] and r["conversion_heat_ratio"] == 0 and abs(r["energy_ratio"] - 1) < 1e-5
+
+
+def undecided(r, text):
+    assert r["verdict"] == "undecided" and len([said for said in r["reasons"] if text in said]) == 1, r["reasons"]
