@@ -5,6 +5,7 @@
     python3 bench/report.py --records build/bench/records --out build/bench     folders or files, *.json and *.jsonl
     python3 bench/report.py --records bench/records --needs [--rst]             the table What does a scene need, to the screen
     python3 bench/report.py --records bench/records --headline [--rst]          the table of defaults
+    python3 bench/report.py --records bench/records --experiments [--rst]       that of defaults beside experiments
 
 The same records make the same files, byte by byte.
 """
@@ -229,14 +230,15 @@ def main(words=None):
     parser.add_argument("--out", type=pathlib.Path, help="folder for the report")
     parser.add_argument("--needs", action="store_true", help="print the table What does a scene need, five typical questions")
     parser.add_argument("--headline", action="store_true", help="print the table of defaults")
+    parser.add_argument("--experiments", action="store_true", help="print the table of defaults beside experiments")
     parser.add_argument("--rst", action="store_true", help="print as reStructuredText")
     args = parser.parse_args(words)
-    if not (args.out or args.needs or args.headline):
-        parser.error("say where to write (--out) or what to print (--needs, --headline)")
+    if not (args.out or args.needs or args.headline or args.experiments):
+        parser.error("say where to write (--out) or what to print (--needs, --headline, --experiments)")
     try:
         cases, records = load_cases(args.cases), load(args.records)
         points = all_points(cases, records)
-        asked = [sections.headline(cases, points)] * args.headline + [sections.needs(cases, points, pareto.TYPICAL), sections.NEEDS] * args.needs
+        asked = [sections.experiments(cases, points)] * args.experiments + [sections.headline(cases, points)] * args.headline + [sections.needs(cases, points, pareto.TYPICAL), sections.NEEDS] * args.needs
         if asked:
             print((blocks.rst if args.rst else blocks.markdown)(asked), end="")
         if args.out:

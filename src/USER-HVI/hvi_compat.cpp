@@ -19,36 +19,34 @@ using namespace HVI;
 using LAMMPS_NS::Variable;
 
 /* ----------------------------------------------------------------------
-   LAMMPS has no public way to formulas, nor to what is left of a list.  What
-   class Info shows of variables is no way: of those of style timer it reads
-   memory that nobody has written.
+   LAMMPS has no public way to the style of each variable.  What class Info shows of
+   variables is no way: of those of style timer it reads memory that nobody has written.
 ------------------------------------------------------------------------- */
 
 namespace {
 
-// 4 Feb 2025: private arrays, with public names.  Where LAMMPS has none, NoArrays stands for them.
+// 4 Feb 2025: a private array, beside public names.  Where LAMMPS has none, NoArray stands for it.
 
-struct NoArrays {
-  int *style, *num, *which;
-  char ***data;
+struct NoArray {
+  int *style;
 };
 
 template <typename V, typename = void> struct Having {
-  using type = NoArrays;
+  using type = NoArray;
 };
 template <typename V> struct Having<V, decltype(void(&V::names))> {
   using type = V;
 };
-using Arrays = Having<Variable>::type;
+using Array = Having<Variable>::type;
 
-NoArrays arrays(const Arrays &);
+const int *styles(const Array &);
 
 // explicit instantiations may name private members (C++17, [temp.explicit])
 
-template <auto STYLE, auto NUM, auto WHICH, auto DATA> struct Open {
-  friend NoArrays arrays(const Arrays &a) { return {a.*STYLE, a.*NUM, a.*WHICH, a.*DATA}; }
+template <auto STYLE> struct Open {
+  friend const int *styles(const Array &a) { return a.*STYLE; }
 };
-template struct Open<&Arrays::style, &Arrays::num, &Arrays::which, &Arrays::data>;
+template struct Open<&Array::style>;
 
 // 4 Jul 2026: protected structs
 
@@ -58,34 +56,22 @@ template <typename V> struct OpenStructs : V {
 
 /* ---------------------------------------------------------------------- */
 
-VariableText text(const char *name, const std::string &style, int num, int which, char **data)
-{
-  VariableText one = {name, style, {}};
-  if (style == "index") one.values.assign(data + which, data + num);
-  if (style == "string" || style == "equal") one.values.assign(data, data + 1);
-  return one;
-}
-
 template <typename V>
-auto list_of(const V &variable) -> decltype(variable.names, std::vector<VariableText>())
+auto list_of(const V &variable) -> decltype(variable.names, std::vector<VariableName>())
 {
-  const auto a = arrays(variable);
-  std::vector<VariableText> list;
+  std::vector<VariableName> list;
   for (int i = 0; i < variable.nvar; i++)
-    list.push_back(
-        text(variable.names[i], V::varstyles[a.style[i]], a.num[i], a.which[i], a.data[i]));
+    list.push_back({variable.names[i], V::varstyles[styles(variable)[i]]});
   return list;
 }
 
 template <typename V>
-auto list_of(const V &variable) -> decltype(variable.get_style(0), std::vector<VariableText>())
+auto list_of(const V &variable) -> decltype(variable.get_style(0), std::vector<VariableName>())
 {
-  std::vector<VariableText> list;
-  for (int i = 0; i < variable.get_nvar(); i++) {
-    if (!variable.get_style(i)) continue;    // deleted
-    const auto &v = OpenStructs<V>::of(variable)[i];
-    list.push_back(text(v.name.c_str(), variable.get_style(i), v.num, v.which, v.data));
-  }
+  std::vector<VariableName> list;
+  for (int i = 0; i < variable.get_nvar(); i++)
+    if (variable.get_style(i))    // else deleted
+      list.push_back({OpenStructs<V>::of(variable)[i].name, variable.get_style(i)});
   return list;
 }
 
@@ -93,7 +79,7 @@ auto list_of(const V &variable) -> decltype(variable.get_style(0), std::vector<V
 
 /* ---------------------------------------------------------------------- */
 
-std::vector<VariableText> HVI::variable_list(LAMMPS_NS::LAMMPS *lmp)
+std::vector<VariableName> HVI::variable_list(LAMMPS_NS::LAMMPS *lmp)
 {
   return list_of(*lmp->input->variable);
 }

@@ -37,13 +37,11 @@ auto minimum_image(D *domain, double &dx, double &dy, double &dz)
 
 // all variables of an input, in LAMMPS's order
 
-struct VariableText {
+struct VariableName {
   std::string name, style;
-  std::vector<std::string>
-      values;    // index: those not yet used up; string, equal: the text; else none
 };
 
-std::vector<VariableText> variable_list(LAMMPS_NS::LAMMPS *);
+std::vector<VariableName> variable_list(LAMMPS_NS::LAMMPS *);
 
 }    // namespace HVI
 

@@ -4,6 +4,7 @@ import re
 import shlex
 import sys
 
+import numpy as np
 import pytest
 from hvi import cli
 
@@ -55,15 +56,23 @@ def inputs(path, start, end):
     return [re.sub(r"^   ", "", text, flags=re.M) for text in found]
 
 
-@pytest.mark.parametrize("file, start, end", [
-    ("README.md", r"```\n(?=# a ball)", r"```"),
-    ("doc/src/Howto_dem.rst", r"(?=   # a ball)", r"\n(?=\S)"),
-])
-def test_input_runs(lmp, root, file, start, end):
-    (text,) = inputs(root / file, start, end)
+def test_dem_input_runs(lmp, root):
+    (text,) = inputs(root / "doc/src/Howto_dem.rst", r"(?=   # a ball)", r"\n(?=\S)")
     thermo = lmp(text).thermo
     assert thermo["Bonds"][-1] < 0.9 * thermo["Bonds"][0]  # it breaks
     assert abs(thermo["c_book[9]"] - 1).max() < 1e-4  # and the books are kept
+
+
+def test_readme_input_runs(lmp, root):
+    """until the sphere is through wall 1: its energy is on its way to wall 2, less what wall 1 has taken up"""
+    (text,) = inputs(root / "README.md", r"```\n(?=units)", r"```")
+    assert text.count("run             800") == 1
+    r = lmp(text.replace("run             800", "thermo 20\nrun 160"), env={"LAMMPS_POTENTIALS": str(root / "potentials")})
+    t = r.thermo
+    assert r.warnings == [] and t["Time"][-1] > 2e-6
+    energy = 0.5 * 2790 * np.pi / 3 * 2e-3**3 * 6500**2  # of a quarter of the sphere
+    assert t["c_walls[2][2]"][0] == pytest.approx(energy, rel=0.05) and 0.6 * energy < t["c_walls[2][2]"][-1] < energy
+    assert abs(t["c_book[9]"][-1] - 1) < 1e-6 and (t["c_walls[2][36]"] == 0).all()
 
 
 def test_sph_input_runs(lmp, root):
@@ -95,5 +104,5 @@ def test_version_is_the_same_everywhere(root):
     assert f"\nversion: {version}\n" in (root / "CITATION.cff").read_text()
     assert f"## [{version}]" in (root / "CHANGELOG.md").read_text()
     assert f"(version {version})" in (root / "README.md").read_text()
-    written = [(p.name, v) for p in root.glob("examples/*/in.*") for v in re.findall(r"^package_version: (\S+?)\"*(?: |$)", p.read_text(), re.M)]
+    written = [(p.name, v) for p in root.glob("examples/*/in.*") for v in re.findall(r"\bpackage_version: ([\d.]+)", p.read_text())]
     assert len(written) >= 5 and {v for _, v in written} == {version}, written
