@@ -152,6 +152,7 @@ class Shield:
         if not new:
             text("variable", "from index shield.restart", "to go on from")
         text("variable", f"to index shield.restart{'' if new else '.next'}", "written at the end")
+        text("hvi/variables", f"known until{'' if new else ' from'} to", "any other -var is an error")
         text.lines.append("")
 
     def begin(self, text):

@@ -165,6 +165,12 @@ def test_cases_of_the_example(root):
     assert cases.read(root / "examples/whipple-shield/studies/convergence.yaml").spacings_mm == (0.4, 0.267, 0.2)
 
 
+def test_input_of_the_example(root):
+    """examples/whipple-shield/in.shield is what hvi shield writes for quick.yaml at 0.5 mm"""
+    case = cases.read(root / "examples/whipple-shield/cases/quick.yaml")
+    assert (root / "examples/whipple-shield/in.shield").read_text() == shield_chain.shield_of(case, 1, 0.0).text()
+
+
 # ---------------------------------------------------------------------- shield
 @pytest.mark.parametrize("D, verdict, status", [(4.1, "holds", 0), (4.3, "undecided", 4), (4.43, "undecided", 4), (4.6, "fails", 3)])
 def test_verdict_of_all_runs(folder, capsys, D, verdict, status):
