@@ -15,9 +15,9 @@ def text(quarter=True, body=None, wall=None, angle=False, end_on=False):
     end_on: a cylinder as long as its diameter"""
     found = (FOLDER / "in.plate").read_text()
     if not quarter:
-        edge = "0 $(1e-3*v_Rplate+v_a)"
+        edge = "0 $(1e-3*v_Rplate+v_R)"
         assert found.count(edge) == 2
-        found = found.replace(edge, "$(-1e-3*v_Rplate-v_a) $(1e-3*v_Rplate+v_a)")
+        found = found.replace(edge, "$(-1e-3*v_Rplate-v_R) $(1e-3*v_Rplate+v_R)")
         found = replaced(found, " mirror x 0 lo mirror y 0 lo", "")
         found = replaced(found, "v_plane v_plane", "v_plane")
         found = replaced(found, "colname -2 mirror_x_lo colname -1 mirror_y_lo", "colname -1 mirror_none")

@@ -29,7 +29,9 @@ def read(frame):
 def main(folder):
     with open(os.path.join(folder, "result.yaml")) as f:
         result = yaml.safe_load(f)
-    found = [hvi.Dump(path)[-1] for path in sorted(glob.glob(os.path.join(folder, "frame.*.dump")))[1:]]  # not the start
+    paths = sorted(glob.glob(os.path.join(folder, "frame.*.dump")))
+    paths = [path for path in paths[1:] if os.path.getmtime(path) >= os.path.getmtime(paths[0])]  # not the start, nor what another run has left here
+    found = [hvi.Dump(path)[-1] for path in paths]
     if not found:
         sys.exit(f"no frame.*.dump in {folder}: run in.plate there first")
     quarter = len(found[-1].planes) == 2

@@ -44,8 +44,15 @@ def text(result):
 
 
 def main(args):
+    problems = []
     for folder in args.folders:
-        result = measure(folder)
+        try:
+            result = measure(folder)
+        except HVIError as problem:
+            problems.append(str(problem))
+            continue
         if len(args.folders) > 1:
             print(f"# {folder}")
         print(text(result), end="")
+    if problems:
+        raise HVIError("; ".join(problems))

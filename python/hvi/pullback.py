@@ -18,12 +18,13 @@ from .errors import HVIError
 
 FALLEN, RISEN = 0.02, 0.1  # pull-back: u has fallen by this part of its top, and risen again by this part of the fall
 FROM, TO = 0.1, 0.5  # the part of the fall whose slope is the strain rate: voids bend the rest
+NOISE = 1e-4  # of the speed of the flyer: what falls by less is no signal
 ENOUGH = 32  # particles through the flyer: with fewer the kernel blunts the pull-back
 
 SURFACE = ("t", "u", "tension", "push", "failed")  # us, m/s, Pa, Pa, number
 FAILED = ("t", "failed", "depth")  # us, number, sum in mm
 PROFILE = ("id", "type", "x0", "x", "u", "p", "sxx", "vm", "eps", "damage", "spalled", "voids", "void_damage")  # SI units
-NEEDED = ("flyer_mm", "target_mm", "n", "target_density_kg_m3", "target_sound_speed_m_s", "record_us")  # of result.yaml
+NEEDED = ("v0_m_s", "flyer_mm", "target_mm", "n", "target_density_kg_m3", "target_sound_speed_m_s", "record_us")  # of result.yaml
 
 
 @dataclasses.dataclass
@@ -107,13 +108,13 @@ def measured(folder, result):
     wrong = [key for key in NEEDED if not isinstance(result.get(key), (int, float))]
     if wrong:
         raise HVIError(f"{folder / 'result.yaml'}: no number {', '.join(wrong)}, which in.spall writes")
-    hf, ht, n, rho, c, until = (result[key] for key in NEEDED)
+    _, hf, ht, n, rho, c, until = (result[key] for key in NEEDED)
     surface = record(folder / "surface.dat", SURFACE, until)
     failing = record(folder / "failed.dat", FAILED, until)
     profile = columns(folder / "profile.dat", PROFILE)
     t, u = surface["t"], surface["u"]
     found = find(t, u, 0.5e3 * hf / c)  # half of the time that a wave takes through the flyer
-    seen = found is not None and found.seen
+    seen = found is not None and found.seen and found.fall > NOISE * abs(result["v0_m_s"])
     du = found.fall if seen else math.nan
     first = int(np.argmax(failing["failed"] > 0))
     count = failing["failed"][first]

@@ -257,12 +257,12 @@ class Report:
             scene = run.scene(f"cloud{k - 1}.dump")
             if scene is None:
                 continue
-            try:
-                figure, summary = pictures.witness(run, scene, k)
-            except HVIError:  # a coarse film
+            z, v = scene.whole["z"], scene.whole["vz"]
+            if not ((z > 1e-3 * run.faces(k - 1)[1]) & (z < 1e-3 * run.faces(k)[0]) & (v > 0)).any():  # a coarse film
                 struck.append(tag("p", f"Wall {k}: no picture. The last frame before it is struck is of {scene.time:.1f} us, when nothing was behind wall {k - 1}; "
                                        "take more frames, settings: {film: us between them}.", class_="note"))
             else:
+                figure, summary = pictures.witness(run, scene, k)
                 struck.append(picture(figure, f"Momentum and energy per area on the plane of wall {k}", join([tag("b", f"Plane of wall {k}."), f" What is on its way at {scene.time:.1f} us, flying on "
                               f"freely: {1e6 * summary['mass']:.4g} mg, {summary['momentum']:.4g} kg m/s, {summary['kinetic_energy']:.4g} J, half of the energy within "
                               f"{1e3 * summary['radius_of_half_the_energy']:.3g} mm of the axis."]), class_="mid"))

@@ -39,6 +39,12 @@ def read_yaml(path):
     return data if isinstance(data, dict) else None
 
 
+def frames(folder, pattern):
+    """Dumps of one run, in order of their steps: those of a run before that are left in its folder are older than its first one"""
+    found = sorted(pathlib.Path(folder).glob(pattern), key=lambda path: int(re.sub(r"\D", "", path.name) or 0))
+    return [path for path in found if path.stat().st_mtime_ns >= found[0].stat().st_mtime_ns]
+
+
 def potentials():
     """folders in which LAMMPS finds material files; those of the source tree if the environment names none"""
     return [pathlib.Path(p) for p in os.environ.get("LAMMPS_POTENTIALS", str(ROOT / "potentials")).split(os.pathsep)]
@@ -148,7 +154,7 @@ class Job:
         return sorted(found, key=lambda path: path.stat().st_mtime)
 
     def _saved(self):
-        """files with particles and their times; a state file beside them is written when a run goes on, too"""
+        """files with particles and their times"""
         return sorted((path, path.stat().st_mtime_ns) for path in [*self.folder.glob("*.restart*")] or self.restart_files())
 
     def words(self):
@@ -226,10 +232,12 @@ class Job:
             self.problem = said_of(status)
         elif self.result() is None:
             self.problem = f"no complete {self.product}"
+        if not self.problem:
+            self.problem = self.finish()
         if self.problem and shutil.disk_usage(self.folder).free < FULL:
             self.advice = "the disk is full"
         if self.problem and self.resumed and status is not None and self._saved() == self.saved:
-            for path in self.restart_files():  # it came no farther: what it went on from may be what is wrong, the next try begins anew
+            for path in self.restart_files()[-1:]:  # it came no farther: what it went on from may be what is wrong, the next try takes the one before, or begins anew
                 path.unlink()
         for pattern in [] if self.problem else self.remove:
             for path in self.folder.glob(pattern):
@@ -237,6 +245,10 @@ class Job:
         self.process = None
         self.leave()
         return True
+
+    def finish(self):
+        """what is done with a run that has ended well; what went wrong, "" if nothing"""
+        return ""
 
     def ask_to_end(self):
         """once: a second signal would make mpirun leave without its ranks"""
@@ -258,19 +270,8 @@ class Job:
         self.leave()
 
     def stage(self):
-        """(part of the run that is done, words on it) from the last line of its thermo output, if that has stage and togo"""
-        try:
-            with open(self.folder / "output.txt", "rb") as out:
-                out.seek(max(0, os.path.getsize(self.folder / "output.txt") - 20000))
-                lines = [line.split() for line in out.read().decode(errors="replace").splitlines()]
-            head = next(line for line in reversed(lines) if "v_togo" in line and "v_stage" in line)
-            togo, stage = head.index("v_togo"), head.index("v_stage")
-            row = next(line for line in reversed(lines) if len(line) == len(head) and line[0].isdigit() and float(line[togo]) > 0)  # 0: a run begins
-            togo, stage = float(row[togo]), float(row[stage])
-        except (OSError, StopIteration, ValueError):
-            return 0.0, ""
-        spent = time.monotonic() - self.start
-        return spent / (spent + togo), f" stage {stage:g}, {duration(togo)} to go"
+        """(part of the run that is done, words on it); here nothing is known of it"""
+        return 0.0, ""
 
     def last_lines(self, n=8):
         """the end of what LAMMPS and mpirun said, from the first error on if there is one"""

@@ -5,6 +5,7 @@ A restart file that was written is always read, by the next call of the chain: s
 that was not. Where it stands is in chain.yaml, which names the last whole restart file; two files are written in turn.
 """
 
+import contextlib
 import hashlib
 import math
 import os
@@ -96,7 +97,8 @@ class Job(runs.Job):
         if taken and self.begun() and self.result() is None and not lost:
             log = self.folder / f"log.{self.chain()['leg'] + 1}.lammps"
             if log.is_file() and "Total wall time" in log.read_text(errors="replace")[-200:]:
-                self.advance()
+                with contextlib.suppress(HVIError):  # what it has written is not there: it begins anew
+                    self.advance()
         return taken
 
     def ended(self, command, timeout):
@@ -182,7 +184,7 @@ def write_result(shield, folder):
 def clouds(found, folder):
     """the last frame before the next wall is struck has the name cloudK.dump, too"""
     steps, history = shield_result.rows_of(folder / "history.dat")
-    frames = sorted((float(np.interp(int(path.name.split(".")[1]), steps, history[:, 0])), path) for path in folder.glob("film.*.dump"))
+    frames = sorted((float(np.interp(int(path.name.split(".")[1]), steps, history[:, 0])), path) for path in runs.frames(folder, "film.*.dump"))
     for k in range(1, found["walls_reached"]):
         before = [path for us, path in frames if us <= found[f"wall{k}_until_us"] + 1e-6]
         if before:

@@ -188,7 +188,7 @@ class Shield:
         text("pair_style", f"hvi/sph {s['kernel']} {s['pair']}{mirrors}")
         rows = [(1, f"{self.file_of(self.case.material)} {self.lengths(g.a, g.a)}")]
         rows += [(1 + k, f"{self.file_of(of.material)} {self.lengths(wall.spacing, wall.dz)}") for k, (wall, of) in enumerate(zip(g.walls, self.case.walls), 1)]
-        for (kinds, what), comment in itertools.zip_longest(alike(rows), ["smoothing length, masses, densities, skin follow from spacings"]):
+        for (kinds, what), comment in itertools.zip_longest(alike(rows), ["smoothing length, masses, densities follow from spacings"]):
             text("pair_coeff", f"{types(kinds)} {types(kinds)} file {what}", comment or "")
         if self.elements:
             text("pair_coeff", f"{n + 2}*{2 * n + 1} {n + 2}*{2 * n + 1} nodes")
@@ -257,7 +257,8 @@ class Shield:
                 text("group", f"matter type 1:{1 + self.n}")
         text("fix", f"step all hvi/dt {s['C']}", "time step; f_step[2] is the time")
         if s["skin"]:
-            text("neighbor", f"{number(float(s['skin']) * g.widest)} bin")
+            skin = float(s["skin"]) * g.widest
+            text("neighbor", f"{number(1.000001e-3 if abs(skin - 1e-3) < 1e-9 else skin)} bin", "1 mm itself is LAMMPS's default" if abs(skin - 1e-3) < 1e-9 else "")
         text("compute", "cost all hvi/atom cost", "matter at rest costs little")
         text("variable", "cost atom c_cost")
         text("fix", "share all balance 50 1.05 shift xy 20 1.02 weight var cost")
@@ -328,7 +329,7 @@ class Shield:
         power = "+".join(f"c_walls[{k}][6]" for k in range(1, n + 1))
         text("variable", f'quiet equal "v_us > {number(g.arrival_us + g.passage_us + g.crossing_us)} && c_walls[{n}][2] < {number(OVER["share"])}*c_walls[{n}][5]+{number(OVER["coming"] * limit)} && '
              f'1e-6*abs(c_walls[{n}][3]) < {number(OVER["push"])}*abs(c_walls[{n}][4])+1e-12 && 1e-6*({power}) < {number(OVER["plastic"] * limit)}"',
-             "nothing comes, pushes or flows: see Howto_shield")
+             "nothing comes, pushes or flows: Howto_front, When it ends")
         failed = f"(f_pieces[{n}][30] > 0 || f_pieces[{n}][36] > 0)"  # mass apart behind the last wall, a hole in it
         text("variable", f'over equal "v_us >= v_until || {failed} && v_us >= {number(g.tstop_us)} || !{failed} && v_quiet"')
         text("fix", f"over all halt {self.seldom} v_over > 0 error continue message no")

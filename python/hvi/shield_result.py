@@ -13,6 +13,7 @@ import types
 
 import numpy as np
 
+from . import shield_input
 from .errors import HVIError
 from .version import version
 
@@ -93,7 +94,7 @@ class Record:
 def loops(folder):
     """[(seconds, ranks, particles), ...] of the runs in the logs of a folder, and LAMMPS's version as a number, 20250204"""
     found, said = [], ""
-    for path in sorted(pathlib.Path(folder).glob("log*.lammps")):
+    for path in sorted(pathlib.Path(folder).glob("log*.lammps"), key=lambda path: int(re.sub(r"\D", "", path.name) or 0)):
         text = path.read_text(errors="replace")
         found += [(float(s), int(p), int(n)) for s, p, n in re.findall(r"^Loop time of (\S+) on (\d+) procs for [1-9]\d* steps with (\d+) atoms", text, re.M)]
         said = next(iter(re.findall(r"^LAMMPS \((\d+ \w+ \d+)", text, re.M)), said)
@@ -154,7 +155,7 @@ def measure(shield, folder):
         "elements": int(elements or 0), "elements_left": int(record.fem(0) or 0), "elements_failed_without_particles": int(record.fem(9) or 0),
         "conversion_heat_ratio": q * (record.fem(7) or 0.0) / E0, "hourglass_energy_ratio": q * (record.fem(8) or 0.0) / E0,
         "particles": (matter(folder, atoms) if elements else atoms) + left, "particles_left_the_box": left, "steps": step, "time_us": record.time_us,
-        "ended_by": "time" if record.time_us >= shield.latest_us else "event",
+        "ended_by": "time" if record.time_us >= shield.latest_us else "event" if over(shield, record) else "until",
         "energy_ratio": record.book(9), "energy_missed_ratio": record.book(30) * record.book(9) / record.book(8), "energy_start_J": q * record.book(8) / record.book(9),
         "momentum_error": error / start, "momentum_left_ratio": q * record.book(15) / p0, "mass_error": (record.book(19) + record.book(20)) / record.book(27) - 1,
         "areal_density_kg_m2": round(sum(wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])), 3), "wall_s": round(seconds, 2), "ranks": ranks, "core_s": round(core, 1), "particle_steps_per_s": round(step * (atoms + left) / max(seconds, 1e-9)),
@@ -169,6 +170,16 @@ def matter(folder, atoms):
             return next(int(following) for line, following in zip(lines, lines) if line.startswith("ITEM: NUMBER OF ATOMS"))
     except (OSError, StopIteration, ValueError):
         return atoms
+
+
+def over(shield, record):
+    """is the event over, as v_over of the written input has it? Else the run was given an end of its own"""
+    g, k, last = shield.geometry, shield.n - 1, record.pieces
+    if last.apart_mass[-1, k] > 0 or last.hole_found[-1, k] > 0:
+        return record.time_us >= g.tstop_us * (1 - 1e-6)
+    w, limit, rule = record.walls, shield.energy / shield.images, shield_input.OVER
+    return bool(record.time_us > g.arrival_us + g.passage_us + g.crossing_us and w.coming_energy[-1, k] < rule["share"] * w.energy[-1, k] + rule["coming"] * limit
+                and 1e-6 * abs(w.push[-1, k]) < rule["push"] * abs(w.momentum[-1, k]) + 1e-12 and 1e-6 * w.plastic_power[-1].sum() < rule["plastic"] * limit)
 
 
 def push(record, k, tstop_us):

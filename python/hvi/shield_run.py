@@ -4,7 +4,6 @@
 import dataclasses
 import functools
 import pathlib
-import re
 import warnings
 
 import numpy as np
@@ -93,7 +92,7 @@ class Run:
 
     def dumps(self):
         """paths of all frames, in order of time"""
-        found = sorted(self.folder.glob("film.*.dump"), key=lambda path: int(re.sub(r"\D", "", path.name) or 0))
+        found = runs.frames(self.folder, "film.*.dump")
         return [path for path in (*found, *(self.folder / f"cloud{k}.dump" for k in range(1, self.reached)), self.folder / "shield.dump") if path.is_file()]
 
     def frames(self):

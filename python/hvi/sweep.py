@@ -13,6 +13,18 @@ KEYS = {"input", "variables", "grid", "ranks", "timeout", "restart", "continue",
 SHOWN = ("verdict", "perforated", "particles", "steps", "time_us", "core_s")
 
 
+class Job(runs.Job):
+    """A run of a study; what it has recorded is measured when it ends"""
+
+    def finish(self):
+        try:
+            if measures.functions_of(self.folder):
+                measures.measure(self.folder)
+        except HVIError as problem:
+            return str(problem)
+        return ""
+
+
 class Study:
     """A study file: the input, and the variables of each job."""
 
@@ -80,7 +92,7 @@ class Study:
         return found
 
     def jobs(self, folder):
-        return [runs.Job(self.input, name, {**self.fixed, **case}, folder / self.name / name, self.restart, self.remove, goes_on=self.goes_on)
+        return [Job(self.input, name, {**self.fixed, **case}, folder / self.name / name, self.restart, self.remove, goes_on=self.goes_on)
                 for case, name in ((case, runs.job_name(case)) for case in self.cases)]
 
 
@@ -97,16 +109,8 @@ def one(path, args):
             print(" ".join(runner.command(job)))
         return True
     table = folder / f"{study.name}.csv"
-
-    def measured():
-        """the jobs; what those that are done have recorded is in their results"""
-        for job in jobs:
-            if job.result() and measures.functions_of(job.folder):
-                measures.measure(job.folder)
-        return jobs
-
     try:
-        with runs.table_of(measured, table):
+        with runs.table_of(lambda: jobs, table):
             failed = runner.run(todo, study.name)
             print(runs.overview(jobs, SHOWN))
     finally:

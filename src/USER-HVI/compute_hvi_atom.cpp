@@ -101,7 +101,8 @@ double ComputeHVIAtom::value_of(Value value, int i) const
 {
   if (value == BONDS) return nbonds[i];
   if (value == ASLEEP) return store->fields.asleep(i) ? 1.0 : 0.0;
-  if (value == COST) return store->fields.asleep(i) ? COST_AT_REST : 1.0;
+  if (value == COST)
+    return store->fields.asleep(i) || store->fields.is_idle(i) ? COST_AT_REST : 1.0;
 
   const int itype = atom->type[i];
   const HVI::Material *const material = store->materials.of(itype);

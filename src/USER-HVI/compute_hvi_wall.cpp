@@ -243,10 +243,22 @@ void ComputeHVIWall::set_arrays(int i)
 
 /* ---------------------------------------------------------------------- */
 
-void ComputeHVIWall::init()
+// anew each time: the compute that has made the fix may be gone, or given again
+
+void ComputeHVIWall::find_first()
 {
   first = dynamic_cast<FixStoreAtom *>(modify->get_fix_by_id(id_fix));
-  if (!first) error->all(FLERR, "Compute hvi/wall: the fix {} that it made is gone", id_fix);
+  if (first) return;
+  if (owns_fix) error->all(FLERR, "Compute hvi/wall: the fix {} that it made is gone", id_fix);
+  error->all(FLERR, "Compute hvi/wall like: the compute with fix {} is gone: uncompute {}, too",
+             id_fix, id);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIWall::init()
+{
+  find_first();
   store = force->pair_match("^hvi/sph$", 0) ? FixHVIStore::find(lmp) : nullptr;
   if (!store) error->all(FLERR, "Compute hvi/wall needs pair style hvi/sph");
 
@@ -312,6 +324,7 @@ void ComputeHVIWall::compute_array()
   invoked_array = update->ntimestep;
   store = force->pair_match("^hvi/sph$", 0) ? FixHVIStore::find(lmp) : nullptr;
   if (!store) error->all(FLERR, "Compute hvi/wall needs pair style hvi/sph");
+  find_first();
   strength = FixHVIJohnsonCook::find(lmp);
 
   for (size_t k = 0; k < walls.size(); k++) std::fill(array[k], array[k] + NCOLUMNS, 0.0);
@@ -331,6 +344,7 @@ void ComputeHVIWall::sum_up()
   const double half = 0.5 * force->mvv2e;
   std::vector<double> sum(nwalls * NCOLUMNS, 0.0), most(nwalls * NCOLUMNS, 0.0);
   std::vector<int> wall_of(atom->ntypes + 1, -1);
+  moved.assign(nwalls, 0);
   for (int k = 0; k < nwalls; k++) {
     for (int t = walls[k].lo; t <= walls[k].hi; t++) wall_of[t] = k;
     most[k * NCOLUMNS + TIP] = -BIG;
@@ -346,6 +360,7 @@ void ComputeHVIWall::sum_up()
     if (mesh && mesh->is_node(itype)) {
       for (int k = 0; k < nwalls; k++)
         if (walls[k].has_node(itype)) {
+          if (energy > 0.0) moved[k] = 1;
           sum[k * NCOLUMNS + PUSH] += atom->f[i][axis];
           sum[k * NCOLUMNS + MOMENTUM] += m * v[axis];
           sum[k * NCOLUMNS + ENERGY] += energy;
@@ -381,6 +396,7 @@ void ComputeHVIWall::sum_up()
       }
 
       const double *const x0 = first->astore[i];
+      if (energy > 0.0 || atom->esph[i] != 0.0) moved[k] = 1;
       s[ENERGY] += atom->esph[i];
       if (!is_embedded(i)) {
         s[PUSH] += atom->f[i][axis];
@@ -404,6 +420,7 @@ void ComputeHVIWall::sum_up()
 
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), sum.size(), MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, most.data(), most.size(), MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, moved.data(), nwalls, MPI_INT, MPI_MAX, world);
   for (int k = 0; k < nwalls; k++)
     for (int c = 0; c < CLOUD_MASS; c++)
       array[k][c] =
@@ -414,7 +431,7 @@ void ComputeHVIWall::sum_up()
 
 /* ----------------------------------------------------------------------
    What hangs together in all matter: by sound material, and at all.  A wall that nothing has
-   reached is in one piece: energies of matter at rest are 0 to the last digit.
+   reached since it was looked at first is what it was then.
 ------------------------------------------------------------------------- */
 
 void ComputeHVIWall::find_pieces()
@@ -423,24 +440,23 @@ void ComputeHVIWall::find_pieces()
   std::vector<char> counts(atom->ntypes + 1, 1);
   for (size_t k = 0; k < walls.size(); k++) {
     Wall &w = walls[k];
-    w.untouched = array[k][ENERGY] == 0.0 && array[k][PASSED_MASS] == 0.0;
+    w.untouched = !w.start.empty() && !moved[k] && array[k][PASSED_MASS] == 0.0;
     for (int t = w.lo; t <= w.hi; t++) counts[t] = !w.untouched;
   }
   chosen.assign(nlocal, 0);
-  for (int i = 0; i < nlocal; i++)
-    chosen[i] = (atom->mask[i] & groupbit) && counts[atom->type[i]];
+  for (int i = 0; i < nlocal; i++) chosen[i] = (atom->mask[i] & groupbit) && counts[atom->type[i]];
   fragment->choose(&chosen, strength ? 1 : 0);
   fragment->find_chosen(sound);
   fragment->choose(&chosen, 0);
   fragment->find_chosen(together);
   for (size_t k = 0; k < walls.size(); k++)
-    if (walls[k].untouched) {
-      double mine = 0.0;
-      for (int i = 0; i < nlocal; i++)
-        if ((atom->mask[i] & groupbit) && walls[k].owns(atom->type[i])) mine += mass_of(i);
-      MPI_Allreduce(&mine, &array[k][BODY_MASS], 1, MPI_DOUBLE, MPI_SUM, world);
-    } else
+    if (walls[k].untouched)
+      std::copy(walls[k].start.begin(), walls[k].start.end(), array[k] + CLOUD_MASS);
+    else {
       measure(walls[k], array[k]);
+      if (!moved[k] && array[k][PASSED_MASS] == 0.0)
+        walls[k].start.assign(array[k] + CLOUD_MASS, array[k] + NCOLUMNS);
+    }
 }
 
 /* ----------------------------------------------------------------------

@@ -68,12 +68,12 @@ class ComputeHVIWall : public Compute {
     std::unique_ptr<ComputeHVICloud> cloud;
     std::unique_ptr<ComputeHVIHole> hole, plane;    // line of sight; in the plane of the wall
 
-    bool untouched = false;    // at rest as it was made, and nothing is behind it
+    std::vector<double> start;    // its columns from CLOUD_MASS on while nothing has moved it
+    bool untouched = false;       // so are they still
 
     bool owns(int itype) const { return itype >= lo && itype <= hi; }
     bool has_node(int itype) const { return itype >= node_lo && itype <= node_hi; }
   };
-  struct Body;    // what is left of a wall
 
   int axis, across[2];
   double reach;    // particles closer than this hang together; 0: columns without pieces only
@@ -85,7 +85,8 @@ class ComputeHVIWall : public Compute {
   class FixHVIStore *store;
   class FixHVIJohnsonCook *strength;
 
-  std::vector<char> chosen, missed;
+  std::vector<char> chosen;
+  std::vector<int> moved;                       // by wall: something of it moves, or has energy
   std::vector<int64_t> sound, together, own;    // lowest ID of the piece of a particle
 
   void read_wall(int &, int, char **);
@@ -93,6 +94,7 @@ class ComputeHVIWall : public Compute {
   double mass_of(int i) const;
   bool is_embedded(int i) const;
   bool is_missed(const Wall &, int i) const;
+  void find_first();
   void sum_up();
   void find_pieces();
   void measure(Wall &, double *row);

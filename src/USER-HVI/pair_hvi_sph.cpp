@@ -41,9 +41,9 @@ static constexpr double SKIN_OF_SPACING = 0.7;    // see choose_skin()
 /* ---------------------------------------------------------------------- */
 
 PairHVISPH::PairHVISPH(LAMMPS *lmp) :
-    Pair(lmp), visc_a(nullptr), visc_b(nullptr), tension(nullptr), ratio(nullptr), weight(nullptr),
-    store(nullptr), integrator(nullptr), lists(nullptr), mesh(nullptr), strength(nullptr),
-    placed(false), fastest(0.0), narrowest(HVI::NO_BOUND), halo()
+    Pair(lmp), own_skin(0.0), visc_a(nullptr), visc_b(nullptr), tension(nullptr), ratio(nullptr),
+    weight(nullptr), store(nullptr), integrator(nullptr), lists(nullptr), mesh(nullptr),
+    strength(nullptr), placed(false), fastest(0.0), narrowest(HVI::NO_BOUND), halo()
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
@@ -232,13 +232,14 @@ void PairHVISPH::choose_skin()
   static const std::map<std::string, double> DEFAULTS = {
       {"lj", 0.3}, {"si", 0.001}, {"cgs", 0.1}, {"micro", 0.1}, {"nano", 0.1}};
   const auto units = DEFAULTS.find(update->unit_style);
-  if (units == DEFAULTS.end() || neighbor->skin != units->second || force->pair != this) return;
+  if (units == DEFAULTS.end() || force->pair != this) return;
+  if (neighbor->skin != units->second && neighbor->skin != own_skin) return;
   double widest = 0.0;
   for (int i = 1; i <= atom->ntypes; i++) {
     if (is_ours[i] && spacings[i] == 0.0) return;
     if (is_ours[i]) widest = MAX(widest, spacings[i]);
   }
-  if (widest > 0.0) neighbor->skin = SKIN_OF_SPACING * widest;
+  if (widest > 0.0) neighbor->skin = own_skin = SKIN_OF_SPACING * widest;
 }
 
 /* ----------------------------------------------------------------------

@@ -24,6 +24,7 @@ PairStyle(hvi/sph,PairHVISPH);
 #include "hvi_timestep.h"
 #include "pair.h"
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -66,6 +67,7 @@ class PairHVISPH :
   std::vector<std::string> specs;          // by type: what made materials, for restart files
   std::vector<double> spacings;            // by type: of its particles at rest; 0: not given
   std::vector<double> own_mass;            // by type: that pair_coeff has set; 0: none
+  double own_skin;                         // that choose_skin() has set; 0: none
   double **visc_a, **visc_b, **tension;    // by types, rows have ntypes+1 entries
   double **ratio, **weight;                // the same, of a run: see find_weights()
 
@@ -89,7 +91,7 @@ class PairHVISPH :
   // of a density and an energy per mass: pressure, dp/drho at constant entropy, cube root of rho/rho0
 
   struct EosState {
-    double rho = -1.0, e = 0.0, p = 0.0, csq = 0.0, width = 1.0;
+    double rho = NAN, e = 0.0, p = 0.0, csq = 0.0, width = 1.0;
   };
   std::vector<EosState> eos_states;    // by type: of the last particle that was asked for
 

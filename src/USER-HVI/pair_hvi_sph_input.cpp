@@ -29,6 +29,7 @@
 using namespace LAMMPS_NS;
 
 static constexpr char OWNER[] = "pair style hvi/sph";    // of materials
+static constexpr double FAR_MASS = 1.5;        // times that of the spacing: another material's
 static constexpr double H_OF_SPACING = 1.2;    // smoothing length in spacings: see Howto_choose
 
 /* ---------------------------------------------------------------------- */
@@ -55,7 +56,7 @@ void PairHVISPH::allocate()
     }
   specs.assign(np1, "");
   spacings.assign(np1, 0.0);
-  own_mass.assign(np1, 0.0);
+  own_mass.resize(np1, 0.0);    // masses stay when the style is given again
   set.h.assign(np1, 0.0);
   store = FixHVIStore::instance(lmp);
   store->materials.forget(OWNER);    // of an earlier pair style of this name
@@ -415,10 +416,21 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
     set.h[i] = h;
     spacings[i] = spacing;
     const bool other = atom->mass && atom->mass_setflag[i] && atom->mass[i] != own_mass[i];
-    if (!restored && atom->mass && volume > 0.0 && !(keeps_mass && other)) {
-      own_mass[i] = made->eos->rho0() * volume;
-      atom->set_mass(FLERR, i, own_mass[i]);
+    if (restored || !atom->mass || volume == 0.0) {
+      count++;
+      continue;
     }
+    const double mass = made->eos->rho0() * volume;
+    if (!keeps_mass || !other) {
+      own_mass[i] = mass;
+      atom->set_mass(FLERR, i, mass);
+    } else if (comm->me == 0 &&
+               !(atom->mass[i] < FAR_MASS * mass && mass < FAR_MASS * atom->mass[i]))
+      error->warning(
+          FLERR,
+          "Pair_coeff hvi/sph: type {} keeps its mass {:.6g}, that of {} at a spacing of "
+          "{:.6g} is {:.6g}: if it is of another material, give it again by mass",
+          i, atom->mass[i], made->name, spacing, mass);
     count++;
   }
   if (count == 0)

@@ -68,3 +68,21 @@ def test_every_example_knows_its_variables(lmp, root):
         r = lmp(path, vars={name + "x": 1}, expect_fail=True)
         assert f"Unknown variable {name}x" in r.error, (path, r.error)
         assert "Created" not in r.stdout, path
+
+
+def test_examples_are_straight(root):
+    """from top to bottom: no label, jump, condition or loop, in what they include neither; nothing for the shell"""
+    files = [path for folder in root.glob("examples/*") for pattern in ("in.*", "legs.*", "*.shock", "*.collapse") for path in folder.glob(pattern)]
+    assert len(files) > 15
+    words = r"^\s*(label|jump|next|if|shell|python|clear|quit)\b|\bvariable\s+\w+\s+loop\b"
+    assert {path.name: found for path in files if (found := re.findall(words, path.read_text(), re.M))} == {}
+
+
+@pytest.mark.parametrize("script, values, message", [
+    ("standard-shocks/in.sod", {"n": 100}, "n_fills_both_halves: Divide by 0"), ("layered-shock/in.layers", {"n": 128}, "n_is_a_multiple_of_10: Divide by 0"),
+    ("standard-shocks/in.flyer", {"file_t": "Al1100-O.hvi"}, "Hugoniots_are_of_the_files: Divide by 0"),
+    ("standard-shocks/in.flyer", {"file_t": "Cu-OFHC.hvi"}, "Hugoniots_are_of_the_files: Divide by 0")])
+def test_values_that_do_not_fit(lmp, root, tmp_path, script, values, message):
+    """of which LAMMPS alone would make wrong numbers: the name of a variable says what must hold"""
+    r = lmp(root / "examples" / script, vars=values, expect_fail=True, env={"LAMMPS_POTENTIALS": str(root / "potentials")})
+    assert message in r.error and "Loop time" not in r.stdout and not (tmp_path / "result.yaml").exists()

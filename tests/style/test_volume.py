@@ -92,6 +92,28 @@ def test_spacing_leaves_other_masses(lmp, root, tmp_path):
     assert state(tmp_path / "copper")[:, 1] == pytest.approx(8930e-9, rel=1e-3)
 
 
+def test_mass_of_another_material(lmp, root, tmp_path):
+    """when the pair style is given again it is replaced; after a restart file it stays, with a warning that names it"""
+    again = "pair_style hvi/sph cubic\npair_coeff 1 1 file Cu-OFHC.hvi spacing 1e-3"
+    r = run(lmp, root, FILE + "spacing 1e-3\n" + again, OUT.format("out"))
+    assert state(tmp_path / "out")[:, 1] == pytest.approx(8930e-9, rel=1e-3) and not [w for w in r.warnings if "keeps its mass" in w]
+    run(lmp, root, FILE + "spacing 1e-3", "restart 1 r.*")
+    r = lmp(f"read_restart r.1\n{again}\nfix move all hvi/sph\nneigh_modify every 1 delay 0 check yes\nrun 0\n", env={"LAMMPS_POTENTIALS": str(root / "potentials")})
+    assert [w for w in r.warnings if "type 1 keeps its mass 2.703e-06, that of Cu-OFHC.hvi at a spacing of 0.001 is 8.9" in w]
+
+
+def test_skin_follows_spacings(lmp, root):
+    """of the last pair_coeff, run after run"""
+    r = run(lmp, root, FILE + "spacing 0.9e-3", "run 1\ninfo comm\n" + FILE + "spacing 0.8e-3 h 1.08e-3\nrun 0\ninfo comm")
+    found = [float(c) for c in re.findall(r"^Communication cutoff = (\S+)", r.log + r.stdout, re.M)][:2]
+    assert found == pytest.approx([2.16e-3 + 0.63e-3, 2.16e-3 + 0.56e-3], rel=1e-6)
+
+
+def test_density_without_an_answer(lmp, root):
+    """-1, too, which no particle was asked for before"""
+    assert "no answer at density -1 " in run(lmp, root, FILE + "spacing 1e-3", "set atom 1 sph/rho -1", expect_fail=True).log
+
+
 def test_skin_is_the_users(lmp, root):
     """one that is given; without a spacing; under hybrid, whose other styles have needs of their own"""
     text = FILE + "spacing 0.9e-3"

@@ -155,6 +155,15 @@ def test_walls_of_another(walls, nranks):
     assert begun[0]["failed_depth"] > 0
 
 
+def test_a_wall_that_was_drilled(walls):
+    """nothing has reached wall 2, but its hole was there"""
+    drilled = scene(steps=20).replace("change_box all", "region drill cylinder z 0 0 1.8e-3 5e-3 8e-3 units box\ndelete_atoms region drill\nchange_box all")
+    one = walls(drilled + PRINT)
+    assert one[1]["hole_found"] == 1 and one[1]["hole_diameter"] == pytest.approx(3.8e-3, rel=0.1) and one[1]["energy"] == 0
+    later = walls(drilled.replace("run 20 post no", "fix r all ave/time 5 1 5 c_w[*] mode vector\nrun 20 post no") + PRINT)  # looked at five times
+    equal(one, later, 1e-9)
+
+
 def test_hybrid(walls):
     """under pair_style hybrid/overlay the rows are the same"""
     text = scene().replace("pair_style hvi/sph cubic dissipation riemann", "pair_style hybrid/overlay zero 1e-4 hvi/sph cubic dissipation riemann")
@@ -185,7 +194,8 @@ WALLS = "compute w all hvi/wall axis z "
     (WALLS + "wall 2 0 1e-3 center 0", "compute hvi/wall center command: missing argument"),
     (WALLS + "wall 2 0 1e-3\ncompute v all hvi/wall like u pieces 1e-3", "there is no compute hvi/wall with the ID u"), ("compute w all hvi/wall like", "missing argument"),
     (WALLS + "wall 2 0 1e-3\ncompute v all hvi/wall like w wall 3 6e-3 1e-3", "like takes pieces and no other keyword, not wall"),
-    (WALLS + "wall 2 0 1e-3\ncompute v all hvi/wall like w\nuncompute w\nthermo_style custom step c_v[1][1]", "the fix w_COMPUTE_STORE that it made is gone"),
+    (WALLS + "wall 2 0 1e-3\ncompute v all hvi/wall like w\nuncompute w\nthermo_style custom step c_v[1][1]", "the compute with fix w_COMPUTE_STORE is gone: uncompute v, too"),
+    (WALLS + "wall 2 0 1e-3\ncompute v all hvi/wall like w\nrun 1\nuncompute w\nprint '$(c_v[1][1])'", "the compute with fix w_COMPUTE_STORE is gone: uncompute v, too"),
     ("group none empty\ncompute w none hvi/wall axis z wall 2 0 1e-3\nthermo_style custom step c_w[1][1]", "group none has no particles of type 2, wall 1")])
 def test_wrong_input(walls, command, message):
     text = scene(steps=0)

@@ -33,7 +33,7 @@ WHOLE = {"quarter": False}
 
 @pytest.mark.parametrize("nranks", [1, 2])
 def test_default(lmp, root, tmp_path, nranks):
-    """measured at 16 us: 24.7 mm, 6.3 km/s; the front and the books are there at 6 us already"""
+    """the front and the balance are there at 6 us; the hole is on its way"""
     r = plate(lmp, root, tmp_path, nranks=nranks, edits=WHOLE, tstop=6)
     assert [k for k in KEYS if k not in r] == []
     assert r["particles"] == 10600 and r["time_us"] == pytest.approx(6, abs=0.1)
@@ -66,6 +66,22 @@ def test_a_plate_of_any_thickness_is_whole(lmp, root, tmp_path, D, t):
     plate(lmp, root, tmp_path, dx=1, Rplate=15, tstop=0.02, D=D, t=t)
     layer = sum((i + 0.5) ** 2 + (j + 0.5) ** 2 < 15**2 for i in range(15) for j in range(15))
     assert np.sum(frames(tmp_path)[0]["type"] == 2) == t * layer
+
+
+@pytest.mark.parametrize("dx, t, layers", [(1, 1.6, 2), (1, 1.4, 1), (0.8, 0.3, 1), (0.8, 2.4, 3)])
+def test_plates_have_whole_layers(lmp, root, tmp_path, dx, t, layers):
+    """and the result says what was made of the thickness"""
+    r = plate(lmp, root, tmp_path, dx=dx, Rplate=8, tstop=0.02, t=t)
+    z = frames(tmp_path)[0]
+    z = z["z"][z["type"] == 2]
+    assert len(np.unique(np.round(z, 9))) == layers and z.max() == pytest.approx(1e-3 * dx * (layers - 0.5), rel=1e-6) and r["plate_mm"] == pytest.approx(dx * layers, rel=1e-6)
+
+
+def test_a_wide_projectile_is_whole(lmp, root, tmp_path):
+    """beside a plate that is narrower"""
+    plate(lmp, root, tmp_path, dx=1, Rplate=3, tstop=0.02)
+    wide, narrow = frames(tmp_path)[0], plate(lmp, root, tmp_path / "usual", dx=1, tstop=0.02) and frames(tmp_path / "usual")[0]
+    assert np.sum(wide["type"] == 1) == np.sum(narrow["type"] == 1)
 
 
 def test_frames(lmp, root, tmp_path):
