@@ -80,10 +80,10 @@ class Text:
         line = f"{command:<15} {arguments}"
         self.lines.append(f"{line:<80} # {comment}" if comment else line)
 
-    def lattice(self, arguments):
+    def lattice(self, arguments, comment=""):
         """one that is not that of before"""
         if arguments != self.last:
-            self("lattice", arguments)
+            self("lattice", arguments, comment)
         self.last = arguments
 
     def say(self, comment):
@@ -178,7 +178,7 @@ class Shield:
         if body:  # read_data shrinks the box to what is in it, so walls come before
             self.projectile(text)
         if g.quarter:
-            text("change_box", f"all x final {number(-g.a)} {number(box[1])} y final {number(-g.a)} {number(box[3])} units box")
+            text("change_box", f"all x final {number(-g.a)} {number(box[1])} y final {number(-g.a)} {number(box[3])} units box", "no face of the box on a mirror plane")
         text.say("what moves how")
         text("group", "ball type 1")
         if self.elements:
@@ -222,7 +222,7 @@ class Shield:
     def wall(self, text, k, wall):
         """layers of squares between its faces"""
         origin = wall.front / wall.dz
-        text.lattice(f"custom {number(wall.spacing)} a1 1 0 0 a2 0 1 0 a3 0 0 {number(wall.dz / wall.spacing)} basis 0.5 0.5 0.5 origin 0 0 {fraction(origin)}")
+        text.lattice(f"custom {number(wall.spacing)} a1 1 0 0 a2 0 1 0 a3 0 0 {number(wall.dz / wall.spacing)} basis 0.5 0.5 0.5 origin 0 0 {fraction(origin)}", "layers between faces")
         text("region", f"wall{k} cylinder z {number(wall.middle)} 0 {number(wall.radius)} {number(wall.front)} {number(wall.rear)} units box")
         text("create_atoms", f"{1 + k} region wall{k}")
 
@@ -331,7 +331,7 @@ class Shield:
              f'1e-6*abs(c_walls[{n}][3]) < {number(OVER["push"])}*abs(c_walls[{n}][4])+1e-12 && 1e-6*({power}) < {number(OVER["plastic"] * limit)}"',
              "nothing comes, pushes or flows: Howto_front, When it ends")
         failed = f"(f_pieces[{n}][30] > 0 || f_pieces[{n}][36] > 0)"  # mass apart behind the last wall, a hole in it
-        text("variable", f'over equal "v_us >= v_until || {failed} && v_us >= {number(g.tstop_us)} || !{failed} && v_quiet"')
+        text("variable", f'over equal "v_us >= v_until || {failed} && v_us >= {number(g.tstop_us)} || !{failed} && v_quiet"', "columns 30, 36: mass apart, hole")
         text("fix", f"over all halt {self.seldom} v_over > 0 error continue message no")
 
     @property
