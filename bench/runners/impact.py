@@ -144,8 +144,6 @@ def one(source, variables, folder, lmp, ranks, timeout, after=None):
         else:
             source.copy_to(folder)  # with what it includes
             r, result = executor(lmp, folder)(folder / source.name, nranks=ranks, vars=words, timeout=timeout), None
-    except HVIError as why:
-        raise Stopped(str(why)) from None
     except Stopped as why:  # an input that refuses something prints it before it quits
         lines = [line for path in folder.glob("log.*") for line in path.read_text().splitlines()]
         said = [line for line in lines if line.strip() and not line.startswith(("quit", "Total wall"))]

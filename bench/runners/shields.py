@@ -10,6 +10,7 @@ from hvi import case as cases
 from hvi import geometry, runs, shield_chain, shield_input, shield_mesh, shots
 from hvi.errors import HVIError
 
+from hard import Stopped
 from . import Cannot
 
 OF_A_CASE, OF_A_STUDY = ("dx", "shift", "method"), ("shot", "finer")  # variables beside the settings of a case
@@ -69,5 +70,8 @@ class Shields:
         shield = self.write(variables, folder)
         r = lmp(folder / shield_input.BEGIN, **how)
         (folder / "log.lammps").write_text(r.log)
-        shield_chain.write_result(shield, folder)
+        try:
+            shield_chain.write_result(shield, folder)
+        except HVIError as why:  # of what the run has left; a case that is wrong has been refused before
+            raise Stopped(str(why)) from None
         return r, runs.read_yaml(folder / "result.yaml")
