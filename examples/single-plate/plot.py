@@ -30,8 +30,9 @@ def main(folder):
     with open(os.path.join(folder, "result.yaml")) as f:
         result = yaml.safe_load(f)
     paths = sorted(glob.glob(os.path.join(folder, "frame.*.dump")))
-    paths = [path for path in paths[1:] if os.path.getmtime(path) >= os.path.getmtime(paths[0])]  # not the start, nor what another run has left here
     found = [hvi.Dump(path)[-1] for path in paths]
+    # not the start, nor what a run of other particles has left here: nothing leaves the box
+    found = [frame for frame in found[1:] if len(frame) == len(found[0]) and frame.step <= result["steps"]]
     if not found:
         sys.exit(f"no frame.*.dump in {folder}: run in.plate there first")
     quarter = len(found[-1].planes) == 2

@@ -40,9 +40,8 @@ def read_yaml(path):
 
 
 def frames(folder, pattern):
-    """Dumps of one run, in order of their steps: those of a run before that are left in its folder are older than its first one"""
-    found = sorted(pathlib.Path(folder).glob(pattern), key=lambda path: int(re.sub(r"\D", "", path.name) or 0))
-    return [path for path in found if path.stat().st_mtime_ns >= found[0].stat().st_mtime_ns]
+    """dumps in order of their steps"""
+    return sorted(pathlib.Path(folder).glob(pattern), key=lambda path: int(re.sub(r"\D", "", path.name) or 0))
 
 
 def potentials():

@@ -275,6 +275,7 @@ void ComputeHVIWall::init()
   if (!fragment) return;
   fragment->init();
   for (Wall &w : walls) {
+    w.start.clear();    // commands between runs may have changed it
     w.hole->init();
     w.plane->init();
   }

@@ -164,6 +164,13 @@ def test_a_wall_that_was_drilled(walls):
     equal(one, later, 1e-9)
 
 
+def test_a_wall_that_is_drilled_between_runs(walls):
+    """what was found of an untouched wall in one run does not count in the next"""
+    drill = "region drill cylinder z 0 0 1.8e-3 5e-3 8e-3 units box\ndelete_atoms region drill\n"
+    found = walls(scene(steps=20) + PRINT + drill + PRINT)
+    assert [row["hole_found"] for row in found[1::2]] == [0, 1] and found[3]["hole_diameter"] == pytest.approx(3.8e-3, rel=0.1)
+
+
 def test_hybrid(walls):
     """under pair_style hybrid/overlay the rows are the same"""
     text = scene().replace("pair_style hvi/sph cubic dissipation riemann", "pair_style hybrid/overlay zero 1e-4 hvi/sph cubic dissipation riemann")
