@@ -1,5 +1,5 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""Curves of a material file: Hugoniot, isentrope, temperature, yield stress, spall strength; the laws of src/USER-HVI in NumPy.
+"""Curves of a material file: Hugoniot, isentrope, temperature, yield stress, spall strength; the laws of lib/hvi/material in NumPy.
 
 All in SI, or in the units of a file in units lj. tests/python/test_material.py holds them to what LAMMPS computes.
 """

@@ -6,7 +6,7 @@
    See the LICENSE file in the top-level directory.
 ------------------------------------------------------------------------- */
 
-#include "hvi_material.h"
+#include "hvi_material_file.h"
 
 #include "comm.h"
 #include "error.h"

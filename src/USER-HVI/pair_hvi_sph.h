@@ -18,7 +18,7 @@ PairStyle(hvi/sph,PairHVISPH);
 #include "fix_hvi_store.h"
 #include "hvi_energy_carrier.h"
 #include "hvi_mesh.h"
-#include "hvi_mirror.h"
+#include "hvi_images.h"
 #include "hvi_sleep.h"
 #include "hvi_sph_sweep.h"
 #include "hvi_timestep.h"

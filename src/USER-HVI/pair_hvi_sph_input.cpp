@@ -20,6 +20,7 @@
 #include "error.h"
 #include "hvi_kernel.h"
 #include "math_special.h"
+#include "hvi_material_file.h"
 #include "memory.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-"""No circle of includes among the units of src/USER-HVI, so that each can be understood, and used, with only what is below it.
+"""No circle of includes among the units of lib/hvi and src/USER-HVI, so that each can be understood, and used, with only what is below it; and the
+rooms of lib/hvi include those before them only, without LAMMPS.
 
 A unit is a header with its .cpp files: those whose name is that of the header or begins with it and an underscore (the longest such
 header), else those that include it before any other header of the package. What a unit includes is what all its files include.
@@ -26,9 +27,9 @@ def unit(path, headers):
 
 def graph(folder):
     """{unit: {unit it includes: the files that do}}"""
-    headers = {p.stem for p in folder.glob("*.h")}
+    headers = {p.stem for p in folder.rglob("*.h")}
     edges = collections.defaultdict(lambda: collections.defaultdict(list))
-    for path in sorted([*folder.glob("*.h"), *folder.glob("*.cpp")]):
+    for path in sorted([*folder.rglob("*.h"), *folder.rglob("*.cpp")]):
         here = unit(path, headers)
         for there in includes(path, headers):
             if there != here:
@@ -74,10 +75,25 @@ def story(way, edges):
 
 
 def test_no_circle_of_includes(root):
-    edges = graph(root / "src" / "USER-HVI")
-    assert len(edges) > 10
+    edges = {**graph(root / "lib" / "hvi"), **graph(root / "src" / "USER-HVI")}
+    assert len(edges) > 40
     found = circles(edges)
     assert not found, f"{len(found)} circles of includes:\n" + "\n".join(story(way, edges) for way in found)
+
+
+BELOW = {"math": "", "space": "math", "material": "math space", "sph": "math space material", "elements": "math space material", "measure": "space", "dem": ""}
+
+
+def test_rooms_include_those_below(root):
+    lib = root / "lib" / "hvi"
+    assert {p.name for p in lib.iterdir()} == set(BELOW)
+    room = {p.name: p.parent.name for p in lib.rglob("*.h")}
+    wrong = []
+    for path in sorted([*lib.rglob("*.h"), *lib.rglob("*.cpp")]):
+        for name in re.findall(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', path.read_text(), re.M):
+            if room.get(name) not in (path.parent.name, *BELOW[path.parent.name].split()):
+                wrong.append(f"{path.parent.name}/{path.name} includes {name}")
+    assert not wrong
 
 
 @pytest.mark.parametrize("files, want", [

@@ -17,7 +17,7 @@ from hvi import HVIError, cli, curves, material
 from hvi.material_figure import draw
 
 FILES = sorted((ROOT / "potentials").glob("*.hvi"))
-HEADERS = ROOT / "src" / "USER-HVI"
+HEADERS = ROOT / "lib" / "hvi" / "material"
 EOS = "eos gruneisen\n  rho0 2700 # [S]\n  C 5200 # assumed: of something else\n  S1 1.3\n  g0 2\n  cp 900\n"
 HEAD = "# DATE: 2026-01-02 UNITS: si CITATION: Nobody 2026\n#\n# A metal\n"
 JC = "strength johnson-cook\n  G 26e9\n  A 3e8\n  B 2e8\n  n 0.3\n  C 0.01\n  m 1.2\n  Tref 300\n  Tm 800\n"

@@ -8,7 +8,7 @@ import pytest
 @pytest.fixture(scope="module")
 def texts(root):
     """all string literals of the package and of its Python, adjacent ones joined, what is filled in as {}"""
-    source = "\n".join(p.read_text() for folder, ends in (("src/USER-HVI", "cpp"), ("src/USER-HVI", "h"), ("python/hvi", "py"), ("examples", "yaml"))
+    source = "\n".join(p.read_text() for folder, ends in (("src/USER-HVI", "cpp"), ("src/USER-HVI", "h"), ("lib/hvi", "cpp"), ("lib/hvi", "h"), ("python/hvi", "py"), ("examples", "yaml"))
                        for p in sorted((root / folder).rglob(f"*.{ends}")))
     joined = re.sub(r'"\s*\n\s*f?"', "", source)
     return re.sub(r"\{[^{}\n;]*\}", "{}", joined)

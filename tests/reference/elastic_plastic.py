@@ -1,7 +1,7 @@
 """Plates of elastic, perfectly plastic solids that meet: exact states behind plane shocks.
 
 The deviator is hypoelastic, with constant shear modulus G and yield stress Y: in uniaxial strain the compressive stress is p + S with
-S = min(4/3 G ln(rho/rho0), 2/3 Y). p is Grueneisen's law with a cubic Hugoniot, as in src/USER-HVI/hvi_eos_gruneisen.h (LS-DYNA's EOS 4).
+S = min(4/3 G ln(rho/rho0), 2/3 Y). p is Grueneisen's law with a cubic Hugoniot, as in lib/hvi/material/hvi_eos_gruneisen.h (LS-DYNA's EOS 4).
 
 A shock keeps mass, momentum and energy: with the mass flux m, and V = 1/rho, between ahead (0) and behind (1)
 

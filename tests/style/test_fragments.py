@@ -506,10 +506,10 @@ def snake_exe(root, tmp_path_factory):
     if not compiler:
         pytest.fail("no mpicxx: set MPICXX", pytrace=False)
     exe = tmp_path_factory.mktemp("components") / "snake"
-    source = root / "src" / "USER-HVI"
+    rooms = root / "lib" / "hvi"
     subprocess.run([compiler, "-std=c++17", "-O2", "-Wall", "-Wextra", "-Werror",
-                    "-Wno-cast-function-type", "-D_GLIBCXX_ASSERTIONS", f"-I{source}",
-                    str(root / "tests" / "components" / "snake.cpp"), str(source / "hvi_components.cpp"), "-o", str(exe)],
+                    "-Wno-cast-function-type", "-D_GLIBCXX_ASSERTIONS", f"-I{rooms / 'measure'}", f"-I{rooms / 'space'}",
+                    str(root / "tests" / "components" / "snake.cpp"), str(rooms / "measure" / "hvi_components.cpp"), "-o", str(exe)],
                    check=True)
     return exe
 

@@ -9,7 +9,7 @@
 #ifndef LMP_HVI_SPH_SWEEP_H
 #define LMP_HVI_SPH_SWEEP_H
 
-#include "hvi_mirror.h"
+#include "hvi_images.h"
 #include "hvi_sph.h"
 
 #include <memory>

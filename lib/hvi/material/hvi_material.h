@@ -18,10 +18,6 @@
 #include <string>
 #include <vector>
 
-namespace LAMMPS_NS {
-class LAMMPS;
-}
-
 namespace HVI {
 
 /* ----------------------------------------------------------------------
@@ -72,13 +68,6 @@ std::unique_ptr<Eos> parse_table(const std::string &text, const std::string &fil
 
 bool convertible(const std::string &from, const std::string &to);
 double convert(double x, const Dimension &dim, const std::string &from, const std::string &to);
-
-// Finds the file as LAMMPS finds potentials, reads it on rank 0 and parses it on all; stops with
-// LAMMPS's error if anything is wrong.
-
-Material read_material_file(LAMMPS_NS::LAMMPS *lmp, const std::string &filename);
-std::unique_ptr<Eos> read_table_file(LAMMPS_NS::LAMMPS *lmp, const std::string &filename,
-                                     std::uint64_t &checksum);
 
 }    // namespace HVI
 

@@ -10,7 +10,7 @@
    Contributing authors: the lammps-hvi developers
 ------------------------------------------------------------------------- */
 
-#include "hvi_mirror.h"
+#include "hvi_images.h"
 
 namespace HVI {
 
