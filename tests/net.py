@@ -119,9 +119,6 @@ def scenes():
     yield "plate-principal", example(plate, 300, variables=variables(dx=1, damage="yes", spall="principal"))
     yield "plate-displacement-lists", example(plate, 150, variables=variables(dx=1, move="lists displacement sleep no"))
     yield "rare-plate-artstress", example(plate, 200, variables=variables(dx=1, pair="dissipation riemann artstress 0.3 4"))
-    for gradient in ("plain", "law"):
-        for mode, keys in (("", {}), ("-np2", {"ranks": 2})):
-            yield f"plate-{gradient}{mode}", example(plate, 200, variables=variables(dx=1, pair=f"viscosity 1 2 gradient {gradient}"), **keys)
     yield "shield", shield(400, spacing=0.5)
     yield "shield-np2", shield(400, spacing=0.5, ranks=2)
     yield "shield-restart", shield(400, restart=True, spacing=0.5)

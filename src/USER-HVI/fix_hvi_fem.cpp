@@ -77,7 +77,7 @@ void FixHVIFEM::init()
     error->all(FLERR,
                "Fix hvi/fem needs pair style hvi/sph, for materials, and fix hvi/johnson-cook, for "
                "the laws of solids");
-  if (!store->fields.settings.whole)
+  if (!store->fields.settings.solid)
     error->all(FLERR, "Fix hvi/fem needs pair style hvi/sph with gradient corrected");
   if (domain->dimension != 3 || store->fields.settings.laws.dim != 3)
     error->all(

@@ -126,7 +126,7 @@ void FixHVIFEM::resume(std::size_t e)
   const Element &one = elements[e];
   double csq;
   store->materials.of(one.type)->eos->evaluate(one.rho, one.ahead, now[e].p, csq);
-  now[e].p = HVI::clip_tension(now[e].p, one.s.failed() ? 0.0 : one.s.least);
+  now[e].p = HVI::clip_tension(now[e].p, one.s.failed() ? 0.0 : one.s.p_min);
   std::copy_n(one.L, 9, now[e].L);
   if (!(one.stable >= shortest)) shortest = one.stable;
 }
@@ -213,7 +213,7 @@ void FixHVIFEM::advance(std::size_t first, int n, double dt, bool due)
   std::size_t who[LANES];
   const auto go = [&]() {
     if (!waiting) return;
-    const int wrong = law->whole_step(waiting, states, inputs, dt);
+    const int wrong = law->advance(waiting, states, inputs, dt);
     if (wrong >= 0)
       error->one(FLERR, "Fix hvi/fem: stress of element {} is not a number",
                  elements[who[wrong]].id);
@@ -231,10 +231,6 @@ void FixHVIFEM::advance(std::size_t first, int n, double dt, bool due)
     if (active[e]) trace_felt = with_pairs(t, felt);
     const HVI::SolidModel &own = model(one);
     if (due) {
-      if (!one.s.failed())
-        own.try_out(
-            one.s,
-            {felt[0], felt[1], felt[2], felt[3], felt[4], felt[5], felt[6], felt[7], felt[8]}, dt);
       one.rho *= one.V / V_end[lane];
       if (active[e]) one.rho *= std::exp(dt * (trace - trace_felt));
     }
@@ -260,6 +256,8 @@ void FixHVIFEM::advance(std::size_t first, int n, double dt, bool due)
     states[waiting] = &one.s;
     inputs[waiting] = input(one);
     inputs[waiting].p = t.p;
+    inputs[waiting].L = {felt[0], felt[1], felt[2], felt[3], felt[4],
+                         felt[5], felt[6], felt[7], felt[8]};
     inputs[waiting].expansion = trace_felt;
     who[waiting++] = e;
   }
@@ -271,7 +269,7 @@ void FixHVIFEM::advance(std::size_t first, int n, double dt, bool due)
     if (one.type <= 0) continue;
     Now &t = now[first + lane];
     const double least = one.s.failed() ? 0.0
-        : due                           ? one.s.least
+        : due                           ? one.s.p_min
                                         : model(one).p_min(one.s, input(one));
     t.p = HVI::clip_tension(t.p, least);
     c[lane] = t.c = std::sqrt(c[lane] + 4.0 / 3.0 * one.s.shear / one.rho);

@@ -157,7 +157,7 @@ void FixHVIFEM::place_particles(const std::vector<char> &freed)
         }
         atom->rho[i] = b[RHO];
         atom->esph[i] = b[ESPH];
-        integrator->carry(i, b + W);
+        integrator->set_work_velocity(i, b + W);
         if (b[FLAG] == IS_FREE) {    // this rank may have no element itself
           atom->mask[i] &= ~(held | inner[atom->type[i]]);
           integrator->let_go(i, b[AHEAD]);
@@ -229,7 +229,7 @@ void FixHVIFEM::release(std::vector<char> &freed)
     const double heat = 0.5 * (of_nodes - of_particles);
     one.e += heat;
     one.ahead += heat;
-    model(one).present(one.s, input(one));    // what forces see of it in this step
+    model(one).begin_step(one.s, input(one));    // what forces see of it in this step
     count[why] += 1.0;
     count[HEAT] += one.mass * heat;
     count[HOURGLASS] += one.hourglass;

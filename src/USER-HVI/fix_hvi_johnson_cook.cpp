@@ -26,12 +26,13 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <iterator>
 
 using namespace LAMMPS_NS;
 
 /* ----------------------------------------------------------------------
-   Sections of data files: the state; the stress in the last forces with what the next step
-   needs beside it; where fracture takes time how far it has come.  Data files have no infinity: it is
+   Sections of data files: the state; what the last forces and the next step need beside it; where fracture takes
+   time how far it has come.  Data files have no infinity: it is
    DBL_MAX.
 ------------------------------------------------------------------------- */
 
@@ -53,20 +54,14 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"heat", STATE, offsetof(Solid, heat)},
     {"expansion", STATE, offsetof(Solid, expansion)},
 
-    {"Sxx", FORCES, offsetof(Solid, seen.S.xx)},
-    {"Syy", FORCES, offsetof(Solid, seen.S.yy)},
-    {"Szz", FORCES, offsetof(Solid, seen.S.zz)},
-    {"Sxy", FORCES, offsetof(Solid, seen.S.xy)},
-    {"Sxz", FORCES, offsetof(Solid, seen.S.xz)},
-    {"Syz", FORCES, offsetof(Solid, seen.S.yz)},
-    {"p_min", FORCES, offsetof(Solid, seen.p_min),
+    {"p_min_before", FORCES, offsetof(Solid, before.p_min),
      [](const FixHVIJohnsonCook &fix, int i) {
-       return std::max(fix.extra[i].seen.p_min, -DBL_MAX);
+       return std::max(fix.extra[i].before.p_min, -DBL_MAX);
      },
      [](FixHVIJohnsonCook &fix, int i, double p) {
-       fix.extra[i].seen.p_min = p > -DBL_MAX ? p : -HVI::NO_LIMIT;
+       fix.extra[i].before.p_min = p > -DBL_MAX ? p : -HVI::NO_LIMIT;
      }},
-    {"shear_then", FORCES, offsetof(Solid, seen.shear)},
+    {"shear_before", FORCES, offsetof(Solid, before.shear)},
     {"shear", FORCES, offsetof(Solid, shear)},
     {"rate", FORCES, offsetof(Solid, rate)},
 
@@ -76,21 +71,14 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"initiation", VOIDS, offsetof(Solid, initiation)},
 
     // made anew when a run begins
-    {nullptr, 0, offsetof(Solid, least)},
-    {nullptr, 0, offsetof(Solid, yield)},
-    {nullptr, 0, offsetof(Solid, carried.xx)},
-    {nullptr, 0, offsetof(Solid, carried.yy)},
-    {nullptr, 0, offsetof(Solid, carried.zz)},
-    {nullptr, 0, offsetof(Solid, carried.xy)},
-    {nullptr, 0, offsetof(Solid, carried.xz)},
-    {nullptr, 0, offsetof(Solid, carried.yz)},
+    {nullptr, 0, offsetof(Solid, p_min)},
 };
 
 /* ---------------------------------------------------------------------- */
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces", "_voids"}),
-    store(nullptr), fresh(true), checked(false)
+    store(nullptr), in_setup(true), checked(false)
 {
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
   read_options(narg, arg);
@@ -99,6 +87,144 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
   size_vector = atom->ntypes;
   global_freq = 1;
   extvector = 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVIJohnsonCook::read_options(int narg, char **arg)
+{
+  bool damage_given = false;
+  int iarg = 3;
+  while (iarg < narg) {
+    const std::string key = arg[iarg];
+    const int nvalues = key == "weibull" ? 2 : 1;
+    if (iarg + nvalues >= narg)
+      utils::missing_cmd_args(FLERR, fmt::format("fix hvi/johnson-cook {}", key), error);
+    const std::string value = arg[iarg + 1];
+    if (key == "strength") {
+      options.strength = value;
+    } else if (key == "damage") {
+      damage_given = true;
+      options.damage_law.clear();
+      if (value == "yes" || value == "on" || value == "true")
+        options.damage = true;
+      else if (value == "no" || value == "off" || value == "false")
+        options.damage = false;
+      else if (HVI::find_law("damage", value)) {
+        options.damage = true;
+        options.damage_law = value;
+      } else
+        error->all(FLERR, "Fix hvi/johnson-cook damage must be yes, no or a law ({}), not {}",
+                   HVI::law_names("damage"), value);
+    } else if (key == "thermal") {
+      options.thermal = utils::logical(FLERR, value, false, lmp);
+    } else if (key == "temperature") {
+      if (value != "energy" && value != "work")
+        error->all(FLERR, "Fix hvi/johnson-cook temperature must be energy or work, not {}", value);
+      options.from_work = value == "work";
+    } else if (key == "spall") {
+      const HVI::SpallModel *const spall = HVI::find_spall(value);
+      if (!spall)
+        error->all(FLERR, "Fix hvi/johnson-cook spall must be {}, not {}", HVI::spall_names(),
+                   value);
+      options.spall = spall->model;
+    } else if (key == "weibull") {
+      options.weibull = utils::numeric(FLERR, value, false, lmp);
+      options.seed = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
+      if (!(options.weibull >= 0.01 &&
+            std::isfinite(options.weibull)))    // Gamma(1 + 1/modulus) is finite
+        error->all(FLERR, "Fix hvi/johnson-cook weibull modulus must be 0.01 or more, not {}",
+                   value);
+      if (options.seed <= 0)
+        error->all(FLERR, "Fix hvi/johnson-cook weibull seed must be > 0, not {}", arg[iarg + 2]);
+    } else if (key == "weibull_size") {
+      options.reference = utils::numeric(FLERR, value, false, lmp);
+      if (!(options.reference >= 0.0 && std::isfinite(options.reference)))
+        error->all(FLERR, "Fix hvi/johnson-cook weibull_size must be >= 0, not {}", value);
+    } else
+      error->all(FLERR, "Unknown fix hvi/johnson-cook keyword: {}", key);
+    iarg += 1 + nvalues;
+  }
+  if (options.strength == "none") {
+    if (damage_given && options.damage)
+      error->all(FLERR,
+                 "Fix hvi/johnson-cook strength none brings no plastic strain, which damage needs: "
+                 "use damage no");
+    options.damage = false;
+  }
+  if (options.reference > 0.0 && !(options.weibull > 0.0))
+    error->all(FLERR, "Fix hvi/johnson-cook weibull_size needs weibull, whose scatter it scales");
+  if (options.reference > 0.0 && options.weibull < 1.0)
+    error->all(FLERR, "Fix hvi/johnson-cook weibull_size needs a modulus of 1 or more, not {}",
+               options.weibull);
+  if (options.reference > 0.0 && !options.damage && options.spall == HVI::Spall::NONE)
+    error->all(FLERR,
+               "Fix hvi/johnson-cook weibull with weibull_size scatters damage and spall: it needs "
+               "one of them");
+  if (options.weibull > 0.0 && options.reference == 0.0 && !options.damage)
+    error->all(FLERR,
+               "Fix hvi/johnson-cook weibull scatters damage: it needs damage yes, or weibull_size "
+               "to scatter spall");
+  if (options.weibull > 0.0 && !atom->tag_enable)
+    error->all(FLERR, "Fix hvi/johnson-cook weibull needs IDs of particles");
+}
+
+/* ----------------------------------------------------------------------
+   "damage yes" leaves the law to the files: here it has its name
+------------------------------------------------------------------------- */
+
+std::string FixHVIJohnsonCook::settings() const
+{
+  std::string damage;
+  for (const auto &model : models) {
+    if (!model || !model->damage()) continue;
+    const std::string law = model->damage()->name();
+    if (("," + damage + ",").find("," + law + ",") == std::string::npos)
+      damage += (damage.empty() ? "" : ",") + law;
+  }
+  if (damage.empty()) damage = options.damage ? "yes" : "no";
+  std::string text =
+      fmt::format("strength {} damage {} spall {} temperature {} thermal {}", options.strength,
+                  damage, HVI::spall_model(options.spall).name,
+                  options.from_work ? "work" : "energy", options.thermal ? "yes" : "no");
+  if (options.weibull > 0.0) text += fmt::format(" weibull {} {}", options.weibull, options.seed);
+  if (options.reference > 0.0) text += fmt::format(" weibull_size {}", options.reference);
+  return text;
+}
+
+/* ----------------------------------------------------------------------
+   Data files do not say by which laws their state came to be, and pair_coeff, set and group may change
+   those of a particle with its state: nobody may go on with what another law has begun.
+------------------------------------------------------------------------- */
+
+void FixHVIJohnsonCook::check_state() const
+{
+  constexpr int NKIND = std::size(HVI::SolidModel::BEGUN_BY);
+  const int ntypes = atom->ntypes;
+  std::vector<bigint> number(2 * NKIND * (ntypes + 1), 0);    // of those with a model, and without
+  for (int i = 0; i < atom->nlocal; i++) {
+    const HVI::SolidModel *const model = of(i);
+    const auto *const begun = HVI::SolidModel::misread(model, extra[i]);
+    if (begun)
+      number[(NKIND * atom->type[i] + (begun - HVI::SolidModel::BEGUN_BY)) * 2 + (model ? 0 : 1)]++;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, number.data(), number.size(), MPI_LMP_BIGINT, MPI_SUM, world);
+  for (int k = 0; k < (int) number.size(); k++) {
+    if (number[k] == 0) continue;
+    const int itype = k / (2 * NKIND);
+    const HVI::SolidModel::Begun &begun = HVI::SolidModel::BEGUN_BY[k / 2 % NKIND];
+    const HVI::Material *const material = store->materials.of(itype);
+    const bool left = models[itype] && k % 2;
+    error->all(FLERR,
+               "Fix hvi/johnson-cook: {} particles of type {} (material {}) have {}, by {}, but "
+               "are of {} in this run: give the keywords and material files of the run that their "
+               "state is from, or unfix {} and give it anew, by which all particles start "
+               "without stress and damage",
+               number[k], itype, material ? material->name : "none", begun.what, begun.law,
+               left ? fmt::format("no solid, outside of group {},", group->names[igroup])
+                    : laws_of(itype),
+               id);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -291,26 +417,25 @@ double FixHVIJohnsonCook::fragments(int i) const
   return model ? model->fragments(extra[i]) : 0.0;
 }
 
-// what the model of a particle needs of the last forces; before the first there are none
+// what the model of a particle needs: of its state; and, when the velocity gradient of the middle of the step is
+// known, of the end of the step
 
-HVI::SolidInput FixHVIJohnsonCook::input(int i, Needs needs) const
+HVI::SolidInput FixHVIJohnsonCook::input(int i) const
 {
   HVI::SolidInput in = {};
   in.rho = atom->rho[i];
   in.e = atom->esph[i] / mass(i);
-  if (needs >= FORCES) in.p = store->fields.pressure(i);
-  if (needs >= GRADIENT) in.L = store->fields.velocity_gradient(i);
   if (options.weibull > 0.0) in.id = atom->tag[i];
   const HVI::SolidModel *const model = of(i);
   if (model && model->has_size()) in.size = spacing(i);
   return in;
 }
 
-// in a step that forces come in the middle of: with the density of its end
-
-HVI::SolidInput FixHVIJohnsonCook::settled_input(int i) const
+HVI::SolidInput FixHVIJohnsonCook::input_of_end(int i) const
 {
-  HVI::SolidInput in = input(i, FORCES);
+  HVI::SolidInput in = input(i);
+  in.p = store->fields.pressure(i);
+  in.L = store->fields.velocity_gradient(i);
   in.rho = store->fields.density(i);
   in.expansion = -store->fields.view().rates[i].drho / in.rho;
   return in;
@@ -324,99 +449,41 @@ double FixHVIJohnsonCook::spacing(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   At the end of the step that begins, as fix hvi/sph extrapolates what it integrates; others stay as they
-   are.  The pressure is that of the last forces, less what it may fall by, twice: only its sign counts.
-------------------------------------------------------------------------- */
-
-HVI::SolidInput FixHVIJohnsonCook::extrapolated(int i, double dt, int integrated) const
-{
-  HVI::SolidInput in = input(i, FORCES);
-  if (!(atom->mask[i] & integrated)) return in;
-  const double drho = dt * atom->drho[i], de = dt * atom->desph[i] / mass(i);
-  const double c = store->fields.view().state[i].c;
-  in.p -= 2.0 * (c * c * std::fabs(drho) + of(i)->gamma() * in.rho * std::fabs(de));
-  in.rho += drho;
-  in.e += de;
-  return in;
-}
-
-/* ----------------------------------------------------------------------
    a new particle, or one that a command has changed since the last run
 ------------------------------------------------------------------------- */
 
 void FixHVIJohnsonCook::start(int i, bool anew)
 {
-  fresh = true;
+  in_setup = true;
   if (const HVI::SolidModel *const model = of(i))
-    model->start(extra[i], input(i, STATE), anew);
+    model->start(extra[i], input(i), anew);
   else if (anew || !HVI::SolidModel::started(extra[i]))
     HVI::SolidModel::liquefy(extra[i]);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void FixHVIJohnsonCook::first_half(double dt, int integrated)
+void FixHVIJohnsonCook::begin_step()
 {
-  const bool whole = store->fields.settings.whole;
-  for (int i = 0; i < atom->nlocal; i++) {
-    const HVI::SolidModel *const model = of(i);
-    if (!model) continue;
-    if (whole) {
-      model->present(extra[i], model->own_limit() ? input(i, STATE) : HVI::SolidInput());
-      continue;
-    }
-    if (fresh || !model->ready(extra[i])) {
-      model->prepare(extra[i], input(i, fresh ? GRADIENT : FORCES), fresh);
-      if (fresh && store->fields.asleep(i))
-        HVI::SolidModel::rest(extra[i]);    // as in second_half()
-    }
-    model->first_half(extra[i],
-                      model->looks() ? extrapolated(i, dt, integrated) : HVI::SolidInput(), dt);
-  }
-  fresh = false;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixHVIJohnsonCook::second_half(double dt)
-{
-  each_solid([this, dt](int n, const int *who, Solid *const *states) {
-    HVI::SolidInput in[HVI::LANES];
-    for (int k = 0; k < n; k++) {
-      in[k] = input(who[k], GRADIENT);
-      in[k].expansion = -atom->drho[who[k]] / in[k].rho;
-    }
-    return of(who[0])->second_half(n, states, in, dt);
-  });
-}
-
-void FixHVIJohnsonCook::try_out(int i, const HVI::VelocityGradient &L, double dt)
-{
-  const HVI::SolidModel *const model = of(i);
-  if (model && !failed(i)) model->try_out(extra[i], L, dt);
-}
-
-void FixHVIJohnsonCook::whole_step(double dt)
-{
-  each_solid([this, dt](int n, const int *who, Solid *const *states) {
-    HVI::SolidInput in[HVI::LANES];
-    for (int k = 0; k < n; k++) in[k] = settled_input(who[k]);
-    return of(who[0])->whole_step(n, states, in, dt);
-  });
+  for (int i = 0; i < atom->nlocal; i++)
+    if (const HVI::SolidModel *const model = of(i))
+      model->begin_step(extra[i], model->own_limit() ? input(i) : HVI::SolidInput());
+  in_setup = false;
 }
 
 /* ----------------------------------------------------------------------
    particles of one type after another, as many at a time as vectors have lanes
 ------------------------------------------------------------------------- */
 
-template <class Step> void FixHVIJohnsonCook::each_solid(const Step &step)
+void FixHVIJohnsonCook::advance(double dt)
 {
   int who[HVI::LANES], n = 0;
   Solid *states[HVI::LANES];
-  const HVI::SolidModel *now = nullptr;    // of those in who
+  HVI::SolidInput in[HVI::LANES];
+  const HVI::SolidModel *now = nullptr;    // of the particles in who
   const auto go = [&]() {
     if (!n) return;
-    const int wrong = step(n, who, states);
+    const int wrong = now->advance(n, states, in, dt);
     if (wrong >= 0)
       error->one(FLERR, "Fix hvi/johnson-cook: stress of particle {} is not a number",
                  atom->tag[who[wrong]]);
@@ -426,37 +493,36 @@ template <class Step> void FixHVIJohnsonCook::each_solid(const Step &step)
     const HVI::SolidModel *const model = of(i);
     if (!model || failed(i) || (atom->mask[i] & store->embedded)) continue;
     if (store->fields.asleep(i)) {
-      HVI::SolidModel::rest(extra[i]);
+      extra[i].rate = 0.0;
       continue;
     }
     if (n == HVI::LANES || model != now) go();
     now = model;
     states[n] = &extra[i];
+    in[n] = input_of_end(i);
     who[n++] = i;
   }
   go();
 }
 
 /* ----------------------------------------------------------------------
-   What forces come of, after whole_step().  In a setup nothing may be left of that: state was read
+   In a setup the least pressure of the end of the last step is not known any more: state was read
    from a data file, or pair_coeff has changed the material.
 ------------------------------------------------------------------------- */
 
-HVI::SphStress FixHVIJohnsonCook::settled(int i) const
+FixHVIJohnsonCook::Stress FixHVIJohnsonCook::stress(int i) const
 {
   const Solid &s = extra[i];
   const HVI::SolidModel *const model = of(i);
   double p_min = -HVI::NO_LIMIT;
-  if (model && fresh)
-    p_min = model->p_min(s, model->looks(s) ? settled_input(i) : HVI::SolidInput());
+  if (model && in_setup)
+    p_min = model->p_min(s, model->looks(s) ? input_of_end(i) : HVI::SolidInput());
   else if (model)
-    p_min = s.failed() ? 0.0 : s.least;
-  return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, p_min, s.shear};
+    p_min = s.failed() ? 0.0 : s.p_min;
+  return {s.S, p_min, s.shear};
 }
 
-/* ----------------------------------------------------------------------
-   in the directions of op, when a particle has crossed mirror planes
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void FixHVIJohnsonCook::reflect(int i, int op)
 {

@@ -18,8 +18,8 @@ FixStyle(hvi/johnson-cook,FixHVIJohnsonCook);
 #include "fix_hvi_records.h"
 #include "hvi_energy_carrier.h"
 #include "hvi_solid_model.h"
-#include "hvi_sph.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,18 +37,14 @@ class FixHVIJohnsonCook :
   void init() override;
   void setup(int) override;
 
-  // called by fix hvi/sph, with the time step and the bit of its group
+  // called by fix hvi/sph: at the start of a run, of a particle, that a command has changed or not; at the begin of
+  // a step; when a particle has crossed mirror planes, in the directions of op.  By the scheme of pair hvi/sph:
+  // stress, plastic strain, damage and tensile failure, t -> t + dt
 
-  void start(int, bool);
-  void first_half(double, int);
-  void second_half(double);
-
-  // in place of that with gradient corrected, called by pair hvi/sph before forces: trial stress with L of
-  // the middle of the step; then by fix hvi/sph, when all have it
-
-  void try_out(int, const HVI::VelocityGradient &L, double);
-  void whole_step(double);
-  void reflect(int, int);
+  void start(int i, bool anew);
+  void begin_step();
+  void reflect(int i, int op);
+  void advance(double dt);
 
   // for fix hvi/fem: law of a type, null: no solid; the state of an element that has the particle
 
@@ -57,20 +53,27 @@ class FixHVIJohnsonCook :
 
   static FixHVIJohnsonCook *find(class LAMMPS *);    // of this simulation, nullptr: none
 
-  // for the pair style and computes; owned particles
+  // of owned particles: least pressure borne and shear modulus at the begin of the step; and with the stress at its
+  // end
 
-  HVI::SphStress stress(int i) const
+  struct Limits {
+    double p_min, shear;
+  };
+  Limits before(int i) const
   {
-    const Solid::Seen &s = extra[i].seen;
-    return {s.S.xx, s.S.yy, s.S.zz, s.S.xy, s.S.xz, s.S.yz, s.p_min, s.shear > 0.0 ? s.shear : 0.0};
+    return {extra[i].before.p_min, std::max(0.0, extra[i].before.shear)};
   }
-  HVI::SphStress settled(int i) const;
+  struct Stress {
+    HVI::Deviator S;
+    double p_min, shear;
+  };
+  Stress stress(int i) const;
   const Solid &state(int i) const { return extra[i]; }
   double pressure(int i, double p) const    // what is left of that of the equation of state
   {
     const HVI::SolidModel *const model = of(i);
     if (!model) return p;
-    HVI::SolidInput in = model->looks(extra[i]) ? input(i, STATE) : HVI::SolidInput();
+    HVI::SolidInput in = model->looks(extra[i]) ? input(i) : HVI::SolidInput();
     in.p = p;
     return model->pressure(extra[i], in);
   }
@@ -96,22 +99,19 @@ class FixHVIJohnsonCook :
   std::vector<int> warned;                                 // of types that do not spall
 
   class FixHVIStore *store;
-  bool fresh;      // a run begins: rates of S are to be made
-  bool checked;    // warned of what may be wrong: once per run, not again with pre no
+  bool in_setup;    // nothing has been advanced in this run yet
+  bool checked;     // warned of what may be wrong: once per run, not again with pre no
 
   void read_options(int, char **);
   std::string settings() const override;
   void make_models();
   void check_state() const;
   void count_particles();
-  const HVI::SolidModel *of(int) const;      // null: no solid
-  enum Needs { STATE, FORCES, GRADIENT };    // each with those before it
-  HVI::SolidInput input(int, Needs) const;
+  const HVI::SolidModel *of(int) const;    // null: no solid
+  HVI::SolidInput input(int) const;
+  HVI::SolidInput input_of_end(int) const;
   double mass(int) const;
-  HVI::SolidInput settled_input(int) const;
-  HVI::SolidInput extrapolated(int, double, int) const;
   double spacing(int) const;
-  template <class Step> void each_solid(const Step &);
 };
 
 }    // namespace LAMMPS_NS

@@ -21,10 +21,15 @@
 #include "fix_hvi_store.h"
 #include "force.h"
 #include "group.h"
+#include "hvi_compat.h"
+#include "hvi_interface.h"
+#include "hvi_timestep.h"
 #include "modify.h"
+#include "timer.h"
 #include "update.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -34,10 +39,11 @@ using namespace FixConst;
 
 /* ----------------------------------------------------------------------
    Data files: what the last rates belong to, for particles that go on from it, and the constant of
-   variable h.  atom_style sph does not write vest.  In a section of its own: how rates change.
+   variable h.  atom_style sph does not write vest.  In a section of its own: rates of the begin of the last step.
+   Data files have no NaN: it is DBL_MAX.
 ------------------------------------------------------------------------- */
 
-static constexpr int TRENDS = 1;
+static constexpr int RATES = 1;
 
 // sleep exact: what rounding of sums over neighbors leaves of rest, in parts of the speed of sound
 
@@ -52,13 +58,13 @@ constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
        fix.extra[i].mark = going_on != 0.0 ? fix.fingerprint(i) : 0;
      }},
     {"h_constant", 0, offsetof(Extra, hscale)},
-    {"rho", 0, offsetof(Extra, rho),
+    {"rho", 0, offsetof(Extra, rates_rho),
      [](const FixHVISPH &fix, int i) {
-       return fix.goes_on(i) ? fix.extra[i].rho : fix.atom->rho[i];
+       return fix.goes_on(i) ? fix.extra[i].rates_rho : fix.atom->rho[i];
      }},
-    {"esph", 0, offsetof(Extra, esph),
+    {"esph", 0, offsetof(Extra, rates_esph),
      [](const FixHVISPH &fix, int i) {
-       return fix.goes_on(i) ? fix.extra[i].esph : fix.atom->esph[i];
+       return fix.goes_on(i) ? fix.extra[i].rates_esph : fix.atom->esph[i];
      }},
     {"vx", 0, Field::NOWHERE,
      [](const FixHVISPH &fix, int i) {
@@ -81,21 +87,29 @@ constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
      [](FixHVISPH &fix, int i, double v) {
        fix.atom->vest[i][2] = v;
      }},
-    {"rho", TRENDS, offsetof(Extra, trend_rho)},
-    {"esph", TRENDS, offsetof(Extra, trend_e)},
-    {"vx", TRENDS, offsetof(Extra, trend_v[0])},
-    {"vy", TRENDS, offsetof(Extra, trend_v[1])},
-    {"vz", TRENDS, offsetof(Extra, trend_v[2])},
-    {"working_vx", TRENDS, offsetof(Extra, working[0])},
-    {"working_vy", TRENDS, offsetof(Extra, working[1])},
-    {"working_vz", TRENDS, offsetof(Extra, working[2])},
-    {"settled", TRENDS, offsetof(Extra, settled)},
-    {"step", TRENDS, offsetof(Extra, step)},
+    {"drho", RATES, offsetof(Extra, old_drho),
+     [](const FixHVISPH &fix, int i) {
+       return std::isnan(fix.extra[i].old_drho) ? DBL_MAX : fix.extra[i].old_drho;
+     },
+     [](FixHVISPH &fix, int i, double rate) {
+       fix.extra[i].old_drho = rate < DBL_MAX ? rate : NAN;
+     }},
+    {"desph", RATES, offsetof(Extra, old_de)},
+    {"ax", RATES, offsetof(Extra, old_a[0])},
+    {"ay", RATES, offsetof(Extra, old_a[1])},
+    {"az", RATES, offsetof(Extra, old_a[2])},
+    {"work_vx", RATES, offsetof(Extra, v_work[0])},
+    {"work_vy", RATES, offsetof(Extra, v_work[1])},
+    {"work_vz", RATES, offsetof(Extra, v_work[2])},
+    {"new_rho", RATES, offsetof(Extra, new_rho)},
+    {"step", RATES, offsetof(Extra, step)},
 
-    // 0 between steps
+    // 0 between steps, or made anew when a run begins
     {nullptr, 0, offsetof(Extra, drho)},
     {nullptr, 0, offsetof(Extra, de)},
-    {nullptr, 0, offsetof(Extra, stretch)},
+    {nullptr, 0, offsetof(Extra, x_before[0])},
+    {nullptr, 0, offsetof(Extra, x_before[1])},
+    {nullptr, 0, offsetof(Extra, x_before[2])},
 };
 
 // the velocity that the last rates belong to
@@ -108,8 +122,8 @@ const double *FixHVISPH::felt_velocity(int i) const
 /* ---------------------------------------------------------------------- */
 
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
-    FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {"", "_trends"}), store(nullptr),
-    ledger(nullptr), strength(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0},
+    FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {"", "_rates"}), store(nullptr), ledger(nullptr),
+    strength(nullptr), evaluation(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0},
     last(0.0), due(false), stepping(0), wallbit(0), follow(0), checked(0), quiet(1.0e-10),
     relative(true)
 {
@@ -167,8 +181,6 @@ FixHVISPH::~FixHVISPH()
 
 int FixHVISPH::setmask()
 {
-  // setup_pre_force() is called for fixes with a pre_force() only
-
   return INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE;
 }
 
@@ -194,7 +206,7 @@ void FixHVISPH::init()
   forget_rows();
 
   strength = FixHVIJohnsonCook::find(lmp);
-
+  evaluation = HVI::find_interface<HVI::SphStep>(lmp).at(0);
   ledger = FixHVILedger::instance(lmp);
   follow = igroup != 0 && !set.is_stock() && modify->get_fix_by_style("^sph$").empty();
   reset_dt();
@@ -249,13 +261,14 @@ bool FixHVISPH::integrates(int i) const
 
 bool FixHVISPH::remembers(int i) const
 {
-  return integrates(i) || (store->fields.settings.whole && has_material(i));
+  return integrates(i) || (store->fields.settings.solid && has_material(i));
 }
 
 void FixHVISPH::setup_pre_force(int /*vflag*/)
 {
   const HVI::SphSettings &set = store->fields.settings;
   double longest = 0.0;
+  setup_rho.assign(atom->nlocal, 0.0);
   for (int i = 0; i < atom->nlocal; i++) {
     const int itype = atom->type[i];
     if (!has_material(i)) continue;
@@ -271,30 +284,31 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
       e.hscale = set.hscale(itype, atom->rho[i]);
     }
     const bool anew = set.is_stock() || !remembers(i) || e.mark != fingerprint(i) ||
-        set.whole != (e.settled != 0.0);
+        set.solid != (e.new_rho != 0.0);
     if (anew && (integrates(i) || follow))
       for (int k = 0; k < 3; k++) atom->vest[i][k] = atom->v[i][k];
     if (strength) strength->start(i, anew);
     if (anew) {
-      e.settled = set.whole ? atom->rho[i] : 0.0;
-      if (!set.whole) e.step = 0.0;    // else the last half kick was one of that step
+      e.new_rho = set.solid ? atom->rho[i] : 0.0;
+      if (!set.solid) e.step = 0.0;    // else the last half kick was one of that step
     }
     if (!integrates(i)) continue;
     if (!anew) longest = std::max(longest, e.step);
     if (anew) {
-      e.rho = atom->rho[i];
-      e.esph = atom->esph[i];
-      e.trend_rho = e.trend_e = 0.0;
-      for (int k = 0; k < 3; k++) {
-        e.trend_v[k] = 0.0;
-        e.working[k] = atom->v[i][k];
-      }
+      e.rates_rho = atom->rho[i];
+      e.rates_esph = atom->esph[i];
+      e.old_drho = NAN;
+      for (int k = 0; k < 3; k++) e.v_work[k] = atom->v[i][k];
     }
-    std::swap(e.rho, atom->rho[i]);
-    std::swap(e.esph, atom->esph[i]);
-    e.drho = atom->rho[i];
+
+    // forces are asked for with what their rates belong to; the state waits in its place
+
+    std::swap(e.rates_rho, atom->rho[i]);
+    std::swap(e.rates_esph, atom->esph[i]);
+    setup_rho[i] = atom->rho[i];
   }
   MPI_Allreduce(&longest, &last, 1, MPI_DOUBLE, MPI_MAX, world);
+  due = false;
   comm->forward_comm();
   if (set.variable) comm->forward_comm(this);
 }
@@ -315,13 +329,11 @@ void FixHVISPH::setup(int /*vflag*/)
 
     // unless sph/rhosum has replaced the density in the meantime
 
-    if (atom->rho[i] == e.drho)
-      std::swap(e.rho, atom->rho[i]);
+    if (atom->rho[i] == setup_rho[i])
+      std::swap(e.rates_rho, atom->rho[i]);
     else
-      e.rho = atom->rho[i];
-    e.drho = 0.0;
-    std::swap(e.esph, atom->esph[i]);
-    e.stretch = 0.0;
+      e.rates_rho = atom->rho[i];
+    std::swap(e.rates_esph, atom->esph[i]);
   }
   keep_places();
   power = store->fields.viscous_power;
@@ -334,114 +346,133 @@ void FixHVISPH::setup(int /*vflag*/)
    evaluates them with density and energy of the middle of the step.
 
    So oscillations that nothing damps grow by (omega dt)^4/8 and more in a step: a wall of two layers
-   rings in its thickness.  Solids with gradient corrected go by the leapfrog, which keeps them up to
-   omega dt = 2: vest is the velocity of the middle of the step, which brings density and stress to
-   its end, before forces: settle_density(), settle_solids().  What is extrapolated with rho and
-   esph, by their rates and the change of these in the last step, are weights and heat.  Forces do
-   work on the velocity of the end of the step, with a sixth of the change of acceleration extrapolated
-   to third order; when that is known, see missed_work().
+   rings in its thickness.  Solids go by the leapfrog, which keeps them up to omega dt = 2: vest is the
+   velocity of the middle of the step, which brings density and stress to its end before forces, see
+   HVISchemeSolid.  What is extrapolated with rho and esph, by their rates and the change of these in the
+   last step, are weights and heat.  Forces do work on the velocity of the end of the step, with a sixth of
+   the change of acceleration extrapolated to third order; when that is known, see missed_work().
 ------------------------------------------------------------------------- */
 
 void FixHVISPH::initial_integrate(int /*vflag*/)
 {
   stepping = 1;
-  double *const *const x = atom->x;
-  double *const *const v = atom->v;
-  double *const *const vest = atom->vest;
-  const double *const *const f = atom->f;
-  double *const rho = atom->rho;
-  double *const esph = atom->esph;
   const double ahead = store->fields.settings.is_stock() ? 0.0 : 1.0;
-  const bool whole = store->fields.settings.whole;
-  if (strength) strength->first_half(dtv, groupbit);
-  due = whole;
-  last = dtv;
+  const bool solid = store->fields.settings.solid;
+  if (strength) strength->begin_step();
+  due = solid;
   double missed = 0.0;
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!moves(i)) continue;
     const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
-    Extra &e = extra[i];
-    const bool solid = whole && has_material(i);
-    const double beyond = solid ? missed_work(i) : 0.0, power_e = atom->desph[i] - beyond;
-    for (int k = 0; k < 3; k++) {
-      vest[i][k] = v[i][k] + 2.0 * dtfm * f[i][k];
-      v[i][k] += dtfm * f[i][k];
-      x[i][k] += dtv * v[i][k];
-      if (!solid) continue;
-      e.working[k] = vest[i][k] + dtf / 3.0 * e.trend_v[k];
-      e.trend_v[k] = dtfm / dtf * f[i][k];
-      vest[i][k] = v[i][k];
+    if (solid && has_material(i)) {
+      missed += first_half_solid(i, dtfm);
+      continue;
     }
-    const double drho = dtf * atom->drho[i], de = dtf * power_e;
+    double *const v = atom->v[i], *const f = atom->f[i];
+    for (int k = 0; k < 3; k++) {
+      atom->vest[i][k] = v[k] + 2.0 * dtfm * f[k];
+      v[k] += dtfm * f[k];
+      atom->x[i][k] += dtv * v[k];
+    }
+    const double drho = dtf * atom->drho[i], de = dtf * atom->desph[i];
+    Extra &e = extra[i];
     e.drho = ahead * drho;
     e.de = ahead * de;
-    if (solid) {
-      const double kick = missed_kick(i);
-      missed += kick + dtf * beyond;
-      esph[i] -= kick;
-      e.settled = rho[i];
-      e.stretch = 0.0;
-      e.drho += dtv * e.trend_rho;    // the rate is that of the middle of the last step
-      e.de += dtf * e.trend_e;
-      e.trend_rho = atom->drho[i];
-      e.trend_e = power_e;
-    }
-    rho[i] += drho + e.drho;
-    esph[i] += de + e.de;
+    atom->rho[i] += drho + e.drho;
+    atom->esph[i] += de + e.de;
   }
+  last = dtv;
   ledger->book_missed(missed);
+}
+
+/* ----------------------------------------------------------------------
+   Rates are those of the middle of the last step; their change in it is known if there were rates before.
+   Returns the energy that is booked as missed.
+------------------------------------------------------------------------- */
+
+double FixHVISPH::first_half_solid(int i, double dtfm)
+{
+  double *const v = atom->v[i], *const f = atom->f[i];
+  Extra &e = extra[i];
+  const double beyond = missed_work(i), gain = atom->desph[i] - beyond, kick = missed_kick(i);
+  const bool known = !std::isnan(e.old_drho);
+  const double dtf_then = 0.5 * last;    // to the last digit as at the end of the last step
+  const double per_mass =
+      dtf_then / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) / dtf_then;
+  for (int k = 0; k < 3; k++) {
+    const double end = v[k] + 2.0 * dtfm * f[k];
+    const double change = known ? per_mass * f[k] - e.old_a[k] : 0.0;
+    v[k] += dtfm * f[k];
+    atom->x[i][k] += dtv * v[k];
+    e.v_work[k] = end + dtf / 3.0 * change;
+    e.old_a[k] = dtfm / dtf * f[k];
+    atom->vest[i][k] = v[k];
+  }
+  const double drho = dtf * atom->drho[i], de = dtf * gain;
+  e.drho = drho + dtv * (known ? atom->drho[i] - e.old_drho : 0.0);
+  e.de = de + dtf * (known ? gain - e.old_de : 0.0);
+  e.old_drho = e.drho != 0.0 || e.de != 0.0 ? atom->drho[i] : NAN;
+  e.old_de = gain;
+  e.new_rho = atom->rho[i];
+  atom->esph[i] -= kick;
+  atom->rho[i] += drho + e.drho;
+  atom->esph[i] += de + e.de;
+  return kick + dtf * beyond;
+}
+
+/* ----------------------------------------------------------------------
+   Ghosts and lists are there, forces are 0.  Where pair style sph/rhosum makes densities, which comes later,
+   pair style hvi/sph does this itself; in a setup, too, after fix hvi/fem has put particles into their places.
+   LAMMPS's breakdown of times counts it as that of the pair style.
+------------------------------------------------------------------------- */
+
+void FixHVISPH::pre_force(int /*vflag*/)
+{
+  if (store->fields.settings.is_stock()) return;
+  timer->stamp(Timer::MODIFY);
+  evaluation->prepare();
+  timer->stamp(Timer::PAIR);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixHVISPH::final_integrate()
 {
-  const bool whole = store->fields.settings.whole;
-  double *const *const v = atom->v;
-  const double *const *const f = atom->f;
-  double *const rho = atom->rho;
-  double *const esph = atom->esph;
+  const HVI::SphFields &fields = store->fields;
+  double *const rho = atom->rho, *const esph = atom->esph;
   double missed = 0.0;
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!moves(i)) continue;
     const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
-    for (int k = 0; k < 3; k++) v[i][k] += dtfm * f[i][k];
+    for (int k = 0; k < 3; k++) atom->v[i][k] += dtfm * atom->f[i][k];
     Extra &e = extra[i];
-    const bool solid = whole && has_material(i);
-    const double beyond = solid ? missed_work(i) : 0.0, power_e = atom->desph[i] - beyond;
-    e.rho = rho[i];
-    e.esph = esph[i];
-    if (solid)
-      rho[i] = e.settled + dtv * (atom->drho[i] - e.stretch);    // interface density dissipation
-    else
-      rho[i] += dtf * atom->drho[i] - e.drho;
-    esph[i] += dtf * power_e - e.de;
-    if (solid) {
-      e.step = dtv;
+    e.rates_rho = rho[i];
+    e.rates_esph = esph[i];
+    double gain = atom->desph[i];
+    if (fields.settings.solid && has_material(i)) {
+      const double beyond = missed_work(i), by_L = -fields.density(i) * fields.divergence(i);
+      gain -= beyond;
       missed += dtf * beyond;
-      const bool was_there =
-          (e.drho != 0.0 || e.de != 0.0) && !std::isnan(e.trend_rho);    // in the first half
-      e.trend_rho = was_there ? atom->drho[i] - e.trend_rho : 0.0;
-      e.trend_e = was_there ? power_e - e.trend_e : 0.0;
-      for (int k = 0; k < 3; k++)
-        e.trend_v[k] = was_there ? dtfm / dtf * f[i][k] - e.trend_v[k] : 0.0;
-    }
-    e.drho = e.de = e.stretch = 0.0;
+      rho[i] = e.new_rho + dtv * (atom->drho[i] - by_L);    // interface density dissipation
+      e.step = dtv;
+    } else
+      rho[i] += dtf * atom->drho[i] - e.drho;
+    esph[i] += dtf * gain - e.de;
+    e.drho = e.de = 0.0;
   }
   ledger->book_missed(missed);
   keep_places();
-  if (strength && !whole) strength->second_half(dtv);
 
-  const double now = store->fields.viscous_power;
+  const double now = fields.viscous_power;
   ledger->book_viscous(dtf * (power + now));
   power = now;
-  if (store->fields.settings.mirror.planes) {
+  if (fields.settings.mirror.planes) {
     double impulse[3];
     for (int k = 0; k < 3; k++) {
-      impulse[k] = dtf * (push[k] + store->fields.plane_force[k]);
-      push[k] = store->fields.plane_force[k];
+      impulse[k] = dtf * (push[k] + fields.plane_force[k]);
+      push[k] = fields.plane_force[k];
     }
     ledger->book_mirror(impulse);
   }
@@ -488,4 +519,237 @@ double FixHVISPH::compute_vector(int n)
   const auto *const now = FixHVIStore::find(lmp);
   const auto *const material = now ? now->materials.of(n + 1) : nullptr;
   return material ? material->eos->rho0() : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+const double *FixHVISPH::work_velocity(int i) const
+{
+  const bool known = integrates(i) || (atom->mask[i] & store->embedded);
+  return known ? extra[i].v_work : atom->v[i];
+}
+
+void FixHVISPH::set_work_velocity(int i, const double *v)
+{
+  for (int k = 0; k < 3; k++) extra[i].v_work[k] = v[k];
+}
+
+void FixHVISPH::let_go(int i, double de)
+{
+  Extra &e = extra[i];
+  e.drho = 0.0;
+  e.de = de;
+  e.old_drho = NAN;
+  e.new_rho = e.rates_rho = atom->rho[i];
+  e.rates_esph = atom->esph[i];
+}
+
+/* ----------------------------------------------------------------------
+   What forces work on the velocity of the end of the step beyond what they did on the extrapolated
+   one.  Over all particles that is the same of pairs, so it can be taken from a particle's own energy.
+   A half kick gives dt/2 F.v and, at the end of a step less, at the beginning more, dt^2/8 F^2/m,
+   which only cancels if the step is the same: what is left is taken, too.  Then the total energy is
+   kept to round-off, but for dt^2/8 F^2/m of the moment.  The first is of SPH forces only, for others
+   work on v itself; F in the second is all of the force.
+------------------------------------------------------------------------- */
+
+double FixHVISPH::missed_work(int i) const
+{
+  if (!store->fields.settings.energy) return 0.0;
+  const double *const v = atom->v[i], *const w = extra[i].v_work;
+  const double *const f = store->fields.own_force(i);
+  return f[0] * (v[0] - w[0]) + f[1] * (v[1] - w[1]) + f[2] * (v[2] - w[2]);
+}
+
+double FixHVISPH::missed_kick(int i) const
+{
+  if (!store->fields.settings.energy) return 0.0;
+  const double *const f = atom->f[i];
+  return 0.125 * (dtv * dtv - extra[i].step * extra[i].step) *
+      (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) /
+      (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixHVISPH::advance_density(int i, double div)
+{
+  if (!integrates(i)) return atom->rho[i];
+  Extra &e = extra[i];
+  if (due) e.new_rho *= std::exp(-dtv * div);
+  return e.new_rho;
+}
+
+/* ----------------------------------------------------------------------
+   a piston, say, is moved by a fix that does not know vest, which is what forces see: its velocity, or
+   that of the middle of the step, from where it has gone
+------------------------------------------------------------------------- */
+
+void FixHVISPH::post_integrate()
+{
+  const HVI::SphSettings &set = store->fields.settings;
+  if (set.mirror.planes) reflect();
+  if (!follow && !set.solid) return;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if ((atom->mask[i] & groupbit) || !has_material(i)) continue;
+    double way[3] = {0.0, 0.0, 0.0};
+    if (set.solid) {
+      for (int k = 0; k < 3; k++) way[k] = atom->x[i][k] - extra[i].x_before[k];
+      HVI::minimum_image(domain, way[0], way[1], way[2]);
+    }
+    const bool goes = way[0] != 0.0 || way[1] != 0.0 || way[2] != 0.0;
+    for (int k = 0; k < 3; k++) atom->vest[i][k] = goes ? way[k] / dtv : atom->v[i][k];
+  }
+}
+
+/* ----------------------------------------------------------------------
+   of what others move, for its velocity in the middle of the next step
+------------------------------------------------------------------------- */
+
+void FixHVISPH::keep_places()
+{
+  if (!store->fields.settings.solid || igroup == 0) return;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!(atom->mask[i] & groupbit) && has_material(i))
+      for (int k = 0; k < 3; k++) extra[i].x_before[k] = atom->x[i][k];
+}
+
+/* ----------------------------------------------------------------------
+   what has crossed a mirror plane is where its image was
+------------------------------------------------------------------------- */
+
+void FixHVISPH::reflect()
+{
+  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
+  double impulse[3] = {0.0, 0.0, 0.0};
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!integrates(i)) continue;
+    int op = 0;
+    for (int k = 0; k < 3; k++) {
+      if (!mirror.has(k) || mirror.depth(k, atom->x[i]) >= 0.0) continue;
+      op |= 1 << k;
+      atom->x[i][k] = 2.0 * mirror.at[k] - atom->x[i][k];
+      if (!ledger->clamps(atom->mask[i]))
+        impulse[k] -=
+            2.0 * (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) * atom->v[i][k];
+      atom->v[i][k] = -atom->v[i][k];
+      atom->vest[i][k] = -atom->vest[i][k];
+      extra[i].old_a[k] = -extra[i].old_a[k];
+      extra[i].v_work[k] = -extra[i].v_work[k];
+    }
+    if (op && strength) strength->reflect(i, op);
+  }
+  ledger->book_mirror(impulse);
+}
+
+/* ----------------------------------------------------------------------
+   the constant of variable h goes to new ghosts
+------------------------------------------------------------------------- */
+
+int FixHVISPH::pack_border(int n, int *list, double *buf)
+{
+  for (int i = 0; i < n; i++) buf[i] = extra[list[i]].hscale;
+  return n;
+}
+
+int FixHVISPH::unpack_border(int n, int first, double *buf)
+{
+  for (int i = 0; i < n; i++) extra[first + i].hscale = buf[i];
+  return n;
+}
+
+int FixHVISPH::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+{
+  return pack_border(n, list, buf);
+}
+
+void FixHVISPH::unpack_forward_comm(int n, int first, double *buf)
+{
+  unpack_border(n, first, buf);
+}
+
+/* ----------------------------------------------------------------------
+   a run that goes on from a restart file has the settings and the materials it was written with
+------------------------------------------------------------------------- */
+
+void FixHVISPH::check_restart() const
+{
+  if (restored.empty()) return;
+  const std::string &now = store->fields.settings.text;
+  const size_t end = restored.find('\n');
+  if (restored.substr(0, end) != now)
+    error->all(FLERR,
+               "Fix hvi/sph: the restart file was written with pair_style hvi/sph {}, this run "
+               "uses {}",
+               restored.substr(0, end), now);
+
+  for (const std::string &word : utils::split_words(restored.substr(end + 1))) {
+    const int itype = std::stoi(word);
+    const HVI::Materials::Entry &entry = store->materials.entry(itype);
+    const std::string checksum = word.substr(word.find(':') + 1);
+    if (!entry.material || std::to_string(entry.material->checksum) == checksum) continue;
+    static constexpr char SAYS[] =
+        "Fix hvi/sph: numbers of material {} of type {} are not those the restart file was written "
+        "with{}";
+    if (entry.restored)
+      error->all(FLERR, SAYS, entry.material->name, itype,
+                 ": give pair_coeff again if the new ones are meant");
+    else if (comm->me == 0)
+      error->warning(FLERR, SAYS, entry.material->name, itype, "");
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Energy that flows into particles whose density and energy nobody integrates is lost to the books;
+   a piston that fix move or fix rigid moves is meant so
+------------------------------------------------------------------------- */
+
+void FixHVISPH::check_left_out() const
+{
+  int known = groupbit | wallbit;
+  for (const Fix *const other : modify->get_fix_list())
+    if (utils::strmatch(other->style, "^sph") || utils::strmatch(other->style, "^meso") ||
+        utils::strmatch(other->style, "^move$") || utils::strmatch(other->style, "^rigid"))
+      known |= other->groupbit;
+  bigint here = 0, everywhere;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (has_material(i) && !(atom->mask[i] & known)) here++;
+  MPI_Allreduce(&here, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (everywhere && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Fix hvi/sph: {} particles with a material are integrated by no fix: their density "
+        "and energy stay, and what flows into them is missing in compute hvi/energy (walls "
+        "GROUP if that is meant)",
+        everywhere);
+}
+
+// a fixed step that signals, or stiff pairs of other styles, outrun
+
+void FixHVISPH::check_step() const
+{
+  if (!modify->get_fix_by_style("^hvi/dt$").empty()) return;
+  const double stable = HVI::stable_step(lmp, 1.0);
+  if (stable > 0.0 && update->dt > stable && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Fix hvi/sph: the time step {} is above the stable one, about {}: use fix hvi/dt, "
+        "or a third of that",
+        update->dt, stable);
+}
+
+/* ----------------------------------------------------------------------
+   For the restart file: the settings of the pair style, and the checksums of the numbers of
+   materials, which a run that goes on must not change unnoticed
+------------------------------------------------------------------------- */
+
+std::string FixHVISPH::settings() const
+{
+  const FixHVIStore *const now = store ? FixHVIStore::find(lmp) : nullptr;
+  if (!now) return restored;
+  std::string text = now->fields.settings.text + "\n";
+  for (int itype = 1; itype <= atom->ntypes; itype++)
+    if (const HVI::Material *const material = now->materials.of(itype))
+      text += fmt::format("{}:{} ", itype, material->checksum);
+  return text;
 }

@@ -17,30 +17,35 @@ FixStyle(hvi/sph,FixHVISPH);
 
 #include "fix_hvi_records.h"
 #include "hvi_energy_carrier.h"
+#include "hvi_sph_step.h"
 
+#include <cmath>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
 // of a particle, beyond what atom_style sph keeps
 
 struct HVISPHExtra {
-  double drho, de;     // second half of the step in progress, as extrapolated
-  double rho, esph;    // values the last rates belong to
-  uint64_t mark;       // fingerprint of the state at the end of the last run
-  double hscale;       // h rho^(1/dim), 0: not known yet
+  // what is extrapolated of rho and esph: the second half of the step in progress; 0 between steps
 
-  // after a step: by how much the rates and the acceleration have changed in it; in its middle: those
-  // before it
+  double drho = 0.0, de = 0.0;
+  double rates_rho = 0.0,
+         rates_esph = 0.0;    // values of rho and esph that the last rates belong to
+  uint64_t mark = 0;          // fingerprint of the state at the end of the last run
+  double hscale = 0.0;        // h rho^(1/dim); 0: not known yet
 
-  double trend_rho, trend_e, trend_v[3];
+  // of solids: rates of density and energy, and acceleration, at the begin of the last step; NaN: there were none
 
-  // of solids with gradient corrected: velocity with which the last forces did work (of what others move
-  // where it was then), density they belong to (else 0), and what L has in its rate (0 between steps)
-
-  double working[3], settled, stretch;
-  double step;    // that ended with the last forces; 0: none
+  double old_drho = NAN, old_de = 0.0, old_a[3] = {0.0, 0.0, 0.0};
+  double v_work[3] = {0.0, 0.0, 0.0};    // velocity with which the last forces did work
+  double x_before[3] = {0.0, 0.0,
+                        0.0};    // place at the end of the last step, if another fix moves it
+  double new_rho =
+      0.0;              // density at the end of the step that led to the last forces; 0: of a fluid
+  double step = 0.0;    // that ended with the last forces; 0: none
 };
 
 class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::EnergyCarrier {
@@ -50,7 +55,7 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   int setmask() override;
   void init() override;
   void setup_pre_force(int) override;
-  void pre_force(int) override {}
+  void pre_force(int) override;
   void post_integrate() override;
   void setup(int) override;
   void initial_integrate(int) override;
@@ -64,22 +69,22 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   double compute_scalar() override;
   double compute_vector(int) override;
 
-  // for pair hvi/sph, solids with gradient corrected: the velocity of the end of the step, as
-  // extrapolated; the step, also in the setup of a run that goes on; whether density and stress are
-  // those of its begin; density with div v of its middle; stress, when all have density and trial stress
+  // for the scheme of solids: velocity of the end of the step, as extrapolated, with which forces do work; the step,
+  // also in the setup of a run that goes on; whether density and stress are to be advanced by it, or are those of
+  // its end; the density of its end, with the divergence of velocity in its middle
 
-  const double *working_velocity(int i) const;
+  const double *work_velocity(int i) const;
   double step() const { return last; }
   bool is_due() const { return due; }
-  double settle_density(int i, double div);
+  double advance_density(int i, double div);
+  void advanced() { due = false; }
 
   // for fix hvi/fem: a particle in an element is moved by it, with this velocity at the end of the step;
   // when it is free in the middle of a step, it goes on with density and energy as they are, the latter with de
   // beyond the middle
 
-  void carry(int i, const double *working);
+  void set_work_velocity(int i, const double *v);
   void let_go(int i, double de);
-  void settle_solids();
 
   double sleep() const { return quiet; }    // differences that count as none; 0: nothing sleeps
   bool relative_lists() const { return relative; }
@@ -96,18 +101,20 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
 
   class FixHVIStore *store;    // materials, and records of the last forces
   class FixHVILedger *ledger;
-  class FixHVIJohnsonCook *strength;    // of solids, which it integrates when asked to
+  class FixHVIJohnsonCook *strength;    // of solids; null: there are none
+  HVI::SphStep *evaluation;             // of the pair style
   double dtv, dtf;
-  double power;      // viscous, of the last force evaluation
-  double push[3];    // of mirror planes, likewise
-  double last;       // step, of which forces are the end
-  bool due;          // density and stress of solids are those of the begin of the step
-  int stepping;      // in a run, so that the state is the one the last step left
-  int wallbit;       // groups of particles that are meant to be integrated by nobody
-  int follow;        // particles outside the group are moved by fixes that do not know vest
-  int checked;       // warned of what may be wrong: once per run, not again with pre no
-  double quiet;      // parts of the speed of sound
-  bool relative;     // lists are made anew by relative motion
+  double power;                     // viscous, of the last force evaluation
+  double push[3];                   // of mirror planes, likewise
+  double last;                      // step, of which forces are the end
+  bool due;                         // density and stress of solids are those of its begin
+  std::vector<double> setup_rho;    // in a setup: of the rates that forces are asked for
+  int stepping;                     // in a run, so that the state is the one the last step left
+  int wallbit;                      // groups of particles that are meant to be integrated by nobody
+  int follow;       // particles outside the group are moved by fixes that do not know vest
+  int checked;      // warned of what may be wrong: once per run, not again with pre no
+  double quiet;     // parts of the speed of sound
+  bool relative;    // lists are made anew by relative motion
 
   bool moves(int) const;
   bool integrates(int) const;
@@ -118,6 +125,7 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   void reflect();
   bool remembers(int) const;
   void keep_places();
+  double first_half_solid(int, double dtfm);
   double missed_work(int) const;
   double missed_kick(int) const;
   uint64_t fingerprint(int) const;

@@ -150,11 +150,7 @@ std::string HVISphReport::terms() const
   if (set.density) text += ", interface density dissipation";
   if (set.variable) text += ", variable h";
   if (!set.energy) text += ", no energy equation";
-  if (solid)
-    text += set.gradient == HVI::SphSettings::CORRECTED
-        ? ", stress, corrected forces"
-        : fmt::format(", stress, {} velocity gradient",
-                      set.gradient == HVI::SphSettings::LAW ? "corrected" : "plain");
+  if (solid) text += ", stress, corrected forces";
   if (set.laws.art_eps > 0.0) text += ", artificial stress";
   if (set.mirror.planes) text += ", mirror planes";
   return text;
@@ -276,7 +272,7 @@ void HVISphReport::warn() const
                      itype, row.neighbors, NEIGHBORS_LEAST[set.laws.dim]);
     const double sum = set.laws.dim == 1 ? gradient_sum(set.kernel, set.h[itype] / row.spacing)
                                          : 1.0;
-    const bool exact = set.riemann || (solid && set.gradient == HVI::SphSettings::CORRECTED);
+    const bool exact = set.riemann || solid;
     if (!exact && std::fabs(sum - 1.0) > GRADIENT_OFF)
       error->warning(
           FLERR,

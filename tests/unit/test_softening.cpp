@@ -48,34 +48,14 @@ SolidInput sheared(double rate, double size)
   return in;
 }
 
-void step(const SolidModel &model, SolidState &s, const SolidInput &in, double dt, bool whole,
-          bool begin)
+void step(const SolidModel &model, SolidState &s, const SolidInput &in, double dt)
 {
+  model.begin_step(s, in);
   SolidState *const list[] = {&s};
-  if (whole) {
-    model.present(s, in);
-    model.try_out(s, in.L, dt);
-    EXPECT_EQ(model.whole_step(1, list, &in, dt), -1);
-    return;
-  }
-  if (begin || !model.ready(s)) model.prepare(s, in, begin);
-  model.first_half(s, in, dt);
-  EXPECT_EQ(model.second_half(1, list, &in, dt), -1);
+  EXPECT_EQ(model.advance(1, list, &in, dt), -1);
 }
 
 }    // namespace
-
-// dp/de/rho is (g0 + a mu) rho0/rho: it may be largest where matter is thin, or dense
-
-TEST(SolidModel, LargestGamma)
-{
-  const auto gamma = [](const std::string &eos) {
-    return made(eos + PERFECT, options(Spall::NONE, false))->gamma();
-  };
-  EXPECT_NEAR(gamma(EOS), (2.0 - 0.4 * 0.5) / 0.6, 1e-9);
-  EXPECT_NEAR(gamma("eos polynomial\nrho0 2700\nA1 70e9\nT1 70e9\nB0 3\nB1 15\ncp 900\n"),
-              (3.0 + 0.6 * 15.0) / 1.6, 1e-9);
-}
 
 TEST(SolidModel, LargestSize)
 {
@@ -94,33 +74,32 @@ TEST(Softening, EnergyPerArea)
   const double u_f = 20e-6;
   const auto model = made(EOS + PERFECT + DAMAGE + "u_f 20e-6\n", options(Spall::NONE, true));
   ASSERT_TRUE(model->softens() && model->has_size());
-  for (bool whole : {false, true})
-    for (double size : {5e-6, 50e-6, 500e-6}) {
-      SolidInput in = sheared(1e5, size);
-      SolidState s = SolidModel::blank();
-      model->start(s, in, true);
-      const double end = 0.2 + u_f / size, dt = end * 1e-4 / 1e5;
-      double worst = 0.0, last = 0.0;
-      int n = 0;
-      for (; !s.failed(); n++) {
-        ASSERT_LT(n, 100000);
-        step(*model, s, in, dt, whole, n == 0);
-        if (s.failed()) break;
-        EXPECT_EQ(s.damage > 0.0, s.initiation >= 1.0 && s.eps > last && last > 0.0);
-        if (s.initiation >= 1.0) last = last > 0.0 ? last : s.eps;
-        const double left = 1.0 - std::max(0.0, (s.eps - 0.2) * size / u_f);
-        if (s.eps > 1e-3) worst = std::max(worst, std::fabs(von_mises(s.S) / Y - left));
-      }
-      EXPECT_NEAR(s.eps, end, 4e-4 * end);
-      EXPECT_NEAR(s.heat * RHO * size, Y * (0.2 * size + 0.5 * u_f),
-                  1e-3 * Y * (0.2 * size + 0.5 * u_f));
-      EXPECT_LT(worst, 1e-3);
-      EXPECT_NEAR(s.damage, 1.0, 1e-3);
-      EXPECT_GE(s.damage, 1.0);
-      EXPECT_NEAR(s.initiation, 1.0, 1e-3);
-      EXPECT_EQ(von_mises(s.S), 0.0);
-      EXPECT_EQ(s.spalled, 0.0);
+  for (double size : {5e-6, 50e-6, 500e-6}) {
+    SolidInput in = sheared(1e5, size);
+    SolidState s = SolidModel::blank();
+    model->start(s, in, true);
+    const double end = 0.2 + u_f / size, dt = end * 1e-4 / 1e5;
+    double worst = 0.0, last = 0.0;
+    int n = 0;
+    for (; !s.failed(); n++) {
+      ASSERT_LT(n, 100000);
+      step(*model, s, in, dt);
+      if (s.failed()) break;
+      EXPECT_EQ(s.damage > 0.0, s.initiation >= 1.0 && s.eps > last && last > 0.0);
+      if (s.initiation >= 1.0) last = last > 0.0 ? last : s.eps;
+      const double left = 1.0 - std::max(0.0, (s.eps - 0.2) * size / u_f);
+      if (s.eps > 1e-3) worst = std::max(worst, std::fabs(von_mises(s.S) / Y - left));
     }
+    EXPECT_NEAR(s.eps, end, 4e-4 * end);
+    EXPECT_NEAR(s.heat * RHO * size, Y * (0.2 * size + 0.5 * u_f),
+                1e-3 * Y * (0.2 * size + 0.5 * u_f));
+    EXPECT_LT(worst, 1e-3);
+    EXPECT_NEAR(s.damage, 1.0, 1e-3);
+    EXPECT_GE(s.damage, 1.0);
+    EXPECT_NEAR(s.initiation, 1.0, 1e-3);
+    EXPECT_EQ(von_mises(s.S), 0.0);
+    EXPECT_EQ(s.spalled, 0.0);
+  }
 }
 
 // without u_f it fails at D = 1, without a trace of initiation, and needs no size
@@ -136,8 +115,8 @@ TEST(Softening, OffByDefault)
   SolidState t = s;
   for (int n = 0; !s.failed(); n++) {
     ASSERT_LT(n, 1000);
-    step(*model, s, in, 1e-8, false, n == 0);
-    step(*zero, t, in, 1e-8, false, n == 0);
+    step(*model, s, in, 1e-8);
+    step(*zero, t, in, 1e-8);
     EXPECT_EQ(memcmp(&s, &t, sizeof(s)), 0);
     EXPECT_EQ(s.initiation, 0.0);
     if (!s.failed() && s.eps > 1e-2) { EXPECT_NEAR(von_mises(s.S), Y, 1e-6 * Y); }
@@ -153,17 +132,14 @@ TEST(Softening, Unloading)
   SolidInput in = sheared(1e5, 50e-6);
   SolidState s = SolidModel::blank();
   model->start(s, in, true);
-  int n = 0;
-  for (; s.damage < 0.5; n++) step(*model, s, in, 1e-9, false, n == 0);
+  while (s.damage < 0.5) step(*model, s, in, 1e-9);
   in.L.xy = -1e5;
-  step(*model, s, in, 1e-9, false, false);    // begins with the rate of before
   const double D = s.damage, eps = s.eps;
-  for (int k = 0; k < 30; k++)
-    step(*model, s, in, 1e-9, false, false);    // 1.7e-3 would be elastic
+  for (int k = 0; k < 30; k++) step(*model, s, in, 1e-9);    // elastic: 66 would be
   EXPECT_EQ(s.damage, D);
   EXPECT_EQ(s.eps, eps);
   EXPECT_LT(von_mises(s.S), 0.4 * Y);
-  for (int k = 0; k < 300; k++) step(*model, s, in, 1e-9, false, false);
+  for (int k = 0; k < 300; k++) step(*model, s, in, 1e-9);
   EXPECT_GT(s.damage, D);
   EXPECT_NEAR(von_mises(s.S), (1.0 - s.damage) * Y, 1e-3 * Y);
 }
@@ -178,10 +154,10 @@ TEST(Softening, BesideVoids)
   SolidInput in = sheared(1e5, 50e-6);
   SolidState s = SolidModel::blank();
   model->start(s, in, true);
-  for (int n = 0; s.damage < 0.3; n++) step(*model, s, in, 1e-9, false, n == 0);
+  while (s.damage < 0.3) step(*model, s, in, 1e-9);
   s.voids.D = 0.4;
   const double D = s.damage;
-  step(*model, s, in, 1e-9, false, false);
+  step(*model, s, in, 1e-9);
   EXPECT_NEAR(von_mises(s.S), 0.6 * (1.0 - D) * Y, 1e-9 * Y);
 }
 
@@ -204,7 +180,7 @@ std::vector<SolidState> stretched(const SolidModel &model, std::int64_t id)
   for (int n = 0; n < 4000 && !s.failed(); n++) {
     in.rho = RHO * std::exp(-1e5 * dt * n);
     in.p = 5240.0 * 5240.0 * (in.rho - RHO);
-    step(model, s, in, dt, n % 2, n == 0);
+    step(model, s, in, dt);
     out.push_back(s);
   }
   return out;
@@ -289,7 +265,7 @@ TEST(Scatter, ThresholdsOfSpall)
         in.id = id;
         in.p = -1e12;
         EXPECT_DOUBLE_EQ(scattered->pressure(got.back(), in), -f * 1.2e9);
-        EXPECT_TRUE(scattered->looks() && scattered->looks(got.back()));
+        EXPECT_TRUE(scattered->looks(got.back()));
       } else
         EXPECT_TRUE(got.back().failed());
     }
@@ -314,7 +290,7 @@ TEST(Scatter, ThresholdOfDamage)
         in.id = 77;
         SolidState s = SolidModel::blank();
         model->start(s, in, true);
-        for (int n = 0; !s.failed() && n < 100000; n++) step(*model, s, in, 1e-9, false, n == 0);
+        for (int n = 0; !s.failed() && n < 100000; n++) step(*model, s, in, 1e-9);
         double want = 0.2 * weibull_factor(12, 77, 5.0);
         if (reference > 0.0) want *= std::pow(size / reference, -dim / 5.0);
         EXPECT_NEAR(s.eps, want, 2e-3 * want);

@@ -23,11 +23,6 @@ namespace {
 
   constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
-  Deviator elastic_rate(const SolidState &s, const SolidInput &in)
-  {
-    return jaumann_rate(in.L, s.shear, s.seen.S);
-  }
-
   void add(Deviator &s, double dt, const Deviator &r)
   {
     s.xx += dt * r.xx;
@@ -115,7 +110,6 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
   const double little = 1.0e-4 * eos.c0() * eos.c0();
   model->cp = little / (eos.temperature(eos.rho0(), little) - model->T0);
   model->take_energy(material);
-  model->find_gamma();
   if (model->softens()) {
     const Conditions rest = {model->rho0, model->rho0, 0.0,
                              options.thermal ? model->T0 : NOT_A_NUMBER};
@@ -175,28 +169,6 @@ void SolidModel::take_energy(const Material &material)
         law->yield(0.0, 0.0, {rho0, rho0, 0.0, thermal ? T0 : NOT_A_NUMBER});
 }
 
-/* ----------------------------------------------------------------------
-   The largest dp/de/rho from 0.6 to 1.6 times the density, and energies up to 0.1 c0^2; 1 km/s is 0.02
-------------------------------------------------------------------------- */
-
-void SolidModel::find_gamma()
-{
-  const double csq = eos->c0() * eos->c0();
-  for (int k = 6; k <= 16; k++) {
-    const double rho = 0.1 * k * rho0;
-    double lower = 0.0, p0, p, c;
-    bool known = eos->evaluate(rho, lower, p0, c);
-    for (double part : {1e-4, 1e-3, 1e-2, 3e-2, 0.1}) {
-      const double upper = part * csq;
-      const bool now = eos->evaluate(rho, upper, p, c);
-      if (known && now) steepest = std::max(steepest, (p - p0) / (rho * (upper - lower)));
-      known = now;
-      lower = upper;
-      p0 = p;
-    }
-  }
-}
-
 // Whether it spalls at the end of this step, under the pressure of the law.  limit: the factor of
 // thresholds, which is to an impulse as if stress were divided by it.
 
@@ -226,15 +198,15 @@ double SolidModel::grow_voids(SolidState &s, const SolidInput &in, double limit,
 
 // with the stress of the end of the step; with softening its plastic strain counts in the next
 
-void SolidModel::grow_damage(SolidState &s, const SolidInput &in, const Conditions &c, double d_eps,
-                             double dt) const
+void SolidModel::grow_damage(SolidState &s, const SolidInput &in, const Conditions &c, double yield,
+                             double d_eps, double dt) const
 {
   if (softens() && s.initiation >= 1.0) {
     s.damage += in.size * d_eps / u_f;
     return;
   }
   double &D = softens() ? s.initiation : s.damage;
-  D += fracture->increment(d_eps, dt, c.p, s.yield, law->homologous_temperature(c), scatter(in));
+  D += fracture->increment(d_eps, dt, c.p, yield, law->homologous_temperature(c), scatter(in));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -242,9 +214,8 @@ void SolidModel::grow_damage(SolidState &s, const SolidInput &in, const Conditio
 SolidState SolidModel::blank()
 {
   SolidState s = {};
-  s.seen.p_min = s.least = -NO_LIMIT;
-  s.seen.shear = UNSEEN;
-  s.yield = UNKNOWN;
+  s.before = {-NO_LIMIT, UNSEEN};
+  s.p_min = -NO_LIMIT;
   return s;
 }
 
@@ -265,97 +236,37 @@ const SolidModel::Begun *SolidModel::misread(const SolidModel *model, const Soli
 
 void SolidModel::liquefy(SolidState &s)
 {
-  s.yield = UNKNOWN;
-  s.seen = {s.S, -NO_LIMIT, s.shear};
+  s.before = {-NO_LIMIT, s.shear};
 }
 
 /* ---------------------------------------------------------------------- */
 
-// The limit that was seen is that of this run.  It was that of the sound, if it was below 0, even of who has
-// failed since.
+// The limit before the last step is that of this run.  It was that of sound matter, if it was below 0, even
+// where that has failed since.
 
 void SolidModel::start(SolidState &s, SolidInput in, bool anew) const
 {
   if (!anew && started(s)) {
-    if (!with_voids && s.seen.p_min < 0.0) s.seen.p_min = closed(false, in);
+    if (!with_voids && s.before.p_min < 0.0) s.before.p_min = closed(false, in);
     return;
   }
   in.p = 0.0;    // there is no pressure yet
   if (s.shear == 0.0 && !s.failed()) s.shear = law->shear_modulus(conditions(s, in));
-  s.yield = UNKNOWN;
-  s.seen = {s.S, p_min(s, in), s.shear};
+  s.before = {p_min(s, in), s.shear};
 }
 
-// begin: a run begins, so the rate of S is not that of the step before
+// the least pressure is that of matter without voids: inactive particles keep it
 
-void SolidModel::prepare(SolidState &s, const SolidInput &in, bool begin) const
+void SolidModel::begin_step(SolidState &s, const SolidInput &in) const
 {
-  if (s.failed()) return;
-  if (begin) s.carried = elastic_rate(s, in);
-  if (s.yield == UNKNOWN)
-    s.yield = s.rate > 0.0 ? von_mises(s.S) : intact(s) * law->yield(s.eps, 0.0, conditions(s, in));
+  s.before = {closed(s.failed(), in), s.shear};
 }
 
-void SolidModel::first_half(SolidState &s, const SolidInput &end, double dt) const
-{
-  Deviator ahead = s.S;
-  if (!s.failed()) {
-    const Deviator dS = s.carried;
-    s.carried = s.S;
-    add(s.carried, 0.5 * dt, dS);
-    add(ahead, dt, dS);
-    const double stress = von_mises(ahead);
-    if (stress > s.yield) ahead = scaled(ahead, s.yield / stress);
-  }
-  const SpallVoids::State kept = s.voids;
-  const double least = grow_voids(s, end, with_voids ? threshold(end) : 1.0, dt);
-  s.voids = kept;
-  s.seen = {ahead, least, s.shear};
-}
+/* ----------------------------------------------------------------------
+   The trial stress turns with S of the middle of the step: so S keeps its size to fourth order
+------------------------------------------------------------------------- */
 
-void SolidModel::present(SolidState &s, const SolidInput &in) const
-{
-  s.seen = {s.S, closed(s.failed(), in), s.shear};
-}
-
-void SolidModel::rest(SolidState &s)
-{
-  s.carried = Deviator();
-  s.rate = 0.0;
-}
-
-int SolidModel::second_half(int n, SolidState *const *state, const SolidInput *in, double dt) const
-{
-  const auto trial_of = [dt](SolidState &s, const SolidInput &input) {
-    Deviator trial = s.carried;
-    s.carried = elastic_rate(s, input);
-    add(trial, 0.5 * dt, s.carried);
-    return trial;
-  };
-  return settle(n, state, in, dt, trial_of);
-}
-
-// S turns with that of the middle of the step: so it keeps its size to fourth order
-
-void SolidModel::try_out(SolidState &s, const VelocityGradient &L, double dt) const
-{
-  Deviator middle = s.S;
-  add(middle, 0.5 * dt, jaumann_rate(L, s.shear, s.S));
-  s.carried = s.S;
-  add(s.carried, dt, jaumann_rate(L, s.shear, middle));
-}
-
-int SolidModel::whole_step(int n, SolidState *const *state, const SolidInput *in, double dt) const
-{
-  const auto trial_of = [](SolidState &s, const SolidInput &) {
-    return s.carried;
-  };
-  return settle(n, state, in, dt, trial_of);
-}
-
-template <class Trial>
-int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, double dt,
-                       const Trial &trial_of) const
+int SolidModel::advance(int n, SolidState *const *state, const SolidInput *in, double dt) const
 {
   Conditions c[LANES] = {};
   Deviator trial[LANES] = {};
@@ -366,14 +277,17 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
   for (int k = 0; k < n; k++) {
     SolidState &s = *state[k];
     SolidInput now = in[k];
+    Deviator middle = s.S;
+    add(middle, 0.5 * dt, jaumann_rate(now.L, s.shear, s.S));
+    trial[k] = s.S;
+    add(trial[k], dt, jaumann_rate(now.L, s.shear, middle));
     begun[k] = with_voids && s.voids.D > BEGUN;
     limit[k] = threshold(now);
-    s.least = grow_voids(s, now, limit[k], dt);
-    now.p = clip_tension(now.p, s.least);
+    s.p_min = grow_voids(s, now, limit[k], dt);
+    now.p = clip_tension(now.p, s.p_min);
     c[k] = conditions(s, now);
     shear[k] = s.shear = law->shear_modulus(c[k]);
     eps[k] = s.eps;
-    trial[k] = trial_of(s, in[k]);
     const double left = intact(s);
     if (left == 1.0) continue;
 
@@ -388,16 +302,16 @@ int SolidModel::settle(int n, SolidState *const *state, const SolidInput *in, do
   for (int k = 0; k < n; k++) {
     SolidState &s = *state[k];
     if (std::isnan(plastic[k].d_eps)) return k;
-    const double left = intact(s);
+    const double left = intact(s), yield = left * plastic[k].yield;
     s.S = scaled(plastic[k].S, left);
-    s.yield = left * plastic[k].yield;
     s.eps += plastic[k].d_eps;
     s.heat += left * plastic[k].work / in[k].rho;
     s.rate = plastic[k].d_eps / dt;
-    if (fracture && plastic[k].d_eps > 0.0) grow_damage(s, in[k], c[k], plastic[k].d_eps, dt);
+    if (fracture && plastic[k].d_eps > 0.0)
+      grow_damage(s, in[k], c[k], yield, plastic[k].d_eps, dt);
     if (s.damage >= 1.0) {
       crush(s);
-    } else if (parts(s, in[k].rho, c[k].p, s.yield, limit[k], dt)) {
+    } else if (parts(s, in[k].rho, c[k].p, yield, limit[k], dt)) {
       s.spalled = 1.0;
       crush(s);
     }
@@ -423,8 +337,6 @@ void SolidModel::reflect(SolidState &s, int op)
 {
   const Reflection reflection(op);
   reflection.symmetric(s.S);
-  reflection.symmetric(s.seen.S);
-  reflection.symmetric(s.carried);
 }
 
 }    // namespace HVI

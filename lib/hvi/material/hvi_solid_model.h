@@ -31,21 +31,13 @@ namespace HVI {
 struct SolidState {
   Deviator S;    // deviatoric stress, of the time of velocity, density and energy
 
-  // what others see, in the forces: extrapolated to the end of the step, or, with whole steps, of its
-  // begin; changes before forces only
+  // at the begin of the step that has led here: by these forces tell rubble, and signals
 
-  struct Seen {
-    Deviator S;
+  struct {
     double p_min, shear;
-  } seen;
+  } before;
 
-  double least;    // pressure borne at the end of the last step, if it has not failed in it
-
-  // what one half of a step leaves to the other: after the first half S of the middle of the step,
-  // the trial stress so far; after the second half the rate of S.  Of a whole step the trial stress
-
-  Deviator carried;
-
+  double p_min;         // least pressure borne at the end of that step, if it has not failed in it
   double eps;           // equivalent plastic strain
   double damage;        // failed from 1 on
   double initiation;    // 1: damage has begun, by a law with softening
@@ -53,9 +45,7 @@ struct SolidState {
   double heat;          // plastic work per mass
   double shear;         // modulus
   double rate;          // of plastic strain
-  double yield;         // von Mises's stress on the yield surface of S
-
-  double expansion;    // -rho'/rho when it began to fail
+  double expansion;     // -rho'/rho when it began to fail
 
   SpallVoids::State voids;    // with the impulse of Tuler & Butcher only D, the part of K used up
 
@@ -65,8 +55,8 @@ struct SolidState {
 // where it is, and what its surroundings do to it
 
 struct SolidInput {
-  double rho, e, p;    // e per mass; p of the equation of state
-  VelocityGradient L;
+  double rho, e, p;          // e per mass; p of the equation of state
+  VelocityGradient L;        // of the middle of the step
   std::int64_t id;           // of the scatter of thresholds
   double size;               // spacing, for displacements at failure; see has_size()
   double expansion = 0.0;    // -rho'/rho
@@ -88,23 +78,11 @@ struct SolidOptions {
 };
 
 /* ----------------------------------------------------------------------
-   Strength, damage, spall and temperature of one material over a step, in two halves:
+   Strength, damage, spall and temperature of one material over a step of the leapfrog:
 
-     prepare()        if a run begins or the yield surface is not known
-     first_half()     half of the elastic trial stress; seen = S extrapolated to the end of the
-                      step, back to the yield surface, without plastic strain, and the tension that
-                      voids leave at the density and energy extrapolated, without keeping them
-     ... forces, which give the velocity gradient of the end of the step ...
-     second_half()    the other half of the trial stress, voids, radial return, damage, spall
-
-   or at once, before the forces:
-
-     present()        seen = S of the begin of the step, and the least pressure of what has no voids:
-                      what sleeps goes on showing that
-     ... the velocity gradient of the middle of the step ...
-     try_out()        the trial stress
-     ... density, energy, pressure of the end of the step ...
-     whole_step()     all of the above; seen stays, for forces of this time that are asked for again
+     begin_step()     keeps the least pressure and the modulus of the begin of the step
+     ... the velocity gradient of its middle; density, energy, pressure of its end ...
+     advance()        stress t -> t + dt: trial stress, voids, radial return, damage, spall
 
    What has failed is rubble: it bears no shear and no tension, and keeps its state.
 
@@ -135,17 +113,15 @@ class SolidModel {
   bool softens() const { return u_f > 0.0; }
   double softening_displacement() const { return u_f; }
 
-  // Below that size, 3 G u_f/Y at rest, elastic strain can follow the stress of what softens.  The largest
-  // dp/de/rho of the equation of state around rest.
+  // Below that size, 3 G u_f/Y at rest, elastic strain can follow the stress of what softens
 
   double largest_size() const { return biggest; }
-  double gamma() const { return steepest; }
 
   // of something new, without stress; of something that has no model any more: a liquid
 
   static SolidState blank();
   static void liquefy(SolidState &);
-  static bool started(const SolidState &s) { return s.seen.shear != UNSEEN; }
+  static bool started(const SolidState &s) { return s.before.shear != UNSEEN; }
 
   // Laws that take time share numbers of the state.  What one of them has begun there that this model, or a
   // liquid (nullptr), would drop or take for its own; nullptr: nothing.  Rubble is rubble by any law.
@@ -165,30 +141,19 @@ class SolidModel {
 
   void start(SolidState &, SolidInput, bool anew) const;
 
-  bool ready(const SolidState &s) const { return s.yield != UNKNOWN || s.failed(); }
-  void prepare(SolidState &, const SolidInput &, bool begin) const;
-
-  void first_half(SolidState &, const SolidInput &ahead, double dt) const;
-  void present(SolidState &, const SolidInput &) const;
-  void try_out(SolidState &, const VelocityGradient &L, double dt) const;
-
-  // in place of the second half or of the whole, where nothing changes
-
-  static void rest(SolidState &);
+  void begin_step(SolidState &, const SolidInput &) const;
 
   // of n, not more than LANES, that have not failed.  Returns the first whose stress is not a number;
   // -1: all is well.
 
-  int second_half(int n, SolidState *const *, const SolidInput *, double dt) const;
-  int whole_step(int n, SolidState *const *, const SolidInput *, double dt) const;
+  int advance(int n, SolidState *const *, const SolidInput *, double dt) const;
 
   double temperature(const SolidState &, const SolidInput &) const;    // NaN: unknown
 
-  // Has voids.  Whether anything of the input but p counts below; whether it may.
+  // Has voids.  Whether anything of the input but p counts below.
 
   bool open(const SolidState &s) const { return with_voids && s.voids.phi > 0.0 && !s.failed(); }
   bool looks(const SolidState &s) const { return open(s) || (own_limit() && !s.failed()); }
-  bool looks() const { return with_voids || own_limit(); }
   bool own_limit() const { return spall == Spall::PRESSURE && reference > 0.0; }
 
   // the least pressure borne, and what is left of p; see clip_tension()
@@ -222,14 +187,13 @@ class SolidModel {
   static void reflect(SolidState &, int op);
 
  private:
-  static constexpr double UNKNOWN = -1.0;    // yield
-  static constexpr double UNSEEN = -1.0;     // seen.shear, before the first forces
-  static constexpr double BEGUN = 0.01;      // damage by voids from which on it fails
+  static constexpr double UNSEEN = -1.0;    // before.shear, before the first forces
+  static constexpr double BEGUN = 0.01;     // damage by voids from which on it fails
 
   std::unique_ptr<Strength> law;
   std::unique_ptr<Damage> fracture;
   double u_f = 0.0;    // of fracture
-  double biggest = NO_LIMIT, steepest = 0.0;
+  double biggest = NO_LIMIT;
   std::shared_ptr<const Eos> eos;
   double rho0;
   Spall spall;
@@ -247,10 +211,9 @@ class SolidModel {
   SolidModel() = default;
   std::string take_spall(const Material &);
   void take_energy(const Material &);
-  void find_gamma();
   bool parts(SolidState &, double rho, double p, double Y, double limit, double dt) const;
   double grow_voids(SolidState &, const SolidInput &, double limit, double dt) const;
-  void grow_damage(SolidState &, const SolidInput &, const Conditions &, double d_eps,
+  void grow_damage(SolidState &, const SolidInput &, const Conditions &, double yield, double d_eps,
                    double dt) const;
 
   // what voids and damage have left of the strength
@@ -277,8 +240,6 @@ class SolidModel {
                           own_limit() && !failed ? threshold(in) * sigma_p : sigma_p);
   }
   Conditions conditions(const SolidState &, const SolidInput &) const;
-  template <class Trial>
-  int settle(int n, SolidState *const *, const SolidInput *, double dt, const Trial &) const;
 };
 
 }    // namespace HVI

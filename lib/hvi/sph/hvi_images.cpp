@@ -52,17 +52,9 @@ void Images::fill(const MirrorPlanes &mirror, const SphView &records) const
     records.state[a] = records.state[image.owner];
     reflect.velocity(records.state[a]);
     records.rates[a] = {};
-    if (records.stress) {
-      records.stress[a] = records.stress[image.owner];
-      reflect.symmetric(records.stress[a]);
-      records.gradv[a] = {};
-    }
+    if (records.gradv) records.gradv[a] = {};
     if (records.contact) records.contact[a] = {};
     if (records.slopes) records.slopes[a] = {};
-    if (records.art && !records.traction) {
-      records.art[a] = records.art[image.owner];
-      reflect.symmetric(records.art[a]);
-    }
     a++;
   }
 }

@@ -29,8 +29,7 @@ struct SphSettings {
   bool variable = false;             // h
   double hmin = 0.5, hmax = 1.25;    // its bounds, in units of the start value
   bool energy = true, density = false, riemann = false;
-  enum Gradient { PLAIN, LAW, CORRECTED } gradient = CORRECTED;
-  bool whole = false;    // gradient corrected, and there are solids
+  bool solid = false;    // of a run: there is fix hvi/johnson-cook
   MirrorPlanes mirror;
   std::vector<double> h;    // by type, 0: not a particle of this style
 
@@ -47,25 +46,20 @@ struct SphSettings {
    The packed records of SPH particles, in one place.
 
    record     of                        written by, when                               read by
-   place      owned, ghosts, images     pair hvi/sph, before its loop                  loop, its time step
-   state      owned, ghosts, images     pair hvi/sph, before its loop                  loop, its time step, pressure()
-   stress     owned                     pair, from the fix that integrates it          loop
-              ghosts, images            pair, forward communication; reflected
-                                        (with traction: p_min and shear only)
-   art        owned, ghosts, images     pair, after state and stress; or, with         loop
-                                        traction, after that, forward comm., reflected
+   place      owned, ghosts, images     HVIScheme::start()                             sweeps, time step
+   state      owned, ghosts, images     HVIScheme::start()                             sweeps, time step, pressure()
    slopes     owned, ghosts             first sweep; reverse, then forward comm.       second sweep
-   rates      owned, ghosts, images     loop; images folded back to owners             pair: f, drho, desph
-   gradv      owned, ghosts, images     loop; images folded, reverse communication     velocity_gradient()
+   rates      owned, ghosts, images     second sweep; images folded back to owners     HVIScheme: f, drho, desph
 
-   Solids with gradient corrected (records there are for them only):
+   Of solids only, by HVISchemeSolid:
    gradv      owned, ghosts, images     first sweep; folded, reverse; then L M^-1      second sweep (riemann),
               owned                     and M^-1 in place of M                         velocity_gradient()
-   contact    (the same of other bodies, and of rubble; then see correct_gradient())   find_traction()
-   traction,  owned                     pair: p, rho and v before, T from M^-1         second sweep, pressure(),
-   push                                 between the sweeps                             density()
-              ghosts, images            forward communication; reflected
-   rates      drho is written between the sweeps, without pairs
+   contact    (the same of other bodies, and of rubble; see correct_gradients())       find_tractions()
+   traction,  owned                     start(): p, rho, v; correct_gradients(),       second sweep, pressure(),
+   push                                 advance(), find_tractions()                    density(), divergence()
+   art        owned                     exchange()                                     second sweep
+   of both    ghosts, images            forward communication; reflected
+   rates      drho is written by advance() first, without pairs
 
    They hold from a force evaluation to the next exchange of particles, that is: through
    final_integrate and end_of_step, and through the initial_integrate that follows, unless a
@@ -81,20 +75,28 @@ class SphFields {
 
   // for the pair style
 
-  void choose(bool slopes, bool stress, bool art, bool whole,
-              bool bodies);           // which records the scene has
+  void choose(int terms);             // bits of SphScene: which records the scene has
   void grow(int n, int spare = 0);    // to hold n of each, if they do not: contents are lost
   const SphView &view() const { return records; }
-  std::string arrays() const;    // those of this scene, with bytes per particle: for people
-  double bytes_per_particle() const;
-  double bytes() const { return nmax * bytes_per_particle(); }
+  std::string arrays();    // those of this scene, with bytes per particle: for people
+  double bytes_per_particle();
+  double bytes() { return nmax * bytes_per_particle(); }
 
   // of the last forces, for fixes; owned particles, sums over this rank
 
   double pressure(int i) const;
   double density(int i) const { return traction ? traction[i].rho : state[i].rho; }
-  VelocityGradient velocity_gradient(int i) const;
-  const double *own_force(int i) const { return &rates[i].fx; }    // solids with gradient corrected
+
+  // of solids: velocity gradient of the middle of the step, its trace with all neighbors, which changes density;
+  // forces of SPH alone
+
+  VelocityGradient velocity_gradient(int i) const
+  {
+    const SphGradV &L = gradv[i];
+    return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
+  }
+  double divergence(int i) const { return traction[i].div; }
+  const double *own_force(int i) const { return &rates[i].fx; }
   bool asleep(int i) const { return (std::size_t) i < sleepers.size() && sleepers[i]; }
   // of particles in elements, owned and ghosts: their type, else 0; whether nothing acts on them.  Empty:
   // there are no elements
@@ -110,17 +112,19 @@ class SphFields {
 
  private:
   int nmax = 0;
-  bool has_slopes = false, has_stress = false, has_art = false, has_whole = false,
-       has_bodies = false;
+  int terms = 0;    // bits of SphScene
   SphView records;
+
   std::unique_ptr<SphPlace[]> place;
   std::unique_ptr<SphState[]> state;
   std::unique_ptr<SphRates[]> rates;
   std::unique_ptr<SphSlopes[]> slopes;
-  std::unique_ptr<SphStress[]> stress, art;
+  std::unique_ptr<SphStress[]> art;
   std::unique_ptr<SphGradV[]> gradv, contact;
   std::unique_ptr<SphTraction[]> traction;
   std::unique_ptr<SphPush[]> push;
+
+  template <class Each> void each_array(const Each &);
 };
 
 }    // namespace HVI

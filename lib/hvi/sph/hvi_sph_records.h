@@ -41,19 +41,19 @@ struct alignas(64) SphRates {
   double unused[2];
 };
 
-// of solids: deviatoric stress, which neighbors must know; velocity gradient L_ab = d v_a/d x_b, and what
-// it comes out as if L is 1
+// artificial stress of solids
 
 struct alignas(64) SphStress {
-  static constexpr int SENT = 8, FIRST_LIMIT = 6, LIMITS = 2;    // the last two numbers alone
+  static constexpr int SENT = 6;
   double xx, yy, zz, xy;
   double xz, yz;
-  double p_min;    // what pressure cannot fall below: 0 in rubble, see clip_tension()
-  double shear;    // modulus
+  double unused[2];
 };
 
+// of solids: velocity gradient L_ab = d v_a/d x_b, and what it comes out as if L is 1
+
 struct alignas(64) SphGradV {
-  static constexpr int SENT = 16, SENT_PLAIN = 15, SENT_L = 9;    // without nu; L only
+  static constexpr int SENT = 16, SENT_L = 9;    // all; L only
   double xx, xy, xz, yx;
   double yy, yz, zx, zy;
   double zz, mxx, myy,
@@ -70,10 +70,11 @@ struct alignas(64) SphTraction {
   double xx, xy, xz, yx;
   double yy, yz, zx, zy;
   double zz;
-  double p;              // pressure
-  double vx, vy, vz;     // velocity at that time, with which forces do work
-  double volume, rho;    // rho: of owned particles only
-  double unused;
+  double p;             // pressure
+  double vx, vy, vz;    // velocity at that time, with which forces do work
+  double volume;
+  double rho,
+      div;    // of owned particles only; div: trace of L with all neighbors, which changes the density
 };
 
 // the part of T that is a pressure, which also acts between bodies
@@ -118,11 +119,10 @@ struct SphView {
   SphState *state = nullptr;
   SphRates *rates = nullptr;
   SphSlopes *slopes = nullptr;    // dissipation riemann
-  SphStress *stress = nullptr;    // solids, as is the next
-  SphGradV *gradv = nullptr;
-  SphStress *art = nullptr;           // artificial stress
-  SphTraction *traction = nullptr;    // solids with gradient corrected
-  SphGradV *contact = nullptr;        // between bodies of those, as is the next
+  SphGradV *gradv = nullptr;      // solids, as are the next
+  SphTraction *traction = nullptr;
+  SphStress *art = nullptr;       // artificial stress
+  SphGradV *contact = nullptr;    // between bodies, as is the next
   SphPush *push = nullptr;
 };
 

@@ -236,7 +236,7 @@ namespace {
                 sph_riemann<Kernel, SCENE>(i, pi, r.state, r.slopes, n, laws, near, r.rates, sum);
           else
             overlaps = sph_interact<Kernel, SCENE>(i, pi, r.state, n, laws, near, r.rates, sum,
-                                                   r.stress, r.gradv, r.art);
+                                                   nullptr, nullptr, nullptr);
           if (overlaps)
             for (int m = 0; m < n; m++)
               if (near.d[m][0] == 0.0 && near.d[m][1] == 0.0 && near.d[m][2] == 0.0)
@@ -251,12 +251,11 @@ namespace {
      scenes share a loop, and 8 kernels do not make 200 of them.
   ------------------------------------------------------------------------- */
 
-  constexpr int H = SPH_OWN_H, B = SPH_BODIES, D = SPH_DENSITY, R = SPH_RIEMANN, S = SPH_STRENGTH,
-                A = SPH_ARTSTRESS, C = SPH_CORRECTED | SPH_STRENGTH, W = SPH_SPACINGS;
+  constexpr int H = SPH_OWN_H, B = SPH_BODIES, D = SPH_DENSITY, R = SPH_RIEMANN, A = SPH_ARTSTRESS,
+                C = SPH_CORRECTED | SPH_STRENGTH, W = SPH_SPACINGS;
 
   using Scenes =
-      std::integer_sequence<int, 0, H, B, H | B, H | B | D, R, R | H, R | H | B, R | H | B | W, S,
-                            S | B, S | H | B, S | H | B | D, S | H | B | A, S | H | B | D | A, C,
+      std::integer_sequence<int, 0, H, B, H | B, H | B | D, R, R | H, R | H | B, R | H | B | W, C,
                             C | B, C | H | B, C | H | B | D, C | H | B | D | A, C | R, C | R | B,
                             C | R | H | B, C | R | H | B | A>;
 

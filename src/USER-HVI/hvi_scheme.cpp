@@ -1,0 +1,425 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "hvi_scheme.h"
+
+#include "atom.h"
+#include "error.h"
+#include "fix_hvi_lists.h"
+#include "fix_hvi_sph.h"
+#include "force.h"
+#include "math_special.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using MathSpecial::square;
+
+/* ---------------------------------------------------------------------- */
+
+HVIScheme::HVIScheme(LAMMPS *lmp, const HVIPairTables &pairs_in) :
+    Pointers(lmp), pairs(pairs_in), store(FixHVIStore::find(lmp)), integrator(pairs.integrator),
+    fields(store->fields), set(fields.settings), work()
+{
+}
+
+/* ----------------------------------------------------------------------
+   what pairs differ in, and which terms they have: bits of SphScene
+------------------------------------------------------------------------- */
+
+void HVIScheme::choose(int terms, bool may_be_inactive)
+{
+  if (set.variable) terms |= HVI::SPH_OWN_H;
+  int first = 0;
+  for (int i = 1; i <= atom->ntypes; i++) {
+    if (!pairs.is_ours[i]) continue;
+    if (!first) first = i;
+    if (set.h[i] != set.h[first]) terms |= HVI::SPH_OWN_H;
+    for (int j = 1; j <= atom->ntypes; j++)
+      if (pairs.is_ours[j] &&
+          (pairs.tension[i][j] == 0.0 || pairs.visc_a[i][j] != pairs.visc_a[first][first] ||
+           pairs.visc_b[i][j] != pairs.visc_b[first][first]))
+        terms |= HVI::SPH_BODIES;
+  }
+  if (first) {
+    set.laws.h = set.h[first];
+    set.laws.a = pairs.visc_a[first][first];
+    set.laws.b = pairs.visc_b[first][first];
+  }
+  sweeps = HVI::make_sph_sweeps(set.kernel, terms);
+  fields.choose(sweeps->scene());
+  work.laws = set.laws;
+  work.visc_a = pairs.visc_a;
+  work.visc_b = pairs.visc_b;
+  work.tension = pairs.tension;
+  work.watcher = pairs.watcher;
+  work.kept = &kept;
+  find_quiet(may_be_inactive);
+}
+
+double HVIScheme::widest(int i, int j) const
+{
+  return 0.5 * (set.h[i] + set.h[j]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void HVIScheme::prepare()
+{
+  evaluate();
+  prepared = true;
+}
+
+void HVIScheme::start()
+{
+  if (set.mirror.planes) find_images();
+  const int nrecords = set.mirror.planes ? MAX(atom->nmax, images.end()) : atom->nmax;
+  fields.grow(nrecords, set.mirror.planes ? nrecords / 16 : 0);
+  find_inactive();
+  gather_limits();
+  gather_records();
+  choose_rows();
+  if (set.mirror.planes) images.fill(set.mirror, fields.view());
+
+  const NeighList &list = *pairs.style->list;
+  work.records = fields.view();
+  work.list = {(int) rows.size(), rows.data(), list.numneigh, list.firstneigh};
+  work.type = atom->type;
+  work.images = set.mirror.planes ? &images : nullptr;
+  work.embedded = fields.embedded.empty() ? nullptr : fields.embedded.data();
+  work.fastest = fastest;
+}
+
+void HVIScheme::forces(bool tally)
+{
+  if (!prepared) prepare();
+  prepared = false;
+  work.tally = tally;
+  sweeps->forces(work);
+  fastest = work.fastest /
+      (0.5 * set.support);    // half of the reach stands for h, for all kernels alike
+  if (set.mirror.planes) images.fold(work.records, force->newton_pair);
+  scatter();
+  forces_done();
+}
+
+/* ---------------------------------------------------------------------- */
+
+double HVIScheme::mass(int i) const
+{
+  return atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+}
+
+bool HVIScheme::is_ours(int i) const
+{
+  return pairs.is_ours[atom->type[i]] && !fields.is_idle(i);
+}
+
+/* ----------------------------------------------------------------------
+   owned and ghost particles: pressure and speed of sound of all that have a
+   material, whichever fix integrates them
+------------------------------------------------------------------------- */
+
+void HVIScheme::gather_records()
+{
+  const double *const *const x = atom->x, *const *const vest = atom->vest;
+  const double *const rho = atom->rho;
+  const int nall = atom->nlocal + atom->nghost;
+  const HVI::SphView &records = fields.view();
+  fastest = 0.0;
+  narrowest = HVI::NO_BOUND;
+  eos_states.assign(atom->ntypes + 1, EosState());
+
+  for (int i = 0; i < nall; i++) {
+    if (fields.is_idle(i)) continue;
+    records.rates[i] = {};
+    if (records.gradv) records.gradv[i] = {};
+    if (records.contact) records.contact[i] = {};
+    if (records.slopes) records.slopes[i] = {};
+    const int itype = atom->type[i];
+    if (!pairs.is_ours[itype]) continue;    // of another style in a hybrid
+
+    // undisturbed matter of a type is in one state: its pressure is known from the particle before
+
+    EosState &known = eos_states[itype];
+    const double e = atom->esph[i] / mass(i);
+    if (rho[i] != known.rho || e != known.e) {
+      const HVI::Eos &eos = *store->materials.of(itype)->eos;
+      known.rho = rho[i];
+      known.e = e;
+      if (!std::isfinite(e) || !eos.evaluate(rho[i], e, known.p, known.csq)) no_answer(i, rho[i]);
+      if (records.traction && eos.rho0() > 0.0) known.width = std::cbrt(rho[i] / eos.rho0());
+    }
+
+    HVI::SphPlace &place = records.place[i];
+    place.x = x[i][0];
+    place.y = x[i][1];
+    place.z = x[i][2];
+    place.h = set.variable ? set.smoothing_length(itype, rho[i], integrator->hscale(i))
+                           : set.h[itype];
+    narrowest = MIN(narrowest, place.h);
+
+    HVI::SphState &s = records.state[i];
+    s.vx = vest[i][0];
+    s.vy = vest[i][1];
+    s.vz = vest[i][2];
+    s.rho = rho[i];
+    s.type = itype;
+    s.c = std::sqrt(gather(i, known, s));
+    if (!(s.c <= fastest * place.h)) fastest = s.c / place.h;
+  }
+}
+
+void HVIScheme::no_answer(int i, double rho) const
+{
+  const int itype = atom->type[i];
+  error->one(FLERR,
+             "Pair hvi/sph: equation of state {} of particle {} (type {}) has no answer at "
+             "density {} and energy per mass {} at step {}",
+             store->materials.of(itype)->eos->name(), atom->tag[i], itype, rho,
+             atom->esph[i] / mass(i), update->ntimestep);
+}
+
+/* ----------------------------------------------------------------------
+   What counts as undisturbed, in parts of the speed of sound c: differences of velocity; of density;
+   of energy the root, for that of a stress goes with its square, so that it need not be asked for.
+------------------------------------------------------------------------- */
+
+void HVIScheme::find_quiet(bool can)
+{
+  const double eps = integrator && can ? integrator->sleep() : 0.0;
+  quiet = {};
+  quiet.rho.assign(atom->ntypes + 1, 0.0);
+  quiet.e = quiet.rho;
+  for (int itype = 1; itype <= atom->ntypes; itype++) {
+    if (!pairs.is_ours[itype] || eps == 0.0) continue;
+    const HVI::Eos &eos = *store->materials.of(itype)->eos;
+    const double rho0 = eos.rho0();
+    double p, csq;
+    if (!(rho0 > 0.0) || !eos.evaluate(rho0, 0.0, p, csq) || !(csq > 0.0) ||
+        std::fabs(p) > 1.0e-12 * rho0 * csq)
+      continue;
+    quiet.rho[itype] = rho0;
+    quiet.e[itype] = eps * eps * csq;
+    quiet.v = MIN(quiet.v, eps * std::sqrt(csq));
+  }
+  quiet.rho_part = eps;
+}
+
+/* ----------------------------------------------------------------------
+   cells in which nothing happens, and owned particles in them
+------------------------------------------------------------------------- */
+
+void HVIScheme::find_inactive()
+{
+  const HVI::RelativeMotion &motion = pairs.lists->cells();
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  std::vector<char> &sleepers = fields.sleepers;
+  sleepers.clear();
+  placed = motion.points() == nall;
+  if (!placed) return;
+
+  cells.start(motion);
+  for (int i = 0; i < nall; i++) {
+    const int itype = atom->type[i];
+    if (!pairs.is_ours[itype]) continue;
+    bool undisturbed =
+        std::fabs(atom->rho[i] - quiet.rho[itype]) <= quiet.rho_part * quiet.rho[itype] &&
+        std::fabs(atom->esph[i]) <= mass(i) * quiet.e[itype] && quiet.rho[itype] > 0.0;
+    for (int k = 0; k < 3; k++)
+      if (!std::isfinite(atom->vest[i][k]) ||
+          (set.mirror.has(k) && std::fabs(atom->vest[i][k]) > quiet.v))
+        undisturbed = false;
+    cells.add(motion.cell_of(i), atom->vest[i], !undisturbed);
+  }
+  cells.settle(motion, quiet.v);
+  if (!has_inactive()) return;
+
+  sleepers.resize(nlocal);
+  for (int i = 0; i < nlocal; i++)
+    sleepers[i] = pairs.is_ours[atom->type[i]] && cells.asleep(motion.cell_of(i));
+}
+
+/* ----------------------------------------------------------------------
+   the rows of the list that must be gone through: of active particles, and where these have sums over all of
+   their neighbors, of those next to them
+------------------------------------------------------------------------- */
+
+void HVIScheme::choose_rows()
+{
+  const NeighList &list = *pairs.style->list;
+  const std::vector<char> &sleepers = fields.sleepers;
+  const HVI::RelativeMotion &motion = pairs.lists->cells();
+  if (!sleepers.empty() && all_sums) cells.spread(motion);
+  rows.clear();
+  for (int ii = 0; ii < list.inum; ii++) {
+    const int i = list.ilist[ii];
+    if (fields.is_idle(i)) continue;
+    if (sleepers.empty() || (all_sums ? cells.near_awake(motion.cell_of(i)) : !sleepers[i]))
+      rows.push_back(i);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Heat is that of particles which fix hvi/sph integrates: what flows to others is
+   in no energy of theirs.
+------------------------------------------------------------------------- */
+
+void HVIScheme::scatter()
+{
+  double *const *const f = atom->f;
+  const HVI::SphRates *const rates = fields.view().rates;
+  const int n = atom->nlocal + (force->newton_pair ? atom->nghost : 0);
+  const int integrated = integrator ? integrator->groupbit : 0;
+
+  double heating = 0.0;
+  for (int i = 0; i < n; i++) {
+    if (fields.is_idle(i)) continue;
+    f[i][0] += rates[i].fx;
+    f[i][1] += rates[i].fy;
+    f[i][2] += rates[i].fz;
+    atom->drho[i] += rates[i].drho;
+    if (!set.energy) continue;
+    atom->desph[i] += rates[i].de;
+    if (atom->mask[i] & integrated) heating += rates[i].heat;
+  }
+  fields.viscous_power = heating;
+  for (int k = 0; k < 3; k++) fields.plane_force[k] = images.force[k];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void HVIScheme::find_images()
+{
+  double reachsq = 0.0;
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = 1; j <= atom->ntypes; j++)
+      if (pairs.is_ours[i] && pairs.is_ours[j] && pairs.style->cutsq[i][j] > 0.0)
+        reachsq = MAX(reachsq, square(std::sqrt(pairs.style->cutsq[i][j]) + neighbor->skin));
+
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++)
+      if (set.mirror.has(k) && pairs.is_ours[atom->type[i]] &&
+          set.mirror.depth(k, atom->x[i]) < 0.0)
+        error->one(FLERR,
+                   "Pair style hvi/sph: particle {} is beyond the mirror plane {} at step {}: fix "
+                   "hvi/sph does not integrate it, so does not put it back",
+                   atom->tag[i], "xyz"[k], update -> ntimestep);
+
+  images.find(set.mirror, atom->x, atom->type, pairs.is_ours, atom->nlocal,
+              atom->nlocal + atom->nghost, reachsq);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int HVIScheme::pack_forward(int n, const int *list, double *buf) const
+{
+  for (int k = 0; k < n; k++)
+    memcpy(buf + k * sent.number, sent.first + list[k] * (std::size_t) sent.stride,
+           sent.number * sizeof(double));
+  return n * sent.number;
+}
+
+void HVIScheme::unpack_forward(int n, int first, const double *buf)
+{
+  for (int k = 0; k < n; k++)
+    memcpy(sent.first + (first + k) * (std::size_t) sent.stride, buf + k * sent.number,
+           sent.number * sizeof(double));
+}
+
+int HVIScheme::pack_reverse(int n, int first, double *buf) const
+{
+  for (int k = 0; k < n; k++)
+    memcpy(buf + k * sent.number, sent.first + (first + k) * (std::size_t) sent.stride,
+           sent.number * sizeof(double));
+  return n * sent.number;
+}
+
+void HVIScheme::unpack_reverse(int n, const int *list, const double *buf)
+{
+  for (int k = 0; k < n; k++) {
+    double *const to = sent.first + list[k] * (std::size_t) sent.stride;
+    for (int l = 0; l < sent.number; l++) to[l] += buf[k * sent.number + l];
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Shortest h/(c + approach + viscosity), from the last forces.  A pair that is not yet within reach is
+   not seen: it comes no deeper in a step than forces rise slowly.  What they reach with variable h is
+   that of now: how fast h shrinks is limited by signals.  Those that are not in adjacent
+   cells are farther apart by a skin at least.
+------------------------------------------------------------------------- */
+
+void HVIScheme::tighten(HVI::TimeStepBounds &bounds) const
+{
+  if (fastest * bounds.signal > 1.0 || std::isnan(fastest)) bounds.signal = 1.0 / fastest;
+
+  double h = narrowest;
+  for (int i = 1; i <= atom->ntypes; i++)
+    if (pairs.is_ours[i] && !set.variable) h = MIN(h, set.h[i]);    // those of other ranks, too
+  if (h >= HVI::NO_BOUND) return;                                   // there are no particles
+  const double deep = 0.25 * set.support * h;
+  const double apart = deep + neighbor->skin;
+  double speed = placed ? cells.fastest() : 0.0;
+  if (set.mirror.planes) speed = MAX(speed, fastest_to_images(deep / apart));
+  if (speed * bounds.meet > deep) bounds.meet = deep / speed;
+  bounds.come_closer(placed ? apart : deep);
+}
+
+// of particles and their images, less by a factor where these are far
+
+double HVIScheme::fastest_to_images(double far) const
+{
+  const HVI::MirrorPlanes &mirror = set.mirror;
+  double most = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!pairs.is_ours[atom->type[i]]) continue;
+    double square = 0.0, factor = far;
+    for (int k = 0; k < 3; k++) {
+      if (!mirror.has(k)) continue;
+      const double toward = -2.0 * mirror.side[k] * atom->v[i][k];
+      if (toward > 0.0) square += toward * toward;
+      if (2.0 * mirror.depth(k, atom->x[i]) < neighbor->cutneighmax) factor = 1.0;
+    }
+    most = MAX(most, square * factor * factor);
+  }
+  return std::sqrt(most);
+}
+
+/* ---------------------------------------------------------------------- */
+
+HVISchemeFluid::HVISchemeFluid(LAMMPS *lmp, const HVIPairTables &tables) : HVIScheme(lmp, tables)
+{
+  choose(set.density ? HVI::SPH_DENSITY : 0);
+}
+
+/* ----------------------------------------------------------------------
+   the package SPH takes the speed of sound of liquids as constant, of gases as sqrt(p/rho)
+------------------------------------------------------------------------- */
+
+double HVISchemeFluid::gather(int i, const EosState &eos, HVI::SphState &s)
+{
+  s.w = set.laws.symmetric ? mass(i) : mass(i) / s.rho;
+  s.p = set.laws.symmetric ? eos.p / (s.rho * s.rho) : eos.p;
+  if (!set.laws.stock) return eos.csq;
+  const double c0 = store->materials.of(atom->type[i])->eos->c0();
+  const double csq = c0 > 0.0 ? c0 * c0 : eos.p / s.rho;
+  if (!(csq >= 0.0))
+    error->one(FLERR, "Pair hvi/sph: energy {} of particle {} is negative at step {}",
+               atom->esph[i], atom->tag[i], update->ntimestep);
+  return csq;
+}

@@ -1,0 +1,414 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "hvi_scheme_solid.h"
+
+#include "atom.h"
+#include "error.h"
+#include "fix_hvi_johnson_cook.h"
+#include "fix_hvi_lists.h"
+#include "fix_hvi_sph.h"
+#include "force.h"
+#include "hvi_artstress.h"
+#include "hvi_inverse.h"
+#include "hvi_sph_solid.h"
+#include "math_special.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using HVI::SphGradV;
+using HVI::SphTraction;
+using HVI::Symmetric;
+using HVI::VelocityGradient;
+
+/* ---------------------------------------------------------------------- */
+
+HVISchemeSolid::HVISchemeSolid(LAMMPS *lmp, const HVIPairTables &tables) :
+    HVIScheme(lmp, tables), strength(FixHVIJohnsonCook::find(lmp)), mesh(HVI::find_mesh(lmp))
+{
+  int terms = HVI::SPH_CORRECTED | HVI::SPH_STRENGTH;
+  if (set.riemann)
+    terms |= HVI::SPH_RIEMANN;
+  else if (set.density)
+    terms |= HVI::SPH_DENSITY;
+  if (set.laws.art_eps > 0.0) terms |= HVI::SPH_ARTSTRESS;
+  if (strength->can_fail()) terms |= HVI::SPH_BODIES;
+  all_sums = true;              // M
+  choose(terms, set.energy);    // without energy a stress leaves no trace in it
+}
+
+double HVISchemeSolid::widest(int i, int j) const
+{
+  return MAX(set.h[i], set.h[j]);
+}
+
+HVIScheme::Traffic HVISchemeSolid::traffic() const
+{
+  const bool bodies = terms() & HVI::SPH_BODIES;
+  Traffic t = {SphTraction::SENT, SphGradV::SENT, SphTraction::SENT, SphGradV::SENT};
+  t.all_forward += sizeof(Limits) / sizeof(double);
+  if (set.laws.art_eps > 0.0) t.all_forward += HVI::SphStress::SENT;
+  if (bodies) t.all_forward += HVI::SphPush::SENT;
+  if (set.riemann) t.all_forward += SphGradV::SENT_L;
+  if (bodies) t.all_reverse *= 2;
+  if (force->newton_pair) t.all_reverse += HVI::SphRates::FORCE;
+  return t;
+}
+
+/* ----------------------------------------------------------------------
+   The step of solids, t -> t + dt.  Places, velocities of the middle of the step, and weights are there.
+------------------------------------------------------------------------- */
+
+void HVISchemeSolid::evaluate()
+{
+  start();                // records of particles, ghosts and images; active particles
+  sum_gradients();        // sums over neighbors: L, M, nu
+  correct_gradients();    // L M^-1 of the middle of the step
+  advance();              // density, pressure, elements, stress: t -> t + dt
+  find_tractions();       // from stress and M^-1
+  exchange();             // to ghosts and images
+}
+
+/* ----------------------------------------------------------------------
+   Other ranks must know which particles are active, for their sums over neighbors: on the way a minus at the
+   modulus says so
+------------------------------------------------------------------------- */
+
+void HVISchemeSolid::gather_limits()
+{
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  limits.resize(nall);
+  for (int i = 0; i < nlocal; i++) {
+    const auto before = strength->before(i);
+    limits[i] = {before.p_min, before.shear};
+    if (has_inactive() && !fields.asleep(i)) limits[i].shear = -limits[i].shear;
+  }
+  forward(limits.data(), 2);
+  if (!has_inactive()) return;
+
+  const HVI::RelativeMotion &motion = pairs.lists->cells();
+  for (int i = 0; i < nall; i++) {
+    if (i >= nlocal && std::signbit(limits[i].shear) && !fields.sleepers.empty())
+      cells.watch(motion.cell_of(i));
+    limits[i].shear = std::fabs(limits[i].shear);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   failed particles are not pulled; signals in solids are longitudinal
+------------------------------------------------------------------------- */
+
+double HVISchemeSolid::gather(int i, const EosState &eos, HVI::SphState &s)
+{
+  const Limits &limit = limits[i];
+  SphTraction &T = fields.view().traction[i];
+  T = {};
+  T.volume = mass(i) / s.rho;
+  T.rho = s.rho;
+  T.p = HVI::clip_tension(eos.p, limit.p_min);
+  if (i < atom->nlocal) {    // of ghosts all that is sent
+    const double *const v = integrator->work_velocity(i);
+    T.vx = v[0];
+    T.vy = v[1];
+    T.vz = v[2];
+  }
+  s.w = T.volume * eos.width;
+  s.p = T.p;
+  if (limit.p_min == 0.0 && limit.shear == 0.0) s.type += HVI::RUBBLE;
+  return eos.csq + 4.0 / 3.0 * limit.shear / s.rho;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void HVISchemeSolid::sum_gradients()
+{
+  const HVI::SphView &records = work.records;
+  work.laws.half = 0.5 * integrator->step();
+  if (records.push)
+    for (int i = 0; i < atom->nlocal; i++)
+      if (fields.asleep(i)) records.push[i] = {};
+  sweeps->first(work);
+  if (set.mirror.planes) images.fold_sums(records);
+  if (!force->newton_pair) return;
+  reverse(records.gradv, SphGradV::SENT);
+  if (records.contact) reverse(records.contact, SphGradV::SENT);
+}
+
+// a(3x3, rows) b(symmetric)
+
+static VelocityGradient product(const VelocityGradient &a, const Symmetric &b)
+{
+  return {a.xx * b.xx + a.xy * b.xy + a.xz * b.xz, a.xx * b.xy + a.xy * b.yy + a.xz * b.yz,
+          a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.xy + a.yz * b.xz,
+          a.yx * b.xy + a.yy * b.yy + a.yz * b.yz, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
+          a.zx * b.xx + a.zy * b.xy + a.zz * b.xz, a.zx * b.xy + a.zy * b.yy + a.zz * b.yz,
+          a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
+}
+
+/* ----------------------------------------------------------------------
+   Of a particle that is nearly alone M says little: then the weights stay as they are.  full: the part of its
+   volume that the neighborhood has, 0.15 of two particles, 0.4 at the corner of a cube, 0.5 in a sheet
+------------------------------------------------------------------------- */
+
+static Symmetric inverse(const SphGradV &M, double full, const bool *along)
+{
+  static constexpr double ALONE = 0.2, ENOUGH = 0.35;
+  const Symmetric N = {along[0] ? M.mxx / M.nu : 1.0,
+                       along[1] ? M.myy / M.nu : 1.0,
+                       along[2] ? M.mzz / M.nu : 1.0,
+                       M.mxy / M.nu,
+                       M.mxz / M.nu,
+                       M.myz / M.nu};
+  Symmetric inverse = HVI::limited_inverse(N);
+  const double part = MAX(0.0, MIN(1.0, (full - ALONE) / (ENOUGH - ALONE)));
+  const double counts = part * part * (3.0 - 2.0 * part);
+  double *const c = &inverse.xx;
+  for (int k = 0; k < 6; k++) c[k] = counts * c[k] / M.nu + (k < 3 ? 1.0 - counts : 0.0);
+  return inverse;
+}
+
+static VelocityGradient gradient(const SphGradV &L)
+{
+  return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
+}
+
+static void put_gradient(const VelocityGradient &L, SphGradV &g)
+{
+  g.xx = L.xx;
+  g.xy = L.xy;
+  g.xz = L.xz;
+  g.yx = L.yx;
+  g.yy = L.yy;
+  g.yz = L.yz;
+  g.zx = L.zx;
+  g.zy = L.zy;
+  g.zz = L.zz;
+}
+
+// in place of M
+
+static void put_inverse(const Symmetric &s, SphGradV &g)
+{
+  g.mxx = s.xx;
+  g.myy = s.yy;
+  g.mzz = s.zz;
+  g.mxy = s.xy;
+  g.mxz = s.xz;
+  g.myz = s.yz;
+}
+
+static Symmetric get_inverse(const SphGradV &g)
+{
+  return {g.mxx, g.myy, g.mzz, g.mxy, g.mxz, g.myz};
+}
+
+/* ----------------------------------------------------------------------
+   L M^-1 with M of the middle of the step, which L belongs to: M - dt/2 (L + L^T), but for (dt/2)^2 v (x) v.
+   So nothing expands that turns, whether its M can be inverted or not.
+------------------------------------------------------------------------- */
+
+static VelocityGradient corrected(const SphGradV &sum, double full, const bool *along, double half)
+{
+  SphGradV middle = sum;
+  middle.mxx -= half * 2.0 * sum.xx;
+  middle.myy -= half * 2.0 * sum.yy;
+  middle.mzz -= half * 2.0 * sum.zz;
+  middle.mxy -= half * (sum.xy + sum.yx);
+  middle.mxz -= half * (sum.xz + sum.zx);
+  middle.myz -= half * (sum.yz + sum.zy);
+  return product(gradient(sum), inverse(middle, full, along));
+}
+
+// what of the stress is normal to the contact, in place of L of what touches
+
+static void put_normal(SphGradV &contact, double nu)
+{
+  Symmetric normal = {};
+  if (contact.mxx + contact.myy + contact.mzz > 0.0)
+    normal = HVI::along_largest(
+        {contact.mxx, contact.myy, contact.mzz, contact.mxy, contact.mxz, contact.myz});
+  const double share = MIN(1.0, 4.0 * contact.nu / nu);
+  contact.xx = share * normal.xx;
+  contact.yy = share * normal.yy;
+  contact.zz = share * normal.zz;
+  contact.xy = share * normal.xy;
+  contact.xz = share * normal.xz;
+  contact.yz = share * normal.yz;
+}
+
+bool HVISchemeSolid::touches(int i) const
+{
+  const SphGradV *const contact = work.records.contact;
+  return contact && contact[i].nu > 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   In gradv L M^-1 of what hangs together, and M^-1 in place of M.  Where something else touches, in
+   contact the M^-1 of all, and in place of L what of the stress is normal to the contact.  Its trace with
+   all neighbors changes the density.  The law of the solid sees what hangs together; rubble as forces see
+   it: it may have failed since.
+------------------------------------------------------------------------- */
+
+void HVISchemeSolid::correct_gradients()
+{
+  const HVI::SphView &records = work.records;
+  const double half = 0.5 * integrator->step();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_active(i) || is_embedded(i)) continue;
+    const HVI::SphState &s = records.state[i];
+    SphTraction &T = records.traction[i];
+    SphGradV &own = records.gradv[i];
+    own.nu += s.w * sweeps->w(0.0) * set.laws.norm /
+        MathSpecial::powint(records.place[i].h, set.laws.dim);
+    const double scale = T.volume / s.w;
+    const Symmetric by_own = inverse(own, scale * own.nu, fields.along);
+    const VelocityGradient L = corrected(own, scale * own.nu, fields.along, half);
+    VelocityGradient L_all = L;
+
+    if (touches(i)) {
+      SphGradV &contact = records.contact[i];
+      SphGradV all = own;
+      for (int k = 0; k < SphGradV::SENT; k++) (&all.xx)[k] += (&contact.xx)[k];
+      const Symmetric by_all = inverse(all, scale * all.nu, fields.along);
+      L_all = corrected(all, scale * all.nu, fields.along, half);
+      put_normal(contact, all.nu);
+      put_inverse(by_all, contact);
+    }
+    T.div = L_all.xx + L_all.yy + L_all.zz;
+    put_gradient(s.type != atom->type[i] ? L_all : L, own);
+    put_inverse(by_own, own);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Density and pressure of particles, elements with the particles that they hold, then stress, with what may
+   fail.  In a setup nothing is advanced: all of it is that of the end of the last step.
+------------------------------------------------------------------------- */
+
+void HVISchemeSolid::advance()
+{
+  const HVI::SphView &records = work.records;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_active(i) || is_embedded(i)) continue;
+    SphTraction &T = records.traction[i];
+    T.rho = integrator->advance_density(i, T.div);
+    records.rates[i].drho -= T.rho * T.div;
+    double csq;
+    if (!store->materials.of(atom->type[i])
+             ->eos->evaluate(T.rho, atom->esph[i] / mass(i), T.p, csq))
+      no_answer(i, T.rho);    // what of p is borne is known with the stress
+  }
+  if (mesh) mesh->settle();
+  if (integrator->is_due()) strength->advance(integrator->step());
+  integrator->advanced();
+}
+
+/* ----------------------------------------------------------------------
+   B = S M^-1 of what hangs together, less the pressure times M^-1 of all that touches.  In an element, whose
+   other particles are left out of the sums, neighbors are as even as on a lattice.
+------------------------------------------------------------------------- */
+
+void HVISchemeSolid::find_tractions()
+{
+  static constexpr Symmetric ONE = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+  const HVI::SphView &records = work.records;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_active(i)) continue;
+    const FixHVIJohnsonCook::Stress borne = strength->stress(i);
+    const HVI::Deviator &S = borne.S;
+    SphTraction &T = records.traction[i];
+    T.p = HVI::clip_tension(T.p, borne.p_min);
+
+    const bool held = is_embedded(i);
+    if (held && touches(i))
+      put_normal(records.contact[i], records.state[i].w / T.volume);    // nu of a lattice
+    const Symmetric by_own = held ? ONE : get_inverse(records.gradv[i]);
+    Symmetric by_all = by_own;
+    double rest = 0.0;
+    if (touches(i)) {
+      const SphGradV &contact = records.contact[i];
+      if (!held) by_all = get_inverse(contact);
+      if (borne.shear > 0.0)
+        rest = -(contact.xx * S.xx + contact.yy * S.yy + contact.zz * S.zz +
+                 2.0 * (contact.xy * S.xy + contact.xz * S.xz + contact.yz * S.yz));
+    }
+    const double scale = T.volume / records.state[i].w, push = T.p + rest, p = scale * push;
+    const VelocityGradient B = product(
+        {S.xx + rest, S.xy, S.xz, S.xy, S.yy + rest, S.yz, S.xz, S.yz, S.zz + rest}, by_own);
+    T.xx = scale * B.xx - p * by_all.xx;
+    T.xy = scale * B.xy - p * by_all.xy;
+    T.xz = scale * B.xz - p * by_all.xz;
+    T.yx = scale * B.yx - p * by_all.xy;
+    T.yy = scale * B.yy - p * by_all.yy;
+    T.yz = scale * B.yz - p * by_all.yz;
+    T.zx = scale * B.zx - p * by_all.xz;
+    T.zy = scale * B.zy - p * by_all.yz;
+    T.zz = scale * B.zz - p * by_all.zz;
+    if (records.push)
+      records.push[i] = {-p * by_all.xx, -p * by_all.yy, -p * by_all.zz, -p * by_all.xy,
+                         -p * by_all.xz, -p * by_all.yz, push,           0.0};
+  }
+}
+
+void HVISchemeSolid::exchange()
+{
+  const HVI::SphView &records = work.records;
+  forward(records.traction, SphTraction::SENT);
+  if (records.art) {
+    artificial_stress();
+    forward(records.art);
+  }
+  if (records.push) forward(records.push);
+  if (set.riemann) forward(records.gradv, SphGradV::SENT_L);
+  if (set.mirror.planes) images.fill_sums(records);
+}
+
+/* ----------------------------------------------------------------------
+   Of owned particles.  The spacing dp is that of the material's own density, (m/rho0)^(1/dim), over the H of
+   pair_coeff: as Gray's, it stays what it was at the start, and in units of h with variable h too.
+------------------------------------------------------------------------- */
+
+void HVISchemeSolid::artificial_stress()
+{
+  const HVI::SphView &records = work.records;
+  const HVI::SphLaws &laws = set.laws;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_ours(i)) continue;
+    const int itype = atom->type[i];
+    const HVI::Deviator T = HVI::tensile_part(records.traction[i].p, strength->stress(i).S);
+    double f = 0.0;
+    if (T.xx + T.yy + T.zz > 0.0) {
+      const double V = mass(i) / store->materials.of(itype)->eos->rho0();
+      const double dp = laws.dim == 3 ? std::cbrt(V) : (laws.dim == 2 ? std::sqrt(V) : V);
+      const double w = sweeps->w(dp / set.h[itype]);
+      if (!(w > 0.0))
+        error->one(FLERR,
+                   "Pair hvi/sph artstress: the spacing {} of type {} is beyond the reach of its "
+                   "h {}",
+                   dp, itype, set.h[itype]);
+      f = -laws.art_eps / std::pow(w, laws.art_n);
+    }
+    records.art[i] = {f * T.xx, f * T.yy, f * T.zz, f * T.xy, f * T.xz, f * T.yz, 0.0, 0.0};
+  }
+}
+
+/* ----------------------------------------------------------------------
+   SPH forces alone, and power, are needed at owners: for the work on the velocity of the end of the step, and by
+   elements
+------------------------------------------------------------------------- */
+
+void HVISchemeSolid::forces_done()
+{
+  if (!force->newton_pair) return;
+  reverse(work.records.rates, mesh ? HVI::SphRates::WITH_POWER : HVI::SphRates::FORCE);
+}
