@@ -16,7 +16,7 @@ BOND = f"bond_style hvi/spring\nbond_coeff 1 {KAPPA} {R_EQ!r} {R_CUT}\n"
 
 # the vector of compute hvi/energy
 LEDGER = ("kinetic internal contact spring broken left clamps total ratio px py pz left_px left_py left_pz jx jy jz mass "
-          "left_mass left_count bonds_broken bonds_left p0x p0y p0z mass0 viscous plastic missed voids").split()
+          "left_mass left_count bonds_broken bonds_left p0x p0y p0z mass0 viscous plastic missed voids frozen").split()
 
 
 @dataclasses.dataclass

@@ -33,7 +33,7 @@ enum {
   KINETIC, INTERNAL, CONTACT, SPRING, BROKEN, LEFT, CLAMPS, TOTAL, RATIO,
   PX, PY, PZ, LEFT_PX, LEFT_PY, LEFT_PZ, JX, JY, JZ,
   MASS, LEFT_MASS, LEFT_COUNT, BONDS_BROKEN, BONDS_LEFT,
-  P0X, P0Y, P0Z, MASS0, VISCOUS, PLASTIC, MISSED, VOIDS, NVALUES
+  P0X, P0Y, P0Z, MASS0, VISCOUS, PLASTIC, MISSED, VOIDS, FROZEN, NVALUES
 };
 // clang-format on
 
@@ -174,6 +174,7 @@ void ComputeHVIEnergy::compute_vector()
   vector[MISSED] = booked[FixHVILedger::MISSED];
   vector[PLASTIC] += booked[FixHVILedger::LEFT_PLASTIC];
   vector[VOIDS] += booked[FixHVILedger::LEFT_VOIDS];
+  vector[FROZEN] = booked[FixHVILedger::FROZEN];
 
   vector[TOTAL] = 0.0;
   for (int n = KINETIC; n < TOTAL; n++) vector[TOTAL] += vector[n];

@@ -41,6 +41,7 @@ class FixHVILedger : public Fix {
     LEFT_PLASTIC,                           // plastic work that left the box, another part
     MISSED,                                 // work put right in internal energy, see fix hvi/sph
     LEFT_VOIDS,                             // work of opening voids that left the box, another part
+    FROZEN,                                 // number of particles that take no part any more
     NENTRY
   };
   // clang-format on
@@ -78,6 +79,7 @@ class FixHVILedger : public Fix {
 
   void book_viscous(double heat) { entry[VISCOUS] += heat; }
   void book_missed(double work) { entry[MISSED] += work; }
+  void book_frozen() { entry[FROZEN] += 1.0; }
   bool clamps(int mask) const { return mask & clampbit; }    // which books itself what they get
   void book_mirror(const double *impulse)
   {

@@ -103,6 +103,7 @@ constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
     {"work_vz", RATES, offsetof(Extra, v_work[2])},
     {"new_rho", RATES, offsetof(Extra, new_rho)},
     {"step", RATES, offsetof(Extra, step)},
+    {"frozen", RATES, offsetof(Extra, frozen)},
 
     // 0 between steps, or made anew when a run begins
     {nullptr, 0, offsetof(Extra, drho)},
@@ -125,7 +126,7 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {"", "_rates"}), store(nullptr), ledger(nullptr),
     strength(nullptr), evaluation(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0},
     last(0.0), due(false), stepping(0), wallbit(0), follow(0), checked(0), quiet(1.0e-10),
-    relative(true)
+    relative(true), most_frozen(0), swiftest(0.0)
 {
   static_assert(covers<Extra>(FIELDS), "a number of the record is missing, or there twice");
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
@@ -134,7 +135,7 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
                "atom_style sph");
   for (int iarg = 3; iarg < narg; iarg += 2) {
     const std::string key = arg[iarg];
-    if (key != "walls" && key != "sleep" && key != "lists")
+    if (key != "walls" && key != "sleep" && key != "lists" && key != "bad")
       error->all(FLERR, "Unknown fix hvi/sph keyword: {}", key);
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hvi/sph " + key, error);
     const std::string value = arg[iarg + 1];
@@ -142,6 +143,16 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
       const int jgroup = group->find(value);
       if (jgroup == -1) error->all(FLERR, "Could not find fix hvi/sph walls group ID {}", value);
       wallbit |= group->bitmask[jgroup];
+    } else if (key == "bad") {
+      if (value != "error" && value != "freeze")
+        error->all(FLERR, "Fix hvi/sph bad must be error or freeze N, not {}", value);
+      most_frozen = 0;
+      if (value == "error") continue;
+      if (++iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hvi/sph bad freeze", error);
+      most_frozen = utils::bnumeric(FLERR, arg[iarg + 1], false, lmp);
+      if (most_frozen < 1)
+        error->all(FLERR, "Fix hvi/sph bad freeze must be 1 or more particles, not {}",
+                   arg[iarg + 1]);
     } else if (key == "lists") {
       if (value != "relative" && value != "displacement")
         error->all(FLERR, "Fix hvi/sph lists must be relative or displacement, not {}", value);
@@ -181,7 +192,7 @@ FixHVISPH::~FixHVISPH()
 
 int FixHVISPH::setmask()
 {
-  return INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE;
+  return INITIAL_INTEGRATE | POST_INTEGRATE | PRE_NEIGHBOR | PRE_FORCE | FINAL_INTEGRATE;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -323,6 +334,7 @@ void FixHVISPH::setup(int /*vflag*/)
     checked = 1;
   }
   stepping = 1;
+  swiftest = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!integrates(i)) continue;
     Extra &e = extra[i];
@@ -334,10 +346,29 @@ void FixHVISPH::setup(int /*vflag*/)
     else
       e.rates_rho = atom->rho[i];
     std::swap(e.rates_esph, atom->esph[i]);
+    note_change(i);
   }
+  count_frozen();
   keep_places();
   power = store->fields.viscous_power;
   for (int k = 0; k < 3; k++) push[k] = store->fields.plane_force[k];
+}
+
+// Where density would fall below half of itself it goes on with its logarithm, so never below 0
+
+static double changed(double rho, double change)
+{
+  return change >= -0.5 * rho ? rho + change : 0.5 * rho * std::exp(2.0 * change / rho + 1.0);
+}
+
+// to the end of a step: half of its change, and then more, which is taken back when that is known
+
+static void extrapolate(double &rho, double half, double &more)
+{
+  if (FixHVISPH::is_frozen(rho)) return;
+  const double change = half + more, end = changed(rho, change);
+  if (change < -0.5 * rho) more = end - changed(rho, half);
+  rho = end;
 }
 
 /* ----------------------------------------------------------------------
@@ -379,7 +410,7 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
     Extra &e = extra[i];
     e.drho = ahead * drho;
     e.de = ahead * de;
-    atom->rho[i] += drho + e.drho;
+    extrapolate(atom->rho[i], drho, e.drho);
     atom->esph[i] += de + e.de;
   }
   last = dtv;
@@ -416,7 +447,7 @@ double FixHVISPH::first_half_solid(int i, double dtfm)
   e.old_de = gain;
   e.new_rho = atom->rho[i];
   atom->esph[i] -= kick;
-  atom->rho[i] += drho + e.drho;
+  extrapolate(atom->rho[i], drho, e.drho);
   atom->esph[i] += de + e.de;
   return kick + dtf * beyond;
 }
@@ -442,6 +473,7 @@ void FixHVISPH::final_integrate()
   const HVI::SphFields &fields = store->fields;
   double *const rho = atom->rho, *const esph = atom->esph;
   double missed = 0.0;
+  swiftest = 0.0;
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!moves(i)) continue;
@@ -455,10 +487,14 @@ void FixHVISPH::final_integrate()
       const double beyond = missed_work(i), by_L = -fields.density(i) * fields.divergence(i);
       gain -= beyond;
       missed += dtf * beyond;
-      rho[i] = e.new_rho + dtv * (atom->drho[i] - by_L);    // interface density dissipation
       e.step = dtv;
-    } else
-      rho[i] += dtf * atom->drho[i] - e.drho;
+
+      // what is not by L is interface density dissipation
+
+      if (!is_frozen(rho[i])) rho[i] = changed(e.new_rho, dtv * (atom->drho[i] - by_L));
+    } else if (!is_frozen(rho[i]))
+      rho[i] = changed(rho[i], dtf * atom->drho[i] - e.drho);
+    note_change(i);
     esph[i] += dtf * gain - e.de;
     e.drho = e.de = 0.0;
   }
@@ -519,6 +555,59 @@ double FixHVISPH::compute_vector(int n)
   const auto *const now = FixHVIStore::find(lmp);
   const auto *const material = now ? now->materials.of(n + 1) : nullptr;
   return material ? material->eos->rho0() : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVISPH::note_change(int i)
+{
+  const double rho = extra[i].rates_rho;
+  if (!is_frozen(rho)) swiftest = std::max(swiftest, std::fabs(atom->drho[i]) / rho);
+}
+
+void FixHVISPH::tighten(HVI::TimeStepBounds &bounds)
+{
+  static constexpr double MOST = 0.5;
+  if (swiftest * bounds.stable > MOST) bounds.stable = MOST / swiftest;
+}
+
+/* ----------------------------------------------------------------------
+   In the middle of a step: what is extrapolated is taken back.  All ranks see it in the density of ghosts.
+------------------------------------------------------------------------- */
+
+bool FixHVISPH::freeze(int i)
+{
+  if (most_frozen == 0 || !integrates(i) || is_frozen(atom->rho[i])) return false;
+  Extra &e = extra[i];
+  if (!std::isfinite(atom->rho[i]) || !std::isfinite(atom->esph[i])) return false;
+  atom->esph[i] -= e.de;
+  atom->rho[i] = e.new_rho = e.drho = e.de = 0.0;
+  e.old_drho = NAN;
+  e.frozen = 1.0;
+  ledger->book_frozen();
+  error->warning(
+      FLERR,
+      "Fix hvi/sph: no equation of state answers for particle {} (type {}) at step {}: it "
+      "takes no part from now on, and keeps its momentum and energy",
+      atom->tag[i], atom->type[i], update->ntimestep);
+  return true;
+}
+
+// collective: when a run begins, and with new lists
+
+void FixHVISPH::count_frozen() const
+{
+  if (most_frozen == 0) return;
+  double entry[FixHVILedger::NENTRY];
+  ledger->totals(entry);
+  const double frozen = entry[FixHVILedger::FROZEN];
+  if (frozen > most_frozen)
+    error->all(
+        FLERR,
+        "Fix hvi/sph: {} particles take no part any more at step {}, more than bad freeze {} "
+        "allows: see the warnings above for the first; a shorter step or another equation "
+        "of state may help",
+        frozen, update->ntimestep, most_frozen);
 }
 
 /* ---------------------------------------------------------------------- */

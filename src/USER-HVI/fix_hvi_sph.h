@@ -18,6 +18,7 @@ FixStyle(hvi/sph,FixHVISPH);
 #include "fix_hvi_records.h"
 #include "hvi_energy_carrier.h"
 #include "hvi_sph_step.h"
+#include "hvi_timestep.h"
 
 #include <cmath>
 #include <cstdint>
@@ -43,18 +44,23 @@ struct HVISPHExtra {
   double v_work[3] = {0.0, 0.0, 0.0};    // velocity with which the last forces did work
   double x_before[3] = {0.0, 0.0,
                         0.0};    // place at the end of the last step, if another fix moves it
+  double frozen = 0.0;           // 1: takes no part any more
   double new_rho =
       0.0;              // density at the end of the step that led to the last forces; 0: of a fluid
   double step = 0.0;    // that ended with the last forces; 0: none
 };
 
-class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::EnergyCarrier {
+class FixHVISPH :
+    public FixHVIRecords<FixHVISPH, HVISPHExtra>,
+    public HVI::EnergyCarrier,
+    public HVI::TimeStepSource {
  public:
   FixHVISPH(class LAMMPS *, int, char **);
   ~FixHVISPH() override;
   int setmask() override;
   void init() override;
   void setup_pre_force(int) override;
+  void pre_neighbor() override { count_frozen(); }
   void pre_force(int) override;
   void post_integrate() override;
   void setup(int) override;
@@ -86,6 +92,18 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   void set_work_velocity(int i, const double *v);
   void let_go(int i, double de);
 
+  // Keyword bad: a particle that no equation of state answers for takes no part from now on: its density is 0, its
+  // momentum and energy stay.  False: that is an error.
+
+  bool freeze(int i);
+  bool has_frozen(int i) const { return extra[i].frozen != 0.0; }
+  static bool is_frozen(double rho) { return rho == 0.0; }
+
+  // density changes by half in a step at most
+
+  void tighten(HVI::TimeStepBounds &bounds) override;
+  bool at_hand() const override { return true; }
+
   double sleep() const { return quiet; }    // differences that count as none; 0: nothing sleeps
   bool relative_lists() const { return relative; }
   bool is_new(int i) const { return extra[i].hscale == 0.0; }    // in no run before
@@ -116,6 +134,11 @@ class FixHVISPH : public FixHVIRecords<FixHVISPH, HVISPHExtra>, public HVI::Ener
   double quiet;     // parts of the speed of sound
   bool relative;    // lists are made anew by relative motion
 
+  bigint most_frozen;    // particles that may be; 0: none
+  double swiftest;       // of the last forces: largest |drho/dt|/rho
+
+  void note_change(int);
+  void count_frozen() const;
   bool moves(int) const;
   bool integrates(int) const;
   bool has_material(int) const;

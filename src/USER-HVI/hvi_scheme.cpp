@@ -126,7 +126,7 @@ double HVIScheme::mass(int i) const
 
 bool HVIScheme::is_ours(int i) const
 {
-  return pairs.is_ours[atom->type[i]] && !fields.is_idle(i);
+  return pairs.is_ours[atom->type[i]] && !fields.is_idle(i) && !FixHVISPH::is_frozen(atom->rho[i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -161,7 +161,12 @@ void HVIScheme::gather_records()
       const HVI::Eos &eos = *store->materials.of(itype)->eos;
       known.rho = rho[i];
       known.e = e;
-      if (!std::isfinite(e) || !eos.evaluate(rho[i], e, known.p, known.csq)) no_answer(i, rho[i]);
+      if (FixHVISPH::is_frozen(rho[i]) || !std::isfinite(e) ||
+          !eos.evaluate(rho[i], e, known.p, known.csq)) {
+        known.rho = NAN;
+        take_out(i);
+        continue;
+      }
       if (records.traction && eos.rho0() > 0.0) known.width = std::cbrt(rho[i] / eos.rho0());
     }
 
@@ -182,6 +187,22 @@ void HVIScheme::gather_records()
     s.c = std::sqrt(gather(i, known, s));
     if (!(s.c <= fastest * place.h)) fastest = s.c / place.h;
   }
+}
+
+/* ----------------------------------------------------------------------
+   A particle that takes no part, or none from now on: a ghost is one if its owner is.  Its record is out of
+   reach of all others.
+------------------------------------------------------------------------- */
+
+void HVIScheme::take_out(int i)
+{
+  static constexpr double AWAY = 1.0e6;
+  if (i < atom->nlocal && !(integrator && (integrator->has_frozen(i) || integrator->freeze(i))))
+    no_answer(i, atom->rho[i]);
+  const double *const x = atom->x[i], h = set.h[atom->type[i]];
+  fields.view().place[i] = {x[0] + AWAY * h, x[1] + AWAY * h, x[2] + AWAY * h, h};
+  fields.view().state[i] = {0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, (double) atom->type[i]};
+  if (fields.view().traction) fields.view().traction[i] = {};
 }
 
 void HVIScheme::no_answer(int i, double rho) const
@@ -236,7 +257,7 @@ void HVIScheme::find_inactive()
   cells.start(motion);
   for (int i = 0; i < nall; i++) {
     const int itype = atom->type[i];
-    if (!pairs.is_ours[itype]) continue;
+    if (!pairs.is_ours[itype] || FixHVISPH::is_frozen(atom->rho[i])) continue;
     bool undisturbed =
         std::fabs(atom->rho[i] - quiet.rho[itype]) <= quiet.rho_part * quiet.rho[itype] &&
         std::fabs(atom->esph[i]) <= mass(i) * quiet.e[itype] && quiet.rho[itype] > 0.0;

@@ -113,6 +113,7 @@ class HVIScheme : protected Pointers {
   double mass(int i) const;
   bool is_ours(int i) const;    // and not idle: has a record
   bool is_active(int i) const { return is_ours(i) && !fields.asleep(i); }
+  void take_out(int i);
   [[noreturn]] void no_answer(int i, double rho) const;
   template <class Record> void forward(Record *, int number = Record::SENT, int first = 0);
   template <class Record> void reverse(Record *, int number = Record::SENT);

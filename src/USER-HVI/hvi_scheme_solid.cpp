@@ -303,10 +303,12 @@ void HVISchemeSolid::advance()
     SphTraction &T = records.traction[i];
     T.rho = integrator->advance_density(i, T.div);
     records.rates[i].drho -= T.rho * T.div;
+    const HVI::Eos &eos = *store->materials.of(atom->type[i])->eos;
     double csq;
-    if (!store->materials.of(atom->type[i])
-             ->eos->evaluate(T.rho, atom->esph[i] / mass(i), T.p, csq))
-      no_answer(i, T.rho);    // what of p is borne is known with the stress
+    if (eos.evaluate(T.rho, atom->esph[i] / mass(i), T.p, csq))
+      continue;    // what of p is borne is known with the stress
+    if (!integrator->freeze(i)) no_answer(i, T.rho);
+    T = {};
   }
   if (mesh) mesh->settle();
   if (integrator->is_due()) strength->advance(integrator->step());

@@ -96,7 +96,7 @@ def test_entries_are_what_lammps_says(lmp, units):
     assert book["total"][0] == pytest.approx(book["kinetic"][0] + book["contact"][0] + book["spring"][0], rel=1e-13)
     assert book["ratio"][0] == 1.0 and book["mass0"][0] == book["mass"][0]
     assert all(book[f"p0{c}"][0] == book[f"p{c}"][0] for c in "xyz")
-    nothing = "internal broken left clamps left_px left_py left_pz jx jy jz left_mass left_count bonds_broken bonds_left viscous plastic missed voids"
+    nothing = "internal broken left clamps left_px left_py left_pz jx jy jz left_mass left_count bonds_broken bonds_left viscous plastic missed voids frozen"
     assert all(book[name][0] == 0.0 for name in nothing.split())
 
 
@@ -106,15 +106,15 @@ def test_page_names_the_entries(root):
     rows = re.findall(r"^(\d+)(?: - (\d+))?  +(.*?)  +(energy|none|mass\*velocity|mass)$", page, re.M)
     names = [name for first, last, name, _ in rows for _ in range(int(first), int(last or first) + 1)]
     units = [unit for first, last, _, unit in rows for _ in range(int(first), int(last or first) + 1)]
-    assert [int(row[0]) for row in rows][0] == 1 and len(names) == len(LEDGER) == 31
+    assert [int(row[0]) for row in rows][0] == 1 and len(names) == len(LEDGER) == 32
     keys = dict(p="momentum of the particles", left_p="momentum that left", j="impulse", p0="momentum at the start", mass="mass of the particles",
                 left_mass="mass that left", left_count="number of particles that left", bonds_broken="number of bonds that broke",
-                bonds_left="number of bonds that left", mass0="mass at the start", total="total, the sum", ratio="total/initial")
+                bonds_left="number of bonds that left", mass0="mass at the start", frozen="number of particles that are frozen", total="total, the sum", ratio="total/initial")
     for entry, name, unit in zip(LEDGER, names, units):
         key = entry[:-1] if entry[-1] in "xyz" else entry
         assert name.startswith(keys.get(key, key)), entry
         assert unit == ("mass*velocity" if entry[-1] in "xyz" else "mass" if "mass" in entry else
-                        "none" if entry in ("ratio", "left_count", "bonds_broken", "bonds_left") else "energy"), entry
+                        "none" if entry in ("ratio", "left_count", "bonds_broken", "bonds_left", "frozen") else "energy"), entry
 
 
 # what somebody does between two runs -> change of the total, from the state before
