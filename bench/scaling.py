@@ -40,7 +40,7 @@ BUILD_REDUCTIONS = 3  # of new lists: shrink-wrapped box, ranks that ghosts come
 # ---------------------------------------------------------------------- the model, without LAMMPS
 
 def exchanges(bodies, riemann, lists):
-    """How often a step with gradient corrected sends to ghosts, and back: atom_style, limits, traction, push, L, displacements;
+    """How often a step of solids sends to ghosts, and back: atom_style, limits, traction, push, L, displacements;
     atom_style, M and L, those of contacts, forces."""
     return 3 + bodies + riemann + lists, 3 + bodies
 

@@ -1,4 +1,4 @@
-"""Forces, density and energy of solids with gradient corrected, written out in NumPy for all pairs (doc/src/Howto_sph.rst).
+"""Forces, density and energy of solids, written out in NumPy for all pairs (doc/src/Howto_sph.rst).
 
 Each particle has its own kernel, grad W(r, h_i) = F_i x_ij, and the weight w = V (rho/rho0)^(1/3), V = m/rho. Sums over those who hang together
 with i ("own") are M_i = - sum w_j x_ij (x) grad W_i, L_i = - sum w_j v_ij (x) grad W_i, nu_i = w_i W(0, h_i) + sum w_j W(r, h_i); "all" has
@@ -7,7 +7,8 @@ besides other bodies and rubble that come nearer or push, and the rubble in rubb
   T_i = V_i/w_i ((S_i - s_i) K_own - q_i K_all),  P_i = - V_i/w_i q_i K_all,  f_ij = w_i w_j (T_i F_i + T_j F_j) x_ij (others, while they push: P)
   drho_i = - rho_i tr(L_all K_all),  de_i = V_i ((S_i - s_i) : L_own K_own - q_i tr(L_own K_all)), and what the push of others does.
 
-q_i = p_i - s_i; s_i = M^4 : S_i/tr M^4 in contact, M of the others, times min(1, 4 nu_others/nu_all).
+q_i = p_i - s_i; s_i = M^4 : S_i/tr M^4 in contact, M of the others, times min(1, 4 nu_others/nu_all). Artificial stress is R of Gray, Monaghan &
+Swift 2001 (times rho^2), between those who hang together, with means of h and of F.
 """
 
 from dataclasses import dataclass
@@ -59,8 +60,8 @@ def inverse(M, nu, full, dim):
     return out, value
 
 
-def rates(s, tension=True, visc=(1.0, 2.0)):
-    """f, drho, de, and the eigenvalues of M/nu of those who hang together"""
+def rates(s, tension=True, visc=(1.0, 2.0), art=None):
+    """f, drho, de, and the eigenvalues of M/nu of those who hang together; art: eps, n and the h of rest of artificial stress"""
     n, V = len(s.x), s.m / s.rho
     w = V * np.cbrt(s.rho / s.rho0)
     reach = SUPPORT[s.kernel] * s.h
@@ -118,6 +119,14 @@ def rates(s, tension=True, visc=(1.0, 2.0)):
     mu = np.where(ur < 0, h * ur / (r**2 + 0.01 * h**2), 0.0)
     Pi = (-visc[0] * 0.5 * (s.c[i] + s.c[j]) * mu + visc[1] * mu**2) / (0.5 * (s.rho[i] + s.rho[j]))
     q = s.m[i] * s.m[j] * Pi * 0.5 * (F_i + F_j)
+    if art:
+        eps, power, h0 = art
+        pull, axis = np.linalg.eigh(s.S - s.p[:, None, None] * np.eye(s.S.shape[1]))
+        much = eps / shape(s.kernel, (s.m / s.rho0) ** (1 / s.dim) / h0)[0] ** power
+        R = -np.einsum("n,nak,nk,nbk->nab", much, axis, np.maximum(pull, 0), axis)
+        near = own * V[i] * V[j] * 0.5 * (F_i + F_j) * shape(s.kernel, r / h)[0] ** power
+        f += near[:, None] * np.einsum("kab,kb->ka", R[i] + R[j], d)
+        work += near * np.einsum("ka,kab,kb->k", u, R[i], d)
     de = V * (np.einsum("nab,nab->n", rest, L_own @ K_own) - pushing * np.einsum("nab,nab->n", L_own, K_all))
     return dict(f=total(f - q[:, None] * d), drho=-s.rho * np.einsum("nab,nab->n", L_all, K_all), de=de + total(0.5 * q * ur - work), own=value)
 

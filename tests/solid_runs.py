@@ -87,33 +87,13 @@ def momentum_error(t):
     return [np.abs(p - p[0]).max() for p in (t[f"c_book[{10 + k}]"] + t[f"c_book[{13 + k}]"] - t[f"c_book[{16 + k}]"] for k in range(3))]
 
 
-def consistency(kernel, h, dim, F=None, spacing=1.0):
-    """the SPH gradient of a linear field inside a lattice that F has deformed: 1 for the exact one
-
-    M_ab = - V sum_j x_a dW/dx_b
-    """
-    F = np.eye(dim) if F is None else np.asarray(F)[:dim, :dim]
-    k = int(np.ceil(SUPPORT[kernel] * h / spacing * np.linalg.norm(np.linalg.inv(F), 2))) + 1
-    grid = np.stack(np.meshgrid(*[np.arange(-k, k + 1)] * dim, indexing="ij"), -1).reshape(-1, dim)
-    x = spacing * (grid[np.abs(grid).sum(1) > 0] @ F.T)
+def consistency(kernel, h, dim):
+    """the sum over neighbors, - V sum_j x dW/dx, inside a lattice of spacing 1: 1 for gradients of linear fields that are exact without M"""
+    k = int(np.ceil(SUPPORT[kernel] * h))
+    x = np.stack(np.meshgrid(*[np.arange(-k, k + 1)] * dim, indexing="ij"), -1).reshape(-1, dim)
+    x = x[np.abs(x).sum(1) > 0]
     r = np.sqrt((x**2).sum(1))
-    dW = norm(kernel, dim) / h ** (dim + 1) * shape(kernel, r / h)[1]
-    return -(spacing**dim * np.linalg.det(F)) * np.einsum("ka,kb,k->ab", x, x, dW / r)
-
-
-def sheet(kernel, h, layers, high=1.0):
-    """the same along a wall of even layers, spacing 1 in the plane and high across: mean over the layers of M_xx"""
-    reach = SUPPORT[kernel] * h
-    grid = np.arange(-int(reach) - 1, int(reach) + 2)
-    z = high * np.arange(layers)
-    total = 0.0
-    for here in z:
-        x, y, dz = np.meshgrid(grid, grid, z - here, indexing="ij")
-        r = np.sqrt(x**2 + y**2 + dz**2)
-        near = (r > 0) & (r < reach)
-        dW = norm(kernel, 3) / h**4 * shape(kernel, r[near] / h)[1]
-        total -= high * (x[near] ** 2 * dW / r[near]).sum()
-    return total / layers
+    return -(x[:, 0] ** 2 / r * norm(kernel, dim) / h ** (dim + 1) * shape(kernel, r / h)[1]).sum()
 
 
 class Gruneisen:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Flyers of elastic, perfectly plastic solids in three dimensions, measured against the exact states of reference/elastic_plastic.py.
 
-    python3 tests/state_scenes.py --lmp build/lmp --case al-al-5000 --kernel wendland2 --h 1.6 --words "viscosity 1 2 gradient corrected"
+    python3 tests/state_scenes.py --lmp build/lmp --case al-al-5000 --kernel wendland2 --h 1.6 --words "viscosity 1 2"
 
 prints errors in percent: of sigma_x = p - Sxx, rho and e on the plateau, of u in units of the jump, of the speeds of the fronts; on both
 sides of the contact. Columns of m x m particles, periodic across: without jitter the numbers do not depend on m, so m is 1. The plates are

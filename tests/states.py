@@ -2,7 +2,7 @@
 
 Flyers of elastic, perfectly plastic plates and the hypoelastic piston (tests/state_scenes.py, which says where is measured) with two kernels,
 h constant and variable: errors in percent of the exact states (tests/reference/elastic_plastic.py). Of asymmetric impacts the flyer comes
-first, the target second. Bold is what misses its bound on the plateau. --words "viscosity 1 2 gradient plain" or others for another pair style.
+first, the target second. Bold is what misses its bound on the plateau. --words "dissipation riemann" or others for another pair style.
 """
 
 import argparse

@@ -116,11 +116,11 @@ def test_sod(tmp_path, lmp_exe):
 
 SIZES = [("noh-3d", dict(method="riemann", n=8), 20, 25), ("layered", dict(method="riemann", n=100), 2, 4),
          ("flyer-1000", dict(method="machdyn ulsph", n=25), 5, 15), ("flyer-1000", dict(method="machdyn tlsph", n=25), 5, 15),
-         ("piston", dict(method="corrected", n=32), 3, 12), ("solid-flyer-1000", dict(method="machdyn tlsph", n=32), 5, 25),
-         ("wall-wave", dict(method="corrected", layers=2), 0, 0.3), ("wall-wave", dict(method="plain", layers=2), 20, 40),
+         ("piston", dict(method="viscosity", n=32), 3, 12), ("solid-flyer-1000", dict(method="machdyn tlsph", n=32), 5, 25),
+         ("wall-wave", dict(method="viscosity", layers=2), 0, 0.3),
          ("wall-wave", dict(method="elements", layers=2), 0, 0.1), ("bending", dict(method="elements", layers=2), 0, 0.5),
          ("elastic-pulse", dict(method="elements", n=4), 1, 20), ("elastic-pulse", dict(method="machdyn tlsph", n=4), 5, 50),
-         ("verney-shell", dict(method="corrected", layers=2), 1, 10), ("verney-cylinder", dict(method="corrected", layers=4), 0, 3),
+         ("verney-shell", dict(method="viscosity", layers=2), 1, 10), ("verney-cylinder", dict(method="viscosity", layers=4), 0, 3),
          ("taylor", dict(method="elements", n=2), 1, 10), ("spall", dict(method="riemann", n=16), 5, 15)]
 
 

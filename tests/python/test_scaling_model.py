@@ -46,7 +46,7 @@ def test_messages():
 
 
 def test_exchanges():
-    """of the forms of gradient corrected"""
+    """of the forms of solids"""
     assert scaling.exchanges(False, False, False) == (3, 3)
     assert scaling.exchanges(True, True, True) == (6, 4)
 

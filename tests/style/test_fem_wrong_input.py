@@ -87,7 +87,6 @@ def test_what_it_needs(attempt):
         ("fix prop all", FIX + "\nfix prop all", "before simulation box is defined"),
         (FIX, "group ball type 1\nfix wall ball hvi/fem nodes 3 ", "must be of group all, not ball"),
         ("fix solid all hvi/johnson-cook damage no spall none\n", "", "needs fix hvi/johnson-cook"),
-        ("cubic dissipation riemann", "cubic gradient law", "gradient corrected"),
         ("fix move all hvi/sph\n", "", "needs fix hvi/sph"),
         ("fix move all hvi/sph\nfix solid all hvi/johnson-cook damage no spall none\n" + FIX + "\n",
          "fix solid all hvi/johnson-cook damage no spall none\n" + FIX + "\nfix move all hvi/sph\n", "must come after fix hvi/sph"),

@@ -64,7 +64,7 @@ def same(whole, some, shift, planes, tolerance=1e-9):
         assert np.abs(a - b).max() <= tolerance * np.abs(whole[name]).max(), name
 
 
-@pytest.mark.parametrize("words", ["viscosity 1 2", "viscosity 1 2 h variable", "gradient plain interface 0.3", "artstress 0.3 4"])
+@pytest.mark.parametrize("words", ["viscosity 1 2", "viscosity 1 2 h variable", "interface 0.3", "artstress 0.3 4"])
 def test_as_the_whole(lmp, tmp_path, material, words):
     """30 steps with stress, yielding and failure: forces, rates, stress of half, quarter and eighth models"""
     text = "".join("clear\n" + start(p, tmp_path, material, words=words)[0] + OUT.format("f" + p) for p in ("", "x", "xy", "xyz"))

@@ -12,7 +12,7 @@ OUT = "compute R all property/atom drho desph rho esph\ncompute S all hvi/atom {
 STRESS = "sxx syy szz sxy sxz syz"
 WRITE = "write_dump all custom {} id type x y z vx vy vz fx fy fz c_R[*] c_S[*] modify format float %.17g sort id\n"
 THERMO = "thermo 1\nthermo_style custom step dt ke f_sph\nthermo_modify norm no format float %.17g\n"
-WORDS = ["", "h variable", "gradient law", "gradient plain", "dissipation riemann", "artstress 0.3 4"]
+WORDS = ["", "h variable", "dissipation riemann", "artstress 0.3 4"]
 
 
 def lattice(counts, corner, velocity=(0.0, 0.0, 0.0)):
@@ -75,14 +75,13 @@ def test_the_rest_does_not_notice(lmp, tmp_path, words):
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.6, 1.2, 1.8])
-@pytest.mark.parametrize("words", ["", "gradient law"])
-def test_wherever_cells_end(lmp, tmp_path, words, shift):
-    """some awake have neighbors asleep, who count in M of gradient corrected and law when the first signal comes"""
-    unnoticed(lmp, tmp_path, words, shift)
+def test_wherever_cells_end(lmp, tmp_path, shift):
+    """some awake have neighbors asleep, who count in M when the first signal comes"""
+    unnoticed(lmp, tmp_path, "", shift)
 
 
 @pytest.mark.parametrize("nranks, comm", [(2, "brick"), (4, "brick"), (4, "tiled")])
-@pytest.mark.parametrize("words", ["water", "", "gradient law"])
+@pytest.mark.parametrize("words", ["water", ""])
 def test_on_any_ranks(lmp, tmp_path, words, nranks, comm):
     unnoticed(lmp, tmp_path, words, 2.4, nranks, comm)
 
@@ -90,10 +89,10 @@ def test_on_any_ranks(lmp, tmp_path, words, nranks, comm):
 def test_larger_differences_count_as_less(lmp, tmp_path):
     """the larger EPS, the more sleep, and the more it shows"""
     s, run = impact(), "run 12\n" + WRITE
-    lmp(text(s, tmp_path, "no", "gradient plain") + run.format("all"))
+    lmp(text(s, tmp_path, "no") + run.format("all"))
     asleep, error = [], []
     for sleep in ("exact", "1e-8", "1e-6", "1e-4"):
-        asleep.append(lmp(text(s, tmp_path, sleep, "gradient plain") + run.format("some")).thermo["f_sph"][-1])
+        asleep.append(lmp(text(s, tmp_path, sleep) + run.format("some")).thermo["f_sph"][-1])
         error.append(apart(columns(tmp_path / "some"), columns(tmp_path / "all"))["f"])
     assert (np.diff(asleep) > 0).all() and (np.diff(error) > 0).all(), (asleep, error)
     assert error[-1] > 1e-7  # so the bounds above mean something
@@ -198,7 +197,7 @@ compute here all reduce sum v_here
 
 
 @pytest.mark.parametrize("nranks", [1, 2])
-@pytest.mark.parametrize("words", ["water", "", "gradient law"])
+@pytest.mark.parametrize("words", ["water", ""])
 @pytest.mark.parametrize("sleep", ["exact", ""])
 def test_restart_with_sleepers(lmp, tmp_path, words, sleep, nranks):
     """interrupted while some sleep and others wake: the same bits"""

@@ -164,7 +164,7 @@ def test_plastic_work(lmp, tmp_path):
     n = len(x)
     s = Fluid(x, np.zeros((n, 3)), np.ones(n), np.zeros(n), np.ones(n, int), {1: 1.0}, {1: 2.0}, np.array([84.0, 32.0, 1.0]), (False, False, True), 2)
     s.v[:, 0] = s.x[:, 1] - 16
-    r = run(lmp, tmp_path, s, "pair_style hvi/sph quintic dim 2 viscosity 0 0 gradient plain\n" + f"pair_coeff 1 1 file {path} h 2.0\n", "strength perfect damage no spall none",
+    r = run(lmp, tmp_path, s, "pair_style hvi/sph quintic dim 2 viscosity 0 0\n" + f"pair_coeff 1 1 file {path} h 2.0\n", "strength perfect damage no spall none",
             300, dt=end / 300, frames=300, more="fix hold all setforce 0 0 0\nthermo_style custom step c_book[2] c_book[28] c_book[29]", ledger="clamps all")
     f, internal, plastic = r.frames[-1], r.thermo["c_book[2]"][-1], r.thermo["c_book[29]"][-1]
     elastic = (f["vm"] ** 2 / 6 / G / f["rho"]).sum() + (K * (np.log(f["rho"]) + 1 / f["rho"] - 1)).sum()

@@ -1,12 +1,11 @@
 """Solids against exact solutions and conservation.
 
-Tolerances come from the method. The gradient of a linear field in a lattice is M instead of 1 (solid_runs.consistency); waves and
-plateaus of a row then are off by |M - 1|. A front is known to a spacing. The integration is of second order in the step.
+Tolerances come from the method. Gradients of linear fields are exact. A front is known to a spacing. The integration is of second order in the step.
 """
 
 import numpy as np
 import pytest
-from solid_runs import Gruneisen, consistency, crossings, material, momentum_error, piston, row, run, sheet
+from solid_runs import Gruneisen, crossings, material, momentum_error, piston, row, run
 from sph_scenes import Fluid
 
 ENERGY = 1e-3  # largest drift of the ledger, as everywhere in this package
@@ -85,25 +84,24 @@ def test_piston(lmp, tmp_path):
         m = measure_piston(n, frames, exact)
         print(n, {k: f"{v / exact[k] - 1:+.2e}" for k, v in m.items() if k in exact}, {k: m[k] for k in ("vm1", "vm2", "S2", "l1")})
         spacings = n * (frames[1]["t"] - frames[0]["t"]) * 0.55
-        kernel = abs(consistency("quintic", 1.2, 1)[0, 0] - 1)
         for k in ("D1", "D2"):
-            assert m[k] == pytest.approx(exact[k], rel=1 / spacings + kernel), k
+            assert m[k] == pytest.approx(exact[k], rel=1 / spacings), k
         assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
         assert max(momentum_error(r.thermo)) < 1e-12
         if last:
             assert m["l1"] < 0.75 * last["l1"]  # order 1/2: the precursor is so weak that it spreads as sqrt(viscosity t)
         last = m
-    # plateaus: what the kernel gives, and half a percent for what is left of the oscillations
+    # plateaus: half a percent for what is left of the oscillations
     for k in ("rho1", "rho2"):
-        assert last[k] - EOS.rho0 == pytest.approx(exact[k] - EOS.rho0, rel=0.01), k
+        assert last[k] - EOS.rho0 == pytest.approx(exact[k] - EOS.rho0, rel=0.005), k
     for k in ("u1", "p1", "u2", "p2"):
-        assert last[k] == pytest.approx(exact[k], rel=0.01), k
-    assert last["vm2"] == pytest.approx(Y, rel=0.01)
-    assert last["S2"] == pytest.approx(-2 / 3 * Y, rel=0.01)
+        assert last[k] == pytest.approx(exact[k], rel=0.005), k
+    assert last["vm2"] == pytest.approx(Y, rel=0.005)
+    assert last["S2"] == pytest.approx(-2 / 3 * Y, rel=0.005)
 
 
 def test_piston_column(lmp, tmp_path):
-    """the same in three dimensions with the cubic kernel of h = 1.2: fronts run at M = 0.982 of their speed, behind them all is right"""
+    """the same in three dimensions with the cubic kernel of h = 1.2, whose sums on the lattice are 0.982: fronts are in time, and behind them all is right"""
     exact, n, w, length, times = piston(EOS, G, Y, UP), 50, 5, 1.3, (0.8, 1.6)
     path = material(tmp_path / "metal.hvi", EOS_TEXT, f"strength perfect G {G} Y {Y}")
     N = int(round(2 * length * n))
@@ -123,10 +121,9 @@ def test_piston_column(lmp, tmp_path):
     frames = [dict(t=f["time"], x=rows(f["x"][:, 0]) - 0.5 * s.box[0] + UP * f["time"], u=rows(f["v"][:, 0]) + UP,
                    **{q: rows(f[q]) for q in ("rho", "p", "sxx", "vm", "eps", "e")}) for f in r.frames[1:]]
     m = measure_piston(n, frames, exact)
-    M = consistency("cubic", 1.2, 3)[0, 0]
-    print("M - 1", M - 1, {q: f"{v / exact[q] - 1:+.2e}" for q, v in m.items() if q in exact})
+    print({q: f"{v / exact[q] - 1:+.2e}" for q, v in m.items() if q in exact})
     for q in ("D1", "D2"):
-        assert m[q] == pytest.approx(M * exact[q], rel=1 / (n * 0.8 * 0.55)), q  # a spacing
+        assert m[q] == pytest.approx(exact[q], rel=1 / (n * 0.8 * 0.55)), q  # a spacing
     for q in ("u2", "p2"):
         assert m[q] == pytest.approx(exact[q], rel=0.01), q
     assert m["rho2"] - EOS.rho0 == pytest.approx(exact["rho2"] - EOS.rho0, rel=0.01)
@@ -159,7 +156,7 @@ def test_elastic_bars(lmp, tmp_path):
         assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
         assert max(momentum_error(r.thermo)) < 1e-12
         assert end["eps"].max() == 0.0 and not end["damage"].any()
-    assert crossings(t, u, 0.0)[0] == pytest.approx(1.0, abs=1 / 400 + abs(consistency("quintic", 1.2, 1)[0, 0] - 1))
+    assert crossings(t, u, 0.0)[0] == pytest.approx(1.0, abs=1 / 400)
     assert loss[1] < 0.65 * loss[0] and abs(2 * loss[1] - loss[0]) < 0.01  # n^(-1/2), to nothing
     assert stress < 0.03
     assert end["x"][~left, 0].min() - end["x"][left, 0].max() == pytest.approx(1 / 400 + 2 * V * 2 * L / c, rel=0.05)
@@ -217,25 +214,19 @@ def test_rotated_stress(lmp, tmp_path):
         a, b = r.frames[first // 10], r.frames[-1]
         S0, S1 = plane(a, inside), plane(b, inside)
         angle = w * turn * dt
-        M = consistency("quintic", 2.0, 2)[0, 0]
-        want = turned(S0, angle * M)
+        want = turned(S0, angle)
         size = np.abs(S0).max()
         vm = np.array([f["vm"][inside].mean() for f in r.frames[first // 10:]])
         e = np.array([f["e"][inside].mean() for f in r.frames[first // 10:]])
-        print("M - 1", M - 1, "S0", S0.tolist(), "S1", S1.tolist(), "error", np.abs(S1 - want).max() / size, "with M = 1", np.abs(S1 - turned(S0, angle)).max() / size,
+        print("S0", S0.tolist(), "S1", S1.tolist(), "error", np.abs(S1 - want).max() / size,
               "vm", vm[-1] / vm[0] - 1, "e", e[-1] / e[0] - 1, "wrong sign would be", np.abs(turned(S0, -angle) - want).max() / size)
         drift.append((np.abs(S1 - want).max() / size, abs(vm[-1] / vm[0] - 1), np.ptp(e) / e[0]))
-    # the lattice has M instead of 1, so turning by an angle makes a strain of |M - 1| angle
-    F = np.eye(2) + [[0.01, 0.006], [0.006, -0.004]]
-    bound = 2 * 6 * np.radians(100) * np.abs(consistency("quintic", 2.0, 2, F) - np.eye(2)).max() / size
-    print("bound", bound)
-    assert drift[-1][0] < bound and drift[-1][1] < bound
-    assert drift[-1][2] < 2 * bound  # quadratic in S
+    assert np.array(drift[0]) / drift[1] == pytest.approx(4.0, rel=0.05) and max(drift[1]) < 2e-4
 
 
 @pytest.mark.parametrize("kind", ["elastic", "johnson-cook", "temperature work"])
 def test_simple_shear(lmp, tmp_path, kind):
-    """v_x = y up to gamma 1.5: the constitutive law integrated by itself, with L = M from the sheared lattice"""
+    """v_x = y up to gamma 1.5: the constitutive law integrated by itself"""
     sections = dict(elastic=("eos linear rho0 1 K 16", "strength johnson-cook G 6 A 1e6 B 0 n 1 C 0 m 1 epsdot0 1 Tref 300 Tm 900"))
     sections["johnson-cook"] = ("eos gruneisen rho0 1 C 4 S1 1.4 g0 2 a 0 cp 0.001 T0 300",
                                 "strength johnson-cook G 6 A 0.1 B 0.2 n 0.4 C 0.02 m 1 epsdot0 0.01 Tref 300 Tm 900")
@@ -245,7 +236,7 @@ def test_simple_shear(lmp, tmp_path, kind):
     mid = s.box[0] / 2
     s.box[0] += 60
     s.x[:, 0] += 30
-    rate, end, h = 1.0, 1.5, 2.0
+    rate, end = 1.0, 1.5
     s.v[:, 0] = rate * (s.x[:, 1] - mid)
     dt = 0.002
     r = run(lmp, tmp_path, s, pair(path, "quintic", s.h, dim=2, words="viscosity 0 0"), f"damage no spall none {kind if ' ' in kind else ''}",
@@ -259,17 +250,13 @@ def test_simple_shear(lmp, tmp_path, kind):
     S, eps, rho, e, work = np.zeros((3, 3)), 0.0, 1.0, 0.0, 0.0
     eos, G_ = Gruneisen(1.0, 4.0, 1.4, 2.0), 6.0
     n, steps, want = 4, int(round(end / dt)), []
-    worst = 0.0
+    L = np.zeros((3, 3))
+    L[0, 1] = rate
+    D, W = 0.5 * (L + L.T), 0.5 * (L - L.T)
     for k in range(steps * n + 1):
         gamma = k * dt / n * rate
-        if k % (10 * n) == 0:
-            M = consistency("quintic", h, 2, [[1, gamma], [0, 1]])
-            worst = max(worst, np.abs(M - np.eye(2)).max())
         if k % (50 * n) == 0:
             want.append(dict(gamma=gamma, S=S[:2, :2].copy(), eps=eps, e=e, rho=rho, work=work))
-        L = np.zeros((3, 3))
-        L[0, :2] = rate * M[1]
-        D, W = 0.5 * (L + L.T), 0.5 * (L - L.T)
         trial = S + dt / n * (2 * G_ * (D - np.trace(D) / 3 * np.eye(3)) + W @ S - S @ W)
         vm = np.sqrt(1.5 * (trial**2).sum())
         new = trial
@@ -296,13 +283,13 @@ def test_simple_shear(lmp, tmp_path, kind):
     error = max(np.abs(g["S"] - w["S"]).max() for g, w in zip(got, want)) / size
     g, w = got[-1], want[-1]
     ideal = 6 * np.sin(g["gamma"]) if kind == "elastic" else np.nan
-    print(kind, "M - 1 at most", worst, "S error", error, "Sxy", g["S"][0, 1], "ODE", w["S"][0, 1], "ideal", ideal, "eps", g["eps"], w["eps"], "e", g["e"], w["e"],
+    print(kind, "S error", error, "Sxy", g["S"][0, 1], "ODE", w["S"][0, 1], "ideal", ideal, "eps", g["eps"], w["eps"], "e", g["e"], w["e"],
           "work", w["work"], "T", g["T"], 300 + w["e"] / 0.001, "rho", g["rho"], w["rho"])
     assert len(got) == len(want)
     assert error < 2e-3
     assert g["e"] == pytest.approx(w["e"], rel=2e-3)
     if kind == "elastic":
-        assert g["S"][0, 1] == pytest.approx(ideal, rel=3 * worst + 2e-3)
+        assert g["S"][0, 1] == pytest.approx(ideal, rel=2e-3)
     else:
         assert g["eps"] == pytest.approx(w["eps"], rel=2e-3)
         # adiabatic: all but the elastic energy, S:S/4G, is plastic work, and heats
@@ -509,46 +496,26 @@ def test_spall(lmp, tmp_path, root):
 
 @pytest.mark.parametrize("kernel, h", [("cubic", 1.2), ("quintic", 1.6)])
 def test_spinning_disc(lmp, tmp_path, kernel, h):
-    """a free elastic disc spins: momentum, energy and angular momentum are kept
-
-    Near a surface M differs from 1 in one direction, so that with gradient plain a rotation is taken for a strain: stress builds up with the
-    angle and turns the disc back. It goes as the surface and as 1/speed^2; inside a lattice there is none of it (test_rotated_stress).
-    """
+    """a free elastic disc spins: momentum, energy and angular momentum are kept"""
     for R in (6, 12):
         r, J, K, angle = disc(lmp, tmp_path, R, 0.1, kernel, h, name=f"d{R}")
         print(kernel, R, "J", J[-1], "kinetic", K[-1], "turned", angle, "vm", r.frames[-1]["vm"].max())
-        assert abs(J[-1] - 1) < 2e-3
+        assert abs(J[-1] - 1) < 1e-12
         assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
         assert max(momentum_error(r.thermo)) < 1e-12 * len(r.frames[0]["x"])
-    r, J, K, angle = disc(lmp, tmp_path, 12, 0.1, kernel, h, name="plain", words="viscosity 0 0 gradient plain")
-    assert J[-1] < (0.8 if kernel == "cubic" else 0.995)
 
 
 @pytest.mark.parametrize("kernel, h, words", [("cubic", 1.2, ""), ("quintic", 1.6, ""), ("quintic", 1.6, "artstress 0.3 4")])
 def test_disc_under_stress(lmp, tmp_path, kernel, h, words):
-    """the same under stress of changing sign, of some percent of strain, while it turns; gradient plain turns it back
+    """the same under stress of changing sign, of some percent of strain, while it turns
 
-    Forces of S between pairs are not central, so that a lattice that is strained has a torque of the order of the strain; that of artstress
-    is weighted towards near pairs, and more so: with the cubic kernel J changes by 1.5 %.
+    Forces of artstress are not central, so that a lattice that is strained has a torque of the order of the strain; without it there is none.
     """
     r, J, K, angle = disc(lmp, tmp_path, 12, 0.1, kernel, h, words=f"viscosity 0 0 {words}", pulse=0.03)
     vm = [f["vm"].max() for f in r.frames]
     print(kernel, words, "J", J.min(), J.max(), "kinetic", K.min(), "turned", angle, "strain", max(vm) / (2 * np.sqrt(3) * 6))
     assert max(vm) > 2 * np.sqrt(3) * 6 * 0.02
-    assert np.abs(J - 1).max() < 5e-3
+    assert np.abs(J - 1).max() < (5e-3 if words else 1e-12)
     assert angle == pytest.approx(90, abs=3)
     assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
     assert max(momentum_error(r.thermo)) < 1e-12 * len(r.frames[0]["x"])
-    plain = disc(lmp, tmp_path, 12, 0.1, kernel, h, words=f"viscosity 0 0 {words} gradient plain", pulse=0.03, name="plain")[1]
-    print("plain: J", plain.min(), plain.max())
-    assert np.abs(plain - 1).max() > 10 * np.abs(J - 1).max()
-
-
-@pytest.mark.parametrize("kernel,h", [("cubic", 1.2), ("wendland2", 1.6), ("quintic", 1.0)])
-def test_faces_of_a_sheet_bear_part_of_the_stress(kernel, h):
-    """the table of Howto_shield: less the fewer layers there are, all of it in a thick wall but for its faces"""
-    factor = [sheet(kernel, h, n) for n in (2, 3, 4, 6, 16)]
-    assert np.all(np.diff(factor) > 0) and 0.7 < factor[0] < 0.8 and 0.84 < factor[2] < 0.9
-    inside = consistency(kernel, h, 3)[0, 0]
-    assert inside - sheet(kernel, h, 64) == pytest.approx(4 * (inside - factor[-1]) / 16, rel=0.02)
-    assert sheet(kernel, h, 2, high=0.25) < 0.3

@@ -42,7 +42,7 @@ def integrated(rate, step=1e-5):
     return np.array(out).T
 
 
-def stretched(lmp, folder, rate, n, words="", c=6600.0, strain=0.11):
+def stretched(lmp, folder, rate, n, c=6600.0, strain=0.11):
     """the middle of a row with v = rate x, which release from its free ends does not reach before it has failed"""
     length = 2.2 * c * strain / rate
     s = row(length, n, margin=strain * length, rho=EOS.rho0)
@@ -51,7 +51,7 @@ def stretched(lmp, folder, rate, n, words="", c=6600.0, strain=0.11):
     dt = 0.2 * dx / c
     steps = int(strain / rate / dt)
     path = metal(folder / "metal.hvi")
-    pair = f"pair_style hvi/sph quintic dim 1 viscosity 0 0 {words}\npair_coeff 1 1 file {path} h {1.2 * dx:.17g}\n"
+    pair = f"pair_style hvi/sph quintic dim 1 viscosity 0 0\npair_coeff 1 1 file {path} h {1.2 * dx:.17g}\n"
     r = run(lmp, folder, s, pair, "strength perfect damage no spall voids", steps, dt=dt, frames=1, every=50, units="si", name="s")
     mid = n // 2
     f = {q: np.array([frame[q][mid] for frame in r.frames]) for q in ("p", "voids", "void_damage", "spalled", "vm", "rho")}
@@ -59,13 +59,13 @@ def stretched(lmp, folder, rate, n, words="", c=6600.0, strain=0.11):
     return r, f
 
 
-@pytest.mark.parametrize("rate, words", [(1e4, ""), (1e5, ""), (1e6, ""), (1e5, "gradient law"), (1e6, "gradient plain")])
-def test_strength_at_a_rate(lmp, tmp_path, rate, words):
+@pytest.mark.parametrize("rate", [1e4, 1e5, 1e6])
+def test_strength_at_a_rate(lmp, tmp_path, rate):
     t, T, phi, D = integrated(rate)
-    r, f = stretched(lmp, tmp_path, rate, 400, words)
+    r, f = stretched(lmp, tmp_path, rate, 400)
     ratio = -f["p"].min() / T.max()
     failed = f["t"][f["spalled"] > 0]
-    print(words, rate, "peak", -f["p"].min(), "law", T.max(), "ratio", ratio, "of sigma", T.max() / LAW["sigma"] * (rate / LAW["rate"]) ** -LAW["m"],
+    print(rate, "peak", -f["p"].min(), "law", T.max(), "ratio", ratio, "of sigma", T.max() / LAW["sigma"] * (rate / LAW["rate"]) ** -LAW["m"],
           "failed", failed[0] / t[-1] if len(failed) else None, "phi", f["voids"].max() / phi[-1])
     assert ratio == pytest.approx(1, abs=0.003)
     assert len(failed) and failed[0] == pytest.approx(t[-1], rel=0.01)
