@@ -160,6 +160,9 @@ void FixHVILists::post_run()
 
 void FixHVILists::post_integrate()
 {
+  // with run ... pre no nothing is set up, and post_run() of the run before has given the delay back
+
+  if (update->ntimestep == update->firststep + 1) setup(0);
   if (neighbor->delay != NEVER || update->ntimestep < next) return;
   measure();
   const bigint last = looked;
