@@ -127,10 +127,10 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
       a.plastic += carrier->plastic_work(i);
       a.voids += carrier->void_work(i);
     }
-    if (clamped) a.clamped_energy += ke;
+    if (clamped) a.clamped.energy += ke;
     for (int k = 0; k < 3; k++) {
       a.momentum[k] += m * l.v[k];
-      if (clamped) a.clamped_momentum[k] += m * l.v[k];
+      if (clamped) a.clamped.momentum[k] += m * l.v[k];
     }
     a.mass += m;
     a.count += 1.0;

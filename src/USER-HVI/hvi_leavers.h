@@ -9,6 +9,7 @@
 #ifndef LMP_HVI_LEAVERS_H
 #define LMP_HVI_LEAVERS_H
 
+#include "hvi_clamps.h"
 #include "pointers.h"
 
 #include <string>
@@ -27,10 +28,10 @@ class HVILeavers : protected Pointers {
   struct Account {    // on this rank, but nrecords of all
     double energy;    // kinetic, internal, of contacts and bonds torn apart
     double momentum[3], mass, count;
-    double plastic, voids;                         // work, parts of the internal energy
-    double clamped_energy, clamped_momentum[3];    // of leavers in the clamped groups
-    bigint nrecords;                               // of bonds: one or, newton_bond off, two a bond
-    std::vector<std::string> unknown;              // styles whose energy is not in it
+    double plastic, voids;               // work, parts of the internal energy
+    HVIClamps::State clamped;            // of leavers in the clamped groups
+    bigint nrecords;                     // of bonds: one or, newton_bond off, two a bond
+    std::vector<std::string> unknown;    // styles whose energy is not in it
   };
 
   HVILeavers(class LAMMPS *lmp) : Pointers(lmp), dt(0.0) {}
