@@ -20,7 +20,8 @@ namespace LAMMPS_NS {
 /* ----------------------------------------------------------------------
    Particles beyond a fixed face of the box, about to be lost: counts up what
    leaves with them and takes them out.  Needs neither ghosts nor a neighbor
-   list: all ranks see all leavers.
+   list: a rank sees all leavers near its own particles, if any style can tear
+   pairs or bonds apart.
 ------------------------------------------------------------------------- */
 
 class HVILeavers : protected Pointers {
@@ -34,7 +35,7 @@ class HVILeavers : protected Pointers {
     std::vector<std::string> unknown;    // styles whose energy is not in it
   };
 
-  HVILeavers(class LAMMPS *lmp) : Pointers(lmp), dt(0.0) {}
+  HVILeavers(class LAMMPS *lmp) : Pointers(lmp), dt(0.0), reach(0.0), number(0) {}
 
   bigint pick();    // how many, on all ranks
   Account take_out(double dt, int clampbit);
@@ -42,7 +43,7 @@ class HVILeavers : protected Pointers {
  private:
   struct Leaver {
     tagint tag;
-    int type;
+    int type, rank;
     double x[3], v[3];
   };
   struct LeaverBond {
@@ -50,11 +51,14 @@ class HVILeavers : protected Pointers {
     int type;
   };
 
-  double dt;
+  double dt, reach;            // of pairs, and of what holds a bond together
+  bigint number;               // of leavers, on all ranks
   std::vector<int> leaving;    // owned particles that leave
   std::vector<int> near;      // owned particles that stay, but may be in touch with one that leaves
-  std::vector<Leaver> out;    // leavers of all ranks
+  std::vector<Leaver> out;    // leavers near particles of this rank, and its own
+  std::vector<LeaverBond> bonds;    // that those hold
 
+  void share(bool bonded);
   double torn(double, double, const double *, const double *, const Leaver &) const;
   double contact(const class HVITorn &, int, const double *, const double *, const Leaver &) const;
   double spring(const class HVITorn &, int, const double *, const double *, const Leaver &) const;
@@ -63,7 +67,6 @@ class HVILeavers : protected Pointers {
   void fractional(const double *, double *) const;
   void fraction_of_box(double, double *) const;
   void remove();
-  template <typename T> std::vector<T> gather_all(const std::vector<T> &) const;
 };
 
 }    // namespace LAMMPS_NS
