@@ -23,6 +23,7 @@
 #include "hvi_energy_carrier.h"
 #include "hvi_interface.h"
 #include "hvi_torn.h"
+#include "math_extra.h"
 #include "neighbor.h"
 
 #include <algorithm>
@@ -190,40 +191,36 @@ void HVILeavers::share(bool bonded)
 
 /* ----------------------------------------------------------------------
    a pair that is torn apart takes its energy along, and the half kick that it
-   no longer gives
+   no longer gives; law(rsq, fforce) is its energy
 ------------------------------------------------------------------------- */
 
-double HVILeavers::torn(double phi, double fforce, const double *x, const double *v,
-                        const Leaver &l) const
+template <class Law>
+double HVILeavers::torn(const Law &law, const double *x, const double *v, const Leaver &l) const
 {
   double d[3] = {x[0] - l.x[0], x[1] - l.x[1], x[2] - l.x[2]};
   HVI::minimum_image(domain, d[0], d[1], d[2]);
-  double rdotv = 0.0;
+  double rdotv = 0.0, fforce = 0.0;
   for (int k = 0; k < 3; k++) rdotv += d[k] * (v[k] - l.v[k]);
+  const double phi = law(MathExtra::lensq3(d), fforce);
   return phi + 0.5 * dt * fforce * rdotv;
-}
-
-static double distsq(Domain *domain, const double *x, const double *y)
-{
-  double d[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
-  HVI::minimum_image(domain, d[0], d[1], d[2]);
-  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 
 double HVILeavers::contact(const HVITorn &laws, int type, const double *x, const double *v,
                            const Leaver &l) const
 {
-  double fforce = 0.0;
-  const double phi = laws.pair(type, l.type, distsq(domain, x, l.x), fforce);
-  return torn(phi, fforce, x, v, l);
+  const auto law = [&](double rsq, double &fforce) {
+    return laws.pair(type, l.type, rsq, fforce);
+  };
+  return torn(law, x, v, l);
 }
 
 double HVILeavers::spring(const HVITorn &laws, int btype, const double *x, const double *v,
                           const Leaver &l) const
 {
-  double fforce = 0.0;
-  const double phi = laws.bond(btype, distsq(domain, x, l.x), fforce);
-  return torn(phi, fforce, x, v, l);
+  const auto law = [&](double rsq, double &fforce) {
+    return laws.bond(btype, rsq, fforce);
+  };
+  return torn(law, x, v, l);
 }
 
 /* ----------------------------------------------------------------------

@@ -59,7 +59,8 @@ class HVILeavers : protected Pointers {
   std::vector<LeaverBond> bonds;    // that those hold
 
   void share(bool bonded);
-  double torn(double, double, const double *, const double *, const Leaver &) const;
+  template <class Law>
+  double torn(const Law &, const double *, const double *, const Leaver &) const;
   double contact(const class HVITorn &, int, const double *, const double *, const Leaver &) const;
   double spring(const class HVITorn &, int, const double *, const double *, const Leaver &) const;
   double tear_contacts(const class HVITorn &) const;
