@@ -134,7 +134,6 @@ bool RelativeMotion::exceeded(const double *const *moved, const double *const *v
   if (levels.empty()) return false;
 
   double longest = 0.0, farthest[3] = {0.0, 0.0, 0.0};
-  bool finite = true;    // a maximum drops what is not a number
   for (size_t i = 0; i < cell.size(); i++) {
     Box &box = levels[0].boxes[cell[i]];
     double sq = 0.0, later = 0.0;
@@ -147,9 +146,7 @@ bool RelativeMotion::exceeded(const double *const *moved, const double *const *v
       farthest[k] = std::max({farthest[k], std::fabs(now), std::fabs(then)});
     }
     longest = std::max({longest, sq, later});
-    finite = finite && !std::isnan(sq + later);
   }
-  if (!finite) return true;
 
   // diagonals of boxes may be longer than any difference: what LAMMPS asks for is enough
 

@@ -31,7 +31,7 @@ class RelativeMotion {
   void start(int n, const double *const *x, double cut, double skin);
 
   // moved: what each of the n points has moved since.  False: no pair can be missing; nor any time up
-  // to the one given, if they go on with velocity v.  True if one of them is not a number.
+  // to the one given, if they go on with velocity v.
 
   bool exceeded(const double *const *moved, const double *const *v = nullptr, double time = 0.0);
 
