@@ -12,11 +12,8 @@
 #include "compute_hvi_cloud.h"
 
 #include "atom.h"
-#include "domain.h"
 #include "error.h"
-#include "fix_hvi_store.h"
 #include "force.h"
-#include "hvi_mesh.h"
 #include "update.h"
 
 #include <algorithm>
@@ -41,7 +38,7 @@ static constexpr double TIE_MASS = 1.0e-12;    // shares of the mass likewise
 /* ---------------------------------------------------------------------- */
 
 ComputeHVICloud::ComputeHVICloud(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), axis(-1), plane(NAN), quantile(0.99)
+    ComputeHVIMatter(lmp, narg, arg), axis(-1), plane(NAN), quantile(0.99)
 {
   vector_flag = 1;
   size_vector = NVALUES;
@@ -53,9 +50,7 @@ ComputeHVICloud::ComputeHVICloud(LAMMPS *lmp, int narg, char **arg) :
       utils::missing_cmd_args(FLERR, fmt::format("compute hvi/cloud {}", arg[iarg]), error);
     const char *const value = arg[iarg + 1];
     if (strcmp(arg[iarg], "axis") == 0) {
-      if (strlen(value) != 1 || value[0] < 'x' || value[0] > 'z')
-        error->all(FLERR, "Compute hvi/cloud axis must be x, y or z, not {}", value);
-      axis = value[0] - 'x';
+      axis = axis_of(value);
     } else if (strcmp(arg[iarg], "plane") == 0) {
       plane = utils::numeric(FLERR, value, false, lmp);
       if (!std::isfinite(plane))
@@ -89,25 +84,18 @@ void ComputeHVICloud::compute_vector()
 
   const double *const *const v = atom->v;
   const int across[2] = {(axis + 1) % 3, (axis + 2) % 3};
-  const auto *const store = force->pair_match("^hvi/sph$", 0) ? FixHVIStore::find(lmp) : nullptr;
-  const HVI::MirrorPlanes mirror = store ? store->fields.settings.mirror : HVI::MirrorPlanes();
+  const HVI::MirrorPlanes mirror = find_mirror();
 
   // sums over the cloud
 
   enum { SMASS, SMOMENTUM, SMVSQ, SCOUNT, SY, SVY = SY + 2, NSUM = SVY + 2 };
   double mine[NSUM] = {0.0}, sum[NSUM];
   cloud.clear();
-  const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(chosen ? (*chosen)[i] : atom->mask[i] & groupbit) ||
-        (mesh && mesh->is_node(atom->type[i])))
-      continue;
-    double x[3];
-    domain->unmap(atom->x[i], atom->image[i], x);
-    if (!(x[axis] > plane)) continue;
+  each([&](int i, double m, const double *x) {
+    if (!(x[axis] > plane)) return;
 
     Particle p;
-    p.mass = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+    p.mass = m;
     p.s = x[axis];
     p.vs = v[i][axis];
     for (int k = 0; k < 2; k++) {
@@ -121,7 +109,7 @@ void ComputeHVICloud::compute_vector()
     mine[SMVSQ] += p.mass * (p.vs * p.vs + p.vy[0] * p.vy[0] + p.vy[1] * p.vy[1]);
     mine[SCOUNT] += 1.0;
     cloud.push_back(p);
-  }
+  });
   MPI_Allreduce(mine, sum, NSUM, MPI_DOUBLE, MPI_SUM, world);
 
   std::fill(vector, vector + NVALUES, 0.0);

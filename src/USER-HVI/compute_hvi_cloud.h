@@ -15,7 +15,7 @@ ComputeStyle(hvi/cloud,ComputeHVICloud);
 #ifndef LMP_COMPUTE_HVI_CLOUD_H
 #define LMP_COMPUTE_HVI_CLOUD_H
 
-#include "compute.h"
+#include "compute_hvi_matter.h"
 
 #include <cstdint>
 #include <vector>
@@ -47,7 +47,7 @@ namespace LAMMPS_NS {
    without a radius.
 ------------------------------------------------------------------------- */
 
-class ComputeHVICloud : public Compute {
+class ComputeHVICloud : public ComputeHVIMatter {
  public:
   ComputeHVICloud(class LAMMPS *, int, char **);
   ~ComputeHVICloud() override;
@@ -55,12 +55,7 @@ class ComputeHVICloud : public Compute {
   void compute_vector() override;
   double memory_usage() override;
 
-  // for a compute that has one of its own: of the owned particles chosen[i] in place of the group's
-
-  void choose(const std::vector<char> *set) { chosen = set; }
-
  private:
-  const std::vector<char> *chosen = nullptr;
   struct Particle {
     double mass, s, vs;    // along the axis
     double y[2], vy[2];    // across

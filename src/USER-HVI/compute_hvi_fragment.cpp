@@ -76,6 +76,11 @@ void ComputeHVIFragment::init()
     if (!region) error->all(FLERR, "Region {} for compute hvi/fragment does not exist", idregion);
   }
   table_step = -1;    // a new run may start at the same step from other particles
+  if (cutoff == 0.0 && find_mirror().planes)
+    error->all(
+        FLERR,
+        "Compute hvi/fragment bonds: bonds do not tell what hangs together with its image in "
+        "a mirror plane of pair style hvi/sph: use distance");
 }
 
 /* ---------------------------------------------------------------------- */
@@ -86,8 +91,10 @@ ComputeHVIFragment::Heaviest ComputeHVIFragment::find_heaviest()
   make_rows();
 
   double mine[2] = {0.0, 0.0}, all[2];    // number; largest mass
-  for (const Row &r : rows) mine[1] = MAX(mine[1], r.mass);
-  mine[0] = rows.size();
+  for (const Row &r : rows) {
+    mine[0] += number(r);
+    mine[1] = MAX(mine[1], r.mass);
+  }
   MPI_Allreduce(&mine[0], &all[0], 1, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(&mine[1], &all[1], 1, MPI_DOUBLE, MPI_MAX, world);
 
@@ -114,11 +121,12 @@ void ComputeHVIFragment::compute_vector()
   make_rows();
 
   double mine[NVALUES] = {0.0}, sum[NVALUES], mass = 0.0, largest = 0.0;
-  mine[N_FRAG] = rows.size();
   for (const Row &r : rows) {
-    mine[N_PART] += r.count;
-    mine[LARGEST] += r.mass;
-    if (r.count == 1.0) mine[SINGLES] += r.mass;
+    const double n = number(r);
+    mine[N_FRAG] += n;
+    mine[N_PART] += n * r.count;
+    mine[LARGEST] += n * r.mass;
+    if (r.count == 1.0) mine[SINGLES] += n * r.mass;
     mass = MAX(mass, r.mass);
   }
   MPI_Allreduce(mine, sum, NVALUES, MPI_DOUBLE, MPI_SUM, world);
@@ -132,7 +140,8 @@ void ComputeHVIFragment::compute_vector()
 }
 
 /* ----------------------------------------------------------------------
-   rank 0 holds them all: a dump shows them in order
+   rank 0 holds them all: a dump shows them in order.  IDs in the second, third, ... part of a mirrored
+   model are above those of the parts before by the highest of all.
 ------------------------------------------------------------------------- */
 
 void ComputeHVIFragment::compute_local()
@@ -141,6 +150,25 @@ void ComputeHVIFragment::compute_local()
   make_rows();
 
   std::vector<Row> all = HVI::deliver(world, rows, std::vector<int>(rows.size(), 0));
+  if (mirror.planes) {
+    int64_t mine = 1, highest;
+    each([&](int i, double, const double *) {
+      mine = MAX(mine, atom->tag[i]);
+    });
+    MPI_Allreduce(&mine, &highest, 1, MPI_INT64_T, MPI_MAX, world);
+
+    const size_t there = all.size();
+    int64_t above = 0;
+    for (int op = 1; op < HVI::MirrorPlanes::NOPS; op++) {
+      if (!mirror.is_operation(op)) continue;
+      above += highest;
+      for (size_t n = 0; n < there; n++)
+        if (!(op & all[n].reached)) {
+          all.push_back(all[n].image(mirror, op));
+          all.back().id += above;
+        }
+    }
+  }
   std::sort(all.begin(), all.end(), [](const Row &a, const Row &b) {
     return (a.mass != b.mass) ? a.mass > b.mass : a.id < b.id;
   });
@@ -173,26 +201,23 @@ void ComputeHVIFragment::make_rows()
   table_step = update->ntimestep;
 
   find_fragments(region);
+  mirror = find_mirror();
 
   const int nlocal = atom->nlocal;
   const double *const *const v = atom->v;
-  const double *const rmass = atom->rmass;
-  const double *const mass = atom->mass;
-  const int *const type = atom->type;
-
   rows.clear();
   slot.assign(nlocal, -1);
   std::vector<Share> shares;
   std::vector<int> rank;
 
-  for (int i = 0; i < nlocal; i++) {
-    if (id[i] == 0) continue;
+  each([&](int i, double m, const double *x) {
+    if (id[i] == 0) return;
     const HVI::Components::Node &fragment = components.component(i);
     const bool here = fragment.rank == comm->me;
     const int vertex = here ? fragment.vertex : components.local(i);
 
     if (slot[vertex] < 0) {
-      const Row empty = {std::abs(fragment.id), 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0};
+      const Row empty = {std::abs(fragment.id), 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0, 0};
       if (here) {
         slot[vertex] = rows.size();
         rows.push_back(empty);
@@ -204,17 +229,41 @@ void ComputeHVIFragment::make_rows()
     }
     Row &row = here ? rows[slot[vertex]] : shares[slot[vertex]].row;
 
-    Row one;
-    one.count = 1.0;
-    one.mass = rmass ? rmass[i] : mass[type[i]];
-    domain->unmap(atom->x[i], atom->image[i], one.center);
-    for (int k = 0; k < 3; k++) one.momentum[k] = one.mass * v[i][k];
-    one.mvsq = one.mass * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]);
-    one.spread = 0.0;
+    Row one = {0, 1.0, m, {x[0], x[1], x[2]}, {0.0}, 0.0, 0.0, 0};
+    for (int k = 0; k < 3; k++) {
+      one.momentum[k] = m * v[i][k];
+      if (id[i] > 0 && mirror.has(k) && 2.0 * mirror.depth(k, x) < cutoff) one.reached |= 1 << k;
+    }
+    one.mvsq = m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]);
     row.add(one);
-  }
+  });
 
   for (const Share &s : HVI::deliver(world, shares, rank)) rows[slot[s.vertex]].add(s.row);
+  for (Row &r : rows)
+    for (int k = 0; k < 3; k++)
+      if (r.reached >> k & 1) r.add(r.image(mirror, 1 << k));
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeHVIFragment::number(const Row &r) const
+{
+  double n = 1.0;
+  for (int k = 0; k < 3; k++)
+    if (mirror.has(k) && !(r.reached >> k & 1)) n *= 2.0;
+  return n;
+}
+
+ComputeHVIFragment::Row ComputeHVIFragment::Row::image(const HVI::MirrorPlanes &planes,
+                                                       int op) const
+{
+  Row there = *this;
+  for (int k = 0; k < 3; k++)
+    if (op >> k & 1) {
+      there.center[k] = 2.0 * planes.at[k] - center[k];
+      there.momentum[k] = -momentum[k];
+    }
+  return there;
 }
 
 /* ----------------------------------------------------------------------
@@ -237,6 +286,7 @@ void ComputeHVIFragment::Row::add(const Row &other)
   count += other.count;
   mass = total;
   mvsq += other.mvsq;
+  reached |= other.reached;
 }
 
 /* ---------------------------------------------------------------------- */

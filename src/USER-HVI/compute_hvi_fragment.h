@@ -24,6 +24,10 @@ namespace LAMMPS_NS {
    and connect: two pieces that hang together only through particles outside
    are two fragments.
 
+   Between mirror planes of pair hvi/sph all is of the whole model: a fragment closer to a plane than
+   half of the distance within which particles hang together is one piece with its image, of any other
+   there are as many.  No other two come that close across a plane without being one on this side.
+
    Rows (largest mass first, equal masses by ID; all on rank 0):
      id count mass x y z vx vy vz ke size
    x y z is the center of mass of the unwrapped coordinates, ke the kinetic
@@ -59,8 +63,10 @@ class ComputeHVIFragment : public ComputeHVIFragmentAtom {
     double count, mass, center[3], momentum[3];
     double mvsq;      // sum of m v^2
     double spread;    // sum of m (x - center)^2
+    int reached;      // mirror planes that it hangs together with its images across, bits
 
     void add(const Row &);
+    Row image(const HVI::MirrorPlanes &, int op) const;
   };
   struct Share {    // of a fragment that another rank gathers
     Row row;
@@ -69,11 +75,14 @@ class ComputeHVIFragment : public ComputeHVIFragmentAtom {
 
   char *idregion;
   class Region *region;
-  bigint table_step;        // when the rows were last made
-  std::vector<Row> rows;    // fragments whose lowest ID is owned here
+  bigint table_step;    // when the rows were last made
+  std::vector<Row>
+      rows;    // fragments whose lowest ID is owned here, with images that are one with them
   std::vector<int> slot;
+  HVI::MirrorPlanes mirror;
 
   void make_rows();
+  double number(const Row &) const;    // of such pieces in the whole model
 };
 
 }    // namespace LAMMPS_NS

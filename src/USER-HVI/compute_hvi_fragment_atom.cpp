@@ -18,7 +18,6 @@
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
 #include "force.h"
-#include "hvi_mesh.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -57,7 +56,7 @@ ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg
 ------------------------------------------------------------------------- */
 
 ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg, int keywords) :
-    Compute(lmp, narg, arg), iarg(3), components(world), chosen(nullptr), mode(BONDS), cutoff(0.0),
+    ComputeHVIMatter(lmp, narg, arg), iarg(3), components(world), cutoff(0.0), mode(BONDS),
     damage(0), list(nullptr), nmax(0), fragment(nullptr), node(nullptr)
 {
   comm_forward = NODE_SIZE;
@@ -177,22 +176,17 @@ void ComputeHVIFragmentAtom::compute_peratom()
 void ComputeHVIFragmentAtom::find_fragments(Region *region)
 {
   const int nlocal = atom->nlocal;
-  const tagint *const tag = atom->tag;
-  const int *const mask = atom->mask;
 
   id.assign(nlocal, 0);
   if (region) region->prematch();
-  const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
-  for (int i = 0; i < nlocal; i++) {
-    if (!(chosen ? (*chosen)[i] : mask[i] & groupbit) || (mesh && mesh->is_node(atom->type[i])))
-      continue;
+  each([&](int i, double, const double *) {
     if (region) {
       double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
       domain->remap(x);    // it may have left a periodic box since the last rebuild
-      if (!region->match(x[0], x[1], x[2])) continue;
+      if (!region->match(x[0], x[1], x[2])) return;
     }
-    id[i] = tag[i];
-  }
+    id[i] = atom->tag[i];
+  });
 
   if (damage) {
     const FixHVIJohnsonCook *const strength = FixHVIJohnsonCook::find(lmp);
@@ -216,7 +210,7 @@ void ComputeHVIFragmentAtom::find_fragments(Region *region)
 
 void ComputeHVIFragmentAtom::choose(const std::vector<char> *set, int stay_alone)
 {
-  chosen = set;
+  ComputeHVIMatter::choose(set);
   damage = stay_alone;
 }
 

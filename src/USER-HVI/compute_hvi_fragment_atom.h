@@ -15,8 +15,7 @@ ComputeStyle(hvi/fragment/atom,ComputeHVIFragmentAtom);
 #ifndef LMP_COMPUTE_HVI_FRAGMENT_ATOM_H
 #define LMP_COMPUTE_HVI_FRAGMENT_ATOM_H
 
-#include "compute.h"
-
+#include "compute_hvi_matter.h"
 #include "hvi_components.h"
 
 namespace LAMMPS_NS {
@@ -32,7 +31,7 @@ namespace LAMMPS_NS {
                  d_hvi_damage at 1) stay alone
 ------------------------------------------------------------------------- */
 
-class ComputeHVIFragmentAtom : public Compute {
+class ComputeHVIFragmentAtom : public ComputeHVIMatter {
  public:
   ComputeHVIFragmentAtom(class LAMMPS *, int, char **);
   ~ComputeHVIFragmentAtom() override;
@@ -43,8 +42,8 @@ class ComputeHVIFragmentAtom : public Compute {
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
 
-  // for a compute that has one of its own: fragments among the owned particles chosen[i], and whether
-  // failed ones stay alone; the lowest ID of each, 0 of the others
+  // for a compute that has one of its own: whether failed particles stay alone; of each particle the
+  // lowest ID in its fragment, 0 of those that do not count
 
   void choose(const std::vector<char> *, int damage);
   void find_chosen(std::vector<int64_t> &lowest);
@@ -56,8 +55,7 @@ class ComputeHVIFragmentAtom : public Compute {
   int iarg;    // first argument after MODE
   HVI::Components components;
   std::vector<int64_t> id;    // atom ID; 0 if left out, < 0 if it stays alone
-
-  const std::vector<char> *chosen;    // null: those of the group
+  double cutoff;              // of mode distance, else 0
 
   void find_fragments(class Region *);
 
@@ -65,7 +63,6 @@ class ComputeHVIFragmentAtom : public Compute {
   enum Mode { BONDS, DISTANCE };
 
   Mode mode;
-  double cutoff;
   int damage;    // 1: failed particles stay alone
   class NeighList *list;
   int nmax;

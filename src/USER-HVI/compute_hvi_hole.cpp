@@ -15,7 +15,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "hvi_mesh.h"
 #include "update.h"
 
 #include <algorithm>
@@ -42,8 +41,9 @@ static constexpr double ONE_SIDED = 0.01;              // a plate with less on o
 /* ---------------------------------------------------------------------- */
 
 ComputeHVIHole::ComputeHVIHole(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), axis(-1), sectors(36), center{NAN, NAN}, plane(NAN), thickness(0.0),
-    dr(0.0), fill(0.5), reference(0.0), warned_open(false), warned_coarse(false), warned_dr(false)
+    ComputeHVIMatter(lmp, narg, arg), axis(-1), sectors(36), center{NAN, NAN}, plane(NAN),
+    thickness(0.0), dr(0.0), fill(0.5), reference(0.0), warned_open(false), warned_coarse(false),
+    warned_dr(false)
 {
   if (domain->dimension != 3)
     error->all(FLERR, "Compute hvi/hole needs a three-dimensional simulation");
@@ -72,9 +72,7 @@ ComputeHVIHole::ComputeHVIHole(LAMMPS *lmp, int narg, char **arg) :
       center[1] = number(iarg + 2);
       iarg++;
     } else if (strcmp(arg[iarg], "axis") == 0) {
-      if (strlen(value) != 1 || value[0] < 'x' || value[0] > 'z')
-        error->all(FLERR, "Compute hvi/hole axis must be x, y or z, not {}", value);
-      axis = value[0] - 'x';
+      axis = axis_of(value);
     } else if (strcmp(arg[iarg], "plane") == 0) {
       plane = number(iarg + 1);
     } else if (strcmp(arg[iarg], "thickness") == 0) {
@@ -176,17 +174,8 @@ void ComputeHVIHole::find_layer()
   layer.clear();
   double mine[6] = {0.0, 0.0}, most[6];    // the last 4: minus the lowest, and the highest
   std::fill(mine + 2, mine + 6, -HUGE_VAL);
-  const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(chosen ? (*chosen)[i] : atom->mask[i] & groupbit) ||
-        (mesh && mesh->is_node(atom->type[i])))
-      continue;
-    double x[3];
-    domain->unmap(atom->x[i], atom->image[i], x);
-    const Particle p = {atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]],
-                        x[axis] - plane,
-                        {x[across[0]] - center[0], x[across[1]] - center[1]}};
-    if (!std::isfinite(p.s + p.y[0] + p.y[1])) continue;
+  each([&](int, double m, const double *x) {
+    const Particle p = {m, x[axis] - plane, {x[across[0]] - center[0], x[across[1]] - center[1]}};
     mine[0] = std::max(mine[0], std::fabs(p.s));
     mine[1] = std::max(mine[1], p.mass);
     for (int k = 0; k < 2; k++) {
@@ -194,7 +183,7 @@ void ComputeHVIHole::find_layer()
       mine[4 + k] = std::max(mine[4 + k], p.y[k]);
     }
     layer.push_back(p);
-  }
+  });
   MPI_Allreduce(mine, most, 6, MPI_DOUBLE, MPI_MAX, world);
   const int64_t here = layer.size();
   int64_t everywhere;

@@ -15,7 +15,7 @@ ComputeStyle(hvi/hole,ComputeHVIHole);
 #ifndef LMP_COMPUTE_HVI_HOLE_H
 #define LMP_COMPUTE_HVI_HOLE_H
 
-#include "compute.h"
+#include "compute_hvi_matter.h"
 #include "hvi_plate.h"
 
 #include <cstdint>
@@ -38,7 +38,7 @@ namespace LAMMPS_NS {
    1 to 6 are 0 if there is no hole, all if there is no plate.
 ------------------------------------------------------------------------- */
 
-class ComputeHVIHole : public Compute {
+class ComputeHVIHole : public ComputeHVIMatter {
  public:
   ComputeHVIHole(class LAMMPS *, int, char **);
   ~ComputeHVIHole() override;
@@ -46,12 +46,7 @@ class ComputeHVIHole : public Compute {
   void compute_vector() override;
   double memory_usage() override;
 
-  // for a compute that has one of its own: of the owned particles chosen[i] in place of the group's
-
-  void choose(const std::vector<char> *set) { chosen = set; }
-
  private:
-  const std::vector<char> *chosen = nullptr;
   struct Particle {
     double mass, s, y[2];    // s from the plane, y from the center
   };

@@ -37,14 +37,12 @@ using namespace LAMMPS_NS;
 static constexpr double BIG = 1.0e20;
 static constexpr double WHOLE =
     0.99;    // of a plate that is no smaller than its share of the model
-static constexpr double NEAR_PLANE =
-    0.5;    // of the reach: a piece so near a mirror plane goes on behind it
 
 /* ---------------------------------------------------------------------- */
 
 ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), axis(-1), reach(0.0), id_fix(nullptr), owns_fix(true), first(nullptr),
-    store(nullptr), strength(nullptr)
+    ComputeHVIMatter(lmp, narg, arg), axis(-1), reach(0.0), id_fix(nullptr), owns_fix(true),
+    first(nullptr), store(nullptr), strength(nullptr)
 {
   if (domain->dimension != 3)
     error->all(FLERR, "Compute hvi/wall needs a three-dimensional simulation");
@@ -71,9 +69,7 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
     if (strcmp(arg[iarg], "axis") != 0)
       error->all(FLERR, "Compute hvi/wall begins with axis x, y or z, or with like ID, not {}",
                  arg[iarg]);
-    if (strlen(arg[iarg + 1]) != 1 || arg[iarg + 1][0] < 'x' || arg[iarg + 1][0] > 'z')
-      error->all(FLERR, "Compute hvi/wall axis must be x, y or z, not {}", arg[iarg + 1]);
-    axis = arg[iarg + 1][0] - 'x';
+    axis = axis_of(arg[iarg + 1]);
   }
   create_attribute = owns_fix;
   across[0] = (axis == 0) ? 1 : 0;
@@ -473,28 +469,6 @@ int64_t ComputeHVIWall::piece_of(const std::vector<int64_t> &piece, int64_t id) 
   return found;
 }
 
-/* ----------------------------------------------------------------------
-   by how much a piece is more than what the model has of it: twice for each mirror
-   plane that it reaches.  A failed particle that stays alone does not go on there.
-------------------------------------------------------------------------- */
-
-double ComputeHVIWall::images_of(const std::vector<int64_t> &piece, int64_t id, bool sound_only)
-{
-  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
-  double mine[4] = {-BIG, -BIG, -BIG, 0.0}, all[4];    // minus the least depth; 1: has failed
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (piece[i] != id || !chosen[i]) continue;
-    for (int k = 0; k < 3; k++)
-      if (mirror.has(k)) mine[k] = MAX(mine[k], -mirror.depth(k, atom->x[i]));
-    if (sound_only && strength && strength->failed(i)) mine[3] = 1.0;
-  }
-  MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_MAX, world);
-  double images = 1.0;
-  for (int k = 0; k < 3; k++)
-    if (mirror.has(k) && all[3] == 0.0 && -all[k] < NEAR_PLANE * reach) images *= 2.0;
-  return images;
-}
-
 /* ---------------------------------------------------------------------- */
 
 void ComputeHVIWall::measure(Wall &w, double *row)
@@ -559,18 +533,12 @@ void ComputeHVIWall::measure(Wall &w, double *row)
   fragment->choose(&chosen, strength ? 1 : 0);
   ComputeHVIFragment::Heaviest piece = fragment->find_heaviest();
   row[FRAGMENTS] = piece.number;
-  if (piece.id) {
-    fragment->name_found(own);
-    row[LARGEST_MASS] = piece.mass * images_of(own, piece.id, true);
-    row[LARGEST_VELOCITY] = piece.velocity[axis];
-  }
+  row[LARGEST_MASS] = piece.mass;
+  row[LARGEST_VELOCITY] = piece.velocity[axis];
   fragment->choose(&chosen, 0);
   piece = fragment->find_heaviest();
   row[PIECES_APART] = piece.number;
-  if (piece.id) {
-    fragment->name_found(own);
-    row[LARGEST_APART_MASS] = piece.mass * images_of(own, piece.id, false);
-  }
+  row[LARGEST_APART_MASS] = piece.mass;
   find_hole(w, row);
 }
 

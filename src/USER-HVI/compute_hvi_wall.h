@@ -15,11 +15,10 @@ ComputeStyle(hvi/wall,ComputeHVIWall);
 #ifndef LMP_COMPUTE_HVI_WALL_H
 #define LMP_COMPUTE_HVI_WALL_H
 
-#include "compute.h"
-
 #include "compute_hvi_cloud.h"
 #include "compute_hvi_fragment.h"
 #include "compute_hvi_hole.h"
+#include "compute_hvi_matter.h"
 
 #include <cstdint>
 #include <memory>
@@ -37,7 +36,7 @@ namespace LAMMPS_NS {
    own, which LAMMPS does not know, and chooses particles for them.
 ------------------------------------------------------------------------- */
 
-class ComputeHVIWall : public Compute {
+class ComputeHVIWall : public ComputeHVIMatter {
  public:
   // clang-format off
   enum Column {
@@ -99,7 +98,6 @@ class ComputeHVIWall : public Compute {
   void find_pieces();
   void measure(Wall &, double *row);
   int64_t piece_of(const std::vector<int64_t> &, int64_t id) const;
-  double images_of(const std::vector<int64_t> &, int64_t id, bool sound_only);
   void find_hole(Wall &, double *row);
 };
 

@@ -17,6 +17,7 @@
 #include "error.h"
 #include "force.h"
 #include "hvi_leavers.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "modify.h"
 #include "output.h"
@@ -28,13 +29,9 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
+using MathExtra::dot3;
 
 static constexpr char LEDGER_ID[] = "HVI_LEDGER";
-
-static inline double dot(const double *a, const double *b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /* ---------------------------------------------------------------------- */
 
@@ -50,8 +47,7 @@ FixHVILedger *FixHVILedger::instance(LAMMPS *lmp)
 
 FixHVILedger::FixHVILedger(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), entry(), start_set(0), start(), breaking(0), warned(0), nerased(0),
-    dt_step(0.0), nmax(0), lost(nullptr), clampbit(0), finternal(nullptr), xold(nullptr),
-    dx(nullptr), nclamp(0), newcomers(0), clamp_state()
+    dt_step(0.0), nmax(0), lost(nullptr), held(lmp, &entry[CLAMP_WORK])
 {
   if (strcmp(id, LEDGER_ID) != 0)
     error->all(FLERR, "Fix hvi/ledger is made by the styles that need it: use compute hvi/energy");
@@ -59,7 +55,7 @@ FixHVILedger::FixHVILedger(LAMMPS *lmp, int narg, char **arg) :
   restart_global = 1;
   comm_reverse = 3;
   nevery = 1;
-  maxexchange = 3;
+  maxexchange = HVIClamps::SENT;
   create_attribute = 1;
   atom->add_callback(Atom::GROW);
 }
@@ -69,9 +65,6 @@ FixHVILedger::FixHVILedger(LAMMPS *lmp, int narg, char **arg) :
 FixHVILedger::~FixHVILedger()
 {
   memory->destroy(lost);
-  memory->destroy(finternal);
-  memory->destroy(xold);
-  memory->destroy(dx);
   atom->delete_callback(id, Atom::GROW);
 }
 
@@ -89,7 +82,7 @@ void FixHVILedger::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Compute hvi/energy and breaking bonds do not support run_style respa");
 
-  if (!clampbit) return;
+  if (!held.bits()) return;
 
   // clamps are what other fixes make of the forces, so see the forces before they do
 
@@ -109,11 +102,7 @@ void FixHVILedger::init()
 void FixHVILedger::setup(int /*vflag*/)
 {
   dt_step = 0.0;
-  if (clampbit) {
-    clamp_state = measure_clamps();
-    for (int i = 0; i < atom->nlocal; i++) dx[i][0] = dx[i][1] = dx[i][2] = 0.0;
-    newcomers = 0;
-  }
+  held.begin();
   book_forces();
   end_of_step();
 }
@@ -196,14 +185,9 @@ void FixHVILedger::book_forces()
     std::sort(lost_list.begin(), lost_list.end());
     lost_list.erase(std::unique(lost_list.begin(), lost_list.end()), lost_list.end());
     for (const int i : lost_list)
-      if (i < atom->nlocal) entry[BROKEN] += 0.25 * dt_step * dot(lost[i], atom->v[i]);
+      if (i < atom->nlocal) entry[BROKEN] += 0.25 * dt_step * dot3(lost[i], atom->v[i]);
   }
-
-  if (clampbit && atom->nlocal) {
-    admit_newcomers();
-    memcpy(&finternal[0][0], &atom->f[0][0], 3 * sizeof(double) * atom->nlocal);
-    book_clamps();
-  }
+  held.see_forces(dt_step);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -211,18 +195,11 @@ void FixHVILedger::book_forces()
 void FixHVILedger::end_of_step()
 {
   for (const int i : lost_list) {
-    if (i < atom->nlocal) entry[BROKEN] += 0.25 * dt_step * dot(lost[i], atom->v[i]);
+    if (i < atom->nlocal) entry[BROKEN] += 0.25 * dt_step * dot3(lost[i], atom->v[i]);
     lost[i][0] = lost[i][1] = lost[i][2] = 0.0;
   }
   lost_list.clear();
-
-  if (clampbit) {
-    const ClampState now = measure_clamps();
-    entry[CLAMP_WORK] += now.energy - clamp_state.energy;
-    for (int k = 0; k < 3; k++) entry[CLAMP_JX + k] += now.momentum[k] - clamp_state.momentum[k];
-    clamp_state = now;
-    if (atom->nlocal) memcpy(&xold[0][0], &atom->x[0][0], 3 * sizeof(double) * atom->nlocal);
-  }
+  held.end_of_step();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -257,8 +234,8 @@ void FixHVILedger::let_go(double dt)
   const bigint nleft = leavers.pick();
   if (nleft == 0) return;
 
-  if (clampbit) admit_newcomers();
-  const HVILeavers::Account left = leavers.take_out(dt, clampbit);
+  held.admit();
+  const HVILeavers::Account left = leavers.take_out(dt, held.bits());
   entry[LEFT] += left.energy;
   for (int k = 0; k < 3; k++) entry[LEFT_PX + k] += left.momentum[k];
   entry[LEFT_MASS] += left.mass;
@@ -270,8 +247,7 @@ void FixHVILedger::let_go(double dt)
 
   if (comm->me == 0) entry[BONDS_LEFT] += left.nrecords * (force->newton_bond ? 1.0 : 0.5);
   count_erased(left.nrecords);
-  clamp_state.energy -= left.clamped_energy;
-  for (int k = 0; k < 3; k++) clamp_state.momentum[k] -= left.clamped_momentum[k];
+  held.take_out(left.clamped);
 
   if (comm->me == 0 && output->thermo->lostflag == Thermo::WARN)
     error->warning(FLERR, "{} particles left the box at step {}", nleft, update->ntimestep);
@@ -366,5 +342,5 @@ void FixHVILedger::restart(char *buf)
 
 double FixHVILedger::memory_usage()
 {
-  return 3.0 * (nmax + 3.0 * nclamp) * sizeof(double);
+  return 3.0 * nmax * sizeof(double) + held.memory_usage();
 }

@@ -16,6 +16,7 @@ FixStyle(hvi/ledger,FixHVILedger);
 #define LMP_FIX_HVI_LEDGER_H
 
 #include "fix.h"
+#include "hvi_clamps.h"
 
 #include <vector>
 
@@ -51,7 +52,7 @@ class FixHVILedger : public Fix {
   int setmask() override;
   void init() override;
   void setup(int) override;
-  void post_integrate() override;
+  void post_integrate() override { held.post_integrate(); }
   void setup_pre_exchange() override;
   void pre_exchange() override;
   void post_force(int) override;
@@ -60,11 +61,11 @@ class FixHVILedger : public Fix {
   void unpack_reverse_comm(int, int *, double *) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  void set_arrays(int) override;
-  void grow_arrays(int) override;
-  void copy_arrays(int, int, int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
+  void set_arrays(int i) override { held.add(i); }
+  void grow_arrays(int n) override { held.grow(n); }
+  void copy_arrays(int i, int j, int) override { held.copy(i, j); }
+  int pack_exchange(int i, double *buf) override { return held.pack(i, buf); }
+  int unpack_exchange(int i, double *buf) override { return held.unpack(i, buf); }
   double memory_usage() override;
 
   static FixHVILedger *instance(class LAMMPS *);    // the one of this simulation
@@ -80,7 +81,7 @@ class FixHVILedger : public Fix {
   void book_viscous(double heat) { entry[VISCOUS] += heat; }
   void book_missed(double work) { entry[MISSED] += work; }
   void book_frozen() { entry[FROZEN] += 1.0; }
-  bool clamps(int mask) const { return mask & clampbit; }    // which books itself what they get
+  bool clamps(int mask) const { return mask & held.bits(); }    // which books itself what they get
   void book_mirror(const double *impulse)
   {
     for (int k = 0; k < 3; k++) entry[CLAMP_JX + k] += impulse[k];
@@ -88,20 +89,16 @@ class FixHVILedger : public Fix {
 
   // for fix hvi/fem, in the middle of a step: elements give mass of clamped nodes to clamped particles
 
-  void hand_over(int i, double mass);
+  void hand_over(int i, double mass) { held.hand_over(i, mass); }
 
   // for compute hvi/energy
 
-  void clamp(int groupbits);    // particles moved by more than pairs and bonds
-  void totals(double *sum);     // the NENTRY entries, summed over ranks
+  void clamp(int groupbits) { held.watch(groupbits); }    // moved by more than pairs and bonds
+  void totals(double *sum);                               // the NENTRY entries, summed over ranks
   enum { START_ENERGY, START_PX, START_PY, START_PZ, START_MASS, NSTART };
   const double *first(const double *now);    // the first totals ever seen, also across restarts
 
  private:
-  struct ClampState {
-    double energy, momentum[3];
-  };
-
   double entry[NENTRY];    // this rank's share
   int start_set;
   double start[NSTART];
@@ -114,21 +111,12 @@ class FixHVILedger : public Fix {
   double **lost;                 // force that bonds broken in this step no longer exert
   std::vector<int> lost_list;    // owned and ghost particles with an entry in it
 
-  int clampbit;
-  double **finternal;        // forces before other fixes change them
-  double **xold, **dx;       // positions before the step in progress, displacement in it
-  int nclamp;                // their length
-  int newcomers;             // there may be particles that came in this step
-  ClampState clamp_state;    // at the end of the last step
+  HVIClamps held;    // what clamps do to their particles
 
   void grow_lost();
   void add_lost(int, const double *);
   void count_erased(bigint);
   void book_forces();
-  void count_in(int, ClampState &) const;
-  ClampState measure_clamps() const;
-  void admit_newcomers();
-  void book_clamps();
   void let_go(double);
 };
 

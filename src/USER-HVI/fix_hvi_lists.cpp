@@ -23,6 +23,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -160,6 +161,9 @@ void FixHVILists::post_run()
 
 void FixHVILists::post_integrate()
 {
+  // with run ... pre no nothing is set up, and post_run() of the run before has given the delay back
+
+  if (update->ntimestep == update->firststep + 1) setup(0);
   if (neighbor->delay != NEVER || update->ntimestep < next) return;
   measure();
   const bigint last = looked;
@@ -181,7 +185,8 @@ void FixHVILists::post_integrate()
 }
 
 /* ----------------------------------------------------------------------
-   how far owned particles and ghosts have come, and how fast they are
+   how far owned particles and ghosts have come, and how fast they are; what has moved by no number
+   would never ask for lists, in which LAMMPS finds it
 ------------------------------------------------------------------------- */
 
 void FixHVILists::measure()
@@ -198,8 +203,12 @@ void FixHVILists::measure()
   const int nlocal = atom->nlocal;
   const double *const *const x = atom->x;
   known = motion.points() == nlocal + atom->nghost;    // none came in between
-  for (int i = 0; i < nlocal; i++)
+  for (int i = 0; i < nlocal; i++) {
     for (int k = 0; k < 3; k++) moved[i][k] = known ? x[i][k] - hold[3 * i + k] : 0.0;
+    if (!std::isfinite(moved[i][0] + moved[i][1] + moved[i][2]))
+      error->one(FLERR, "Particle {} is at {} {} {} at step {}: the simulation is unstable",
+                 atom->tag[i], x[i][0], x[i][1], x[i][2], update->ntimestep);
+  }
   if (ahead && nlocal) memcpy(going[0], atom->v[0], 3 * (size_t) nlocal * sizeof(double));
   comm->forward_comm(this);
 }

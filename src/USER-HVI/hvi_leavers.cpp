@@ -19,15 +19,20 @@
 #include "force.h"
 #include "hvi_cells.h"
 #include "hvi_compat.h"
+#include "hvi_deliver.h"
 #include "hvi_energy_carrier.h"
 #include "hvi_interface.h"
 #include "hvi_torn.h"
+#include "math_extra.h"
 #include "neighbor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
 using namespace LAMMPS_NS;
+
+static constexpr double BIG = 1.0e100;
 
 /* ---------------------------------------------------------------------- */
 
@@ -62,12 +67,11 @@ bigint HVILeavers::pick()
   for (int i = 0; i < atom->nlocal; i++)
     if (beyond(i, zero)) leaving.push_back(i);
 
-  const bigint nleaving = leaving.size();
-  bigint nleaving_all;
-  MPI_Allreduce(&nleaving, &nleaving_all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (nleaving_all == 0) return 0;
+  const bigint here = leaving.size();
+  MPI_Allreduce(&here, &number, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (number == 0) return 0;
 
-  const double reach = MAX(neighbor->cutneighmax, comm->cutghostuser);
+  reach = MAX(neighbor->cutneighmax, comm->cutghostuser);
   double depth[3] = {reach, reach, reach};
   if (domain->triclinic) fraction_of_box(reach, depth);
   size_t next = 0;
@@ -76,7 +80,7 @@ bigint HVILeavers::pick()
       next++;
     else if (beyond(i, depth))
       near.push_back(i);
-  return nleaving_all;
+  return number;
 }
 
 /* ----------------------------------------------------------------------
@@ -107,18 +111,9 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
   const auto carriers = HVI::find_interface<HVI::EnergyCarrier>(lmp);
 
   for (const int i : leaving) {
-    Leaver l;
-    l.tag = atom->tag[i];
-    l.type = atom->type[i];
-    for (int k = 0; k < 3; k++) {
-      l.x[k] = atom->x[i][k];
-      l.v[k] = atom->v[i][k];
-    }
-    out.push_back(l);
-
-    const double m = atom->rmass ? atom->rmass[i] : atom->mass[l.type];
-    const double ke =
-        0.5 * force->mvv2e * m * (l.v[0] * l.v[0] + l.v[1] * l.v[1] + l.v[2] * l.v[2]);
+    const double *const v = atom->v[i];
+    const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+    const double ke = 0.5 * force->mvv2e * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     const bool clamped = atom->mask[i] & clampbit;
     a.energy += ke;
     if (atom->esph_flag) a.energy += atom->esph[i];
@@ -127,66 +122,112 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
       a.plastic += carrier->plastic_work(i);
       a.voids += carrier->void_work(i);
     }
-    if (clamped) a.clamped_energy += ke;
+    if (clamped) a.clamped.energy += ke;
     for (int k = 0; k < 3; k++) {
-      a.momentum[k] += m * l.v[k];
-      if (clamped) a.clamped_momentum[k] += m * l.v[k];
+      a.momentum[k] += m * v[k];
+      if (clamped) a.clamped.momentum[k] += m * v[k];
     }
     a.mass += m;
     a.count += 1.0;
   }
 
-  out = gather_all(out);
   const HVITorn laws(lmp);
+  const bool bonded = force->bond && atom->molecular == Atom::MOLECULAR;
   a.unknown = laws.unknown();
+  if (bonded || laws.has_pairs()) share(bonded);
   a.energy += tear_contacts(laws);
-  if (force->bond && atom->molecular == Atom::MOLECULAR) a.energy += tear_bonds(laws, a.nrecords);
+  if (bonded) a.energy += tear_bonds(laws, a.nrecords);
   remove();
   return a;
 }
 
 /* ----------------------------------------------------------------------
-   a pair that is torn apart takes its energy along, and the half kick that it
-   no longer gives
+   own leavers, and the bonds they hold, to all ranks that have particles within
+   twice the reach: a bond may be longer than pairs reach.  This one is among them.
 ------------------------------------------------------------------------- */
 
-double HVILeavers::torn(double phi, double fforce, const double *x, const double *v,
-                        const Leaver &l) const
+void HVILeavers::share(bool bonded)
+{
+  double s[3], width[3], mine[6] = {BIG, BIG, BIG, -BIG, -BIG, -BIG};
+  for (const auto *list : {&near, &leaving})
+    for (const int i : *list) {
+      fractional(atom->x[i], s);
+      for (int k = 0; k < 3; k++) {
+        mine[k] = std::min(mine[k], s[k]);
+        mine[3 + k] = std::max(mine[3 + k], s[k]);
+      }
+    }
+  std::vector<double> boxes(6 * comm->nprocs);
+  MPI_Allgather(mine, 6, MPI_DOUBLE, boxes.data(), 6, MPI_DOUBLE, world);
+  fraction_of_box(2.0 * reach, width);
+
+  std::vector<Leaver> leavers;
+  std::vector<int> rank, bond_rank;
+  for (const int i : leaving) {
+    const double *const x = atom->x[i], *const v = atom->v[i];
+    fractional(x, s);
+    for (int p = 0; p < comm->nprocs; p++) {
+      bool apart = false;
+      for (int k = 0; k < 3; k++) {
+        const double lo = boxes[6 * p + k] - width[k], hi = boxes[6 * p + 3 + k] + width[k];
+        double above = s[k] - lo;
+        if (domain->periodicity[k]) above -= std::floor(above);
+        apart = apart || above < 0.0 || above > hi - lo;
+      }
+      if (apart) continue;
+      leavers.push_back(
+          {atom->tag[i], atom->type[i], comm->me, {x[0], x[1], x[2]}, {v[0], v[1], v[2]}});
+      rank.push_back(p);
+      for (int n = 0; bonded && n < atom->num_bond[i]; n++)
+        if (atom->bond_type[i][n] > 0) {
+          bonds.push_back({atom->tag[i], atom->bond_atom[i][n], atom->bond_type[i][n]});
+          bond_rank.push_back(p);
+        }
+    }
+  }
+  out = HVI::deliver(world, leavers, rank);
+  bonds = HVI::deliver(world, bonds, bond_rank);
+}
+
+/* ----------------------------------------------------------------------
+   a pair that is torn apart takes its energy along, and the half kick that it
+   no longer gives; law(rsq, fforce) is its energy
+------------------------------------------------------------------------- */
+
+template <class Law>
+double HVILeavers::torn(const Law &law, const double *x, const double *v, const Leaver &l) const
 {
   double d[3] = {x[0] - l.x[0], x[1] - l.x[1], x[2] - l.x[2]};
   HVI::minimum_image(domain, d[0], d[1], d[2]);
-  double rdotv = 0.0;
+  double rdotv = 0.0, fforce = 0.0;
   for (int k = 0; k < 3; k++) rdotv += d[k] * (v[k] - l.v[k]);
+  const double phi = law(MathExtra::lensq3(d), fforce);
   return phi + 0.5 * dt * fforce * rdotv;
-}
-
-static double distsq(Domain *domain, const double *x, const double *y)
-{
-  double d[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
-  HVI::minimum_image(domain, d[0], d[1], d[2]);
-  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 
 double HVILeavers::contact(const HVITorn &laws, int type, const double *x, const double *v,
                            const Leaver &l) const
 {
-  double fforce = 0.0;
-  const double phi = laws.pair(type, l.type, distsq(domain, x, l.x), fforce);
-  return torn(phi, fforce, x, v, l);
+  const auto law = [&](double rsq, double &fforce) {
+    return laws.pair(type, l.type, rsq, fforce);
+  };
+  return torn(law, x, v, l);
 }
 
 double HVILeavers::spring(const HVITorn &laws, int btype, const double *x, const double *v,
                           const Leaver &l) const
 {
-  double fforce = 0.0;
-  const double phi = laws.bond(btype, distsq(domain, x, l.x), fforce);
-  return torn(phi, fforce, x, v, l);
+  const auto law = [&](double rsq, double &fforce) {
+    return laws.bond(btype, rsq, fforce);
+  };
+  return torn(law, x, v, l);
 }
 
 /* ----------------------------------------------------------------------
    leavers sorted into cells of the longest distance at which one of them may
    be in touch, so that the time does not grow with their number squared; the
-   order of the sum is that of all pairs.  Pairs of two leavers are rank 0's.
+   order of the sum is that of all pairs.  A pair of two leavers is booked by the
+   owner of the one that comes later in the order of ranks, which is that of out.
 ------------------------------------------------------------------------- */
 
 double HVILeavers::tear_contacts(const HVITorn &laws) const
@@ -218,13 +259,13 @@ double HVILeavers::tear_contacts(const HVITorn &laws) const
     });
   }
 
-  if (comm->me == 0)
-    for (int n = 0; n < (int) out.size(); n++) {
-      fractional(out[n].x, s);
-      cells.near(s, [&](int m) {
-        if (m < n) energy += contact(laws, out[n].type, out[n].x, out[n].v, out[m]);
-      });
-    }
+  for (int n = 0; n < (int) out.size(); n++) {
+    if (out[n].rank != comm->me) continue;
+    fractional(out[n].x, s);
+    cells.near(s, [&](int m) {
+      if (m < n) energy += contact(laws, out[n].type, out[n].x, out[n].v, out[m]);
+    });
+  }
   return energy;
 }
 
@@ -270,22 +311,17 @@ double HVILeavers::tear_bonds(const HVITorn &laws, bigint &nrecords)
     }
   }
 
-  // records of those who leave: the partner's owner knows where it is
+  // records of those who leave: the owner knows of a partner that leaves too where it is, else the
+  // partner's owner does
 
-  std::vector<LeaverBond> bonds;
-  for (const int i : leaving)
-    for (int n = 0; n < atom->num_bond[i]; n++)
-      if (atom->bond_type[i][n] > 0)
-        bonds.push_back({atom->tag[i], atom->bond_atom[i][n], atom->bond_type[i][n]});
-  nrecords_here += bonds.size();
-
-  for (const LeaverBond &b : gather_all(bonds)) {
+  for (const LeaverBond &b : bonds) {
     const Leaver &l = *leaver[b.tag];
+    const bool own = l.rank == comm->me;
     const auto other = leaver.find(b.partner);
     const auto it = stayer.find(b.partner);
+    nrecords_here += own;
     if (other != leaver.end()) {
-      if (comm->me == 0)
-        energy += share * spring(laws, b.type, other->second->x, other->second->v, l);
+      if (own) energy += share * spring(laws, b.type, other->second->x, other->second->v, l);
     } else if (it != stayer.end())
       energy += share * spring(laws, b.type, atom->x[it->second], atom->v[it->second], l);
   }
@@ -304,33 +340,10 @@ void HVILeavers::remove()
     atom->avec->copy(atom->nlocal - 1, leaving[n], 1);
     atom->nlocal--;
   }
-  atom->natoms -= out.size();
+  atom->natoms -= number;
   if (atom->map_style != Atom::MAP_NONE) {
     atom->nghost = 0;
     atom->map_init();
     atom->map_set();
   }
-}
-
-/* ---------------------------------------------------------------------- */
-
-template <typename T> std::vector<T> HVILeavers::gather_all(const std::vector<T> &here) const
-{
-  const int nbytes = here.size() * sizeof(T);
-  std::vector<int> count(comm->nprocs), offset(comm->nprocs);
-  MPI_Allgather(&nbytes, 1, MPI_INT, count.data(), 1, MPI_INT, world);
-  int sum = 0;
-  for (int p = 0; p < comm->nprocs; p++) {
-    offset[p] = sum;
-    sum += count[p];
-  }
-
-  // one spare element each: no buffer is ever empty
-
-  std::vector<T> send(here), received(sum / sizeof(T) + 1);
-  send.resize(here.size() + 1);
-  MPI_Allgatherv(send.data(), nbytes, MPI_BYTE, received.data(), count.data(), offset.data(),
-                 MPI_BYTE, world);
-  received.pop_back();
-  return received;
 }

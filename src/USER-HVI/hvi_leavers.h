@@ -9,6 +9,7 @@
 #ifndef LMP_HVI_LEAVERS_H
 #define LMP_HVI_LEAVERS_H
 
+#include "hvi_clamps.h"
 #include "pointers.h"
 
 #include <string>
@@ -19,7 +20,8 @@ namespace LAMMPS_NS {
 /* ----------------------------------------------------------------------
    Particles beyond a fixed face of the box, about to be lost: counts up what
    leaves with them and takes them out.  Needs neither ghosts nor a neighbor
-   list: all ranks see all leavers.
+   list: a rank sees all leavers near its own particles, if any style can tear
+   pairs or bonds apart.
 ------------------------------------------------------------------------- */
 
 class HVILeavers : protected Pointers {
@@ -27,13 +29,13 @@ class HVILeavers : protected Pointers {
   struct Account {    // on this rank, but nrecords of all
     double energy;    // kinetic, internal, of contacts and bonds torn apart
     double momentum[3], mass, count;
-    double plastic, voids;                         // work, parts of the internal energy
-    double clamped_energy, clamped_momentum[3];    // of leavers in the clamped groups
-    bigint nrecords;                               // of bonds: one or, newton_bond off, two a bond
-    std::vector<std::string> unknown;              // styles whose energy is not in it
+    double plastic, voids;               // work, parts of the internal energy
+    HVIClamps::State clamped;            // of leavers in the clamped groups
+    bigint nrecords;                     // of bonds: one or, newton_bond off, two a bond
+    std::vector<std::string> unknown;    // styles whose energy is not in it
   };
 
-  HVILeavers(class LAMMPS *lmp) : Pointers(lmp), dt(0.0) {}
+  HVILeavers(class LAMMPS *lmp) : Pointers(lmp), dt(0.0), reach(0.0), number(0) {}
 
   bigint pick();    // how many, on all ranks
   Account take_out(double dt, int clampbit);
@@ -41,7 +43,7 @@ class HVILeavers : protected Pointers {
  private:
   struct Leaver {
     tagint tag;
-    int type;
+    int type, rank;
     double x[3], v[3];
   };
   struct LeaverBond {
@@ -49,12 +51,16 @@ class HVILeavers : protected Pointers {
     int type;
   };
 
-  double dt;
+  double dt, reach;            // of pairs, and of what holds a bond together
+  bigint number;               // of leavers, on all ranks
   std::vector<int> leaving;    // owned particles that leave
   std::vector<int> near;      // owned particles that stay, but may be in touch with one that leaves
-  std::vector<Leaver> out;    // leavers of all ranks
+  std::vector<Leaver> out;    // leavers near particles of this rank, and its own
+  std::vector<LeaverBond> bonds;    // that those hold
 
-  double torn(double, double, const double *, const double *, const Leaver &) const;
+  void share(bool bonded);
+  template <class Law>
+  double torn(const Law &, const double *, const double *, const Leaver &) const;
   double contact(const class HVITorn &, int, const double *, const double *, const Leaver &) const;
   double spring(const class HVITorn &, int, const double *, const double *, const Leaver &) const;
   double tear_contacts(const class HVITorn &) const;
@@ -62,7 +68,6 @@ class HVILeavers : protected Pointers {
   void fractional(const double *, double *) const;
   void fraction_of_box(double, double *) const;
   void remove();
-  template <typename T> std::vector<T> gather_all(const std::vector<T> &) const;
 };
 
 }    // namespace LAMMPS_NS

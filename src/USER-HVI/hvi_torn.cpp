@@ -114,6 +114,14 @@ double HVITorn::cutsq(const PairSource &s, int itype, int jtype) const
   return s.carrier ? s.carrier->pair_cutsq(itype, jtype) : s.pair->cutsq[itype][jtype];
 }
 
+bool HVITorn::has_pairs() const
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = 1; j <= atom->ntypes; j++)
+      if (pair_cutsq(i, j) > 0.0) return true;
+  return false;
+}
+
 double HVITorn::pair_cutsq(int itype, int jtype) const
 {
   double largest = 0.0;

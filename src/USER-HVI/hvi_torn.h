@@ -31,7 +31,8 @@ class HVITorn : protected Pointers {
  public:
   HVITorn(class LAMMPS *);
 
-  double pair_cutsq(int itype, int jtype) const;    // 0: no such pair has energy that is known
+  bool has_pairs() const;                           // that have energy which is known
+  double pair_cutsq(int itype, int jtype) const;    // 0: no such pair has
   double pair(int itype, int jtype, double rsq, double &fforce) const;
   double bond(int btype, double rsq, double &fforce) const;
   const std::vector<std::string> &unknown() const { return names; }    // styles

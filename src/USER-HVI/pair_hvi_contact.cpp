@@ -25,6 +25,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 using namespace LAMMPS_NS;
 
@@ -172,6 +173,93 @@ void PairHVIContact::work_off(const Touching &touch, int ntouch)
       const HVI::Contact &c = UNIFORM ? one_law : law[type[i]][type[j]];
       ev_tally(i, j, nlocal, NEWTON_PAIR, eflag_either ? c.energy(rsq) : 0.0, 0.0, fpair,
                touch.delx[n], touch.dely[n], touch.delz[n]);
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   shortest sqrt(m/k) of the pairs in reach
+------------------------------------------------------------------------- */
+
+void PairHVIContact::tighten(HVI::TimeStepBounds &bounds)
+{
+  HVI::ContactTimes least = {bounds.contact * bounds.contact, bounds.approach * bounds.approach};
+  if (uniform && one_mass())
+    tighten_uniform(least);
+  else
+    tighten_each(least);
+  bounds.contact = std::sqrt(least.contact);
+  bounds.approach = std::sqrt(least.approach);
+  bounds.conserve_energy(HVI::shortest_cutoff(lmp));
+}
+
+bool PairHVIContact::one_mass() const
+{
+  if (atom->rmass) return false;
+  for (int i = 2; i <= atom->ntypes; i++)
+    if (atom->mass[i] != atom->mass[1]) return false;
+  return true;
+}
+
+void PairHVIContact::tighten_uniform(HVI::ContactTimes &least) const
+{
+  if (list->inum == 0) return;
+  const double(*const x)[3] = (const double(*)[3]) atom->x[0];
+  const double(*const v)[3] = (const double(*)[3]) atom->v[0];
+  HVI::UniformContactStep step(common, 0.5 * force->mvv2e * atom->mass[1]);
+
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const int *const jlist = list->firstneigh[i];
+    const int jnum = list->numneigh[i];
+    const double xi[3] = {x[i][0], x[i][1], x[i][2]};
+    const double vi[3] = {v[i][0], v[i][1], v[i][2]};
+
+    for (int jfirst = 0; jfirst < jnum; jfirst += HVI::UniformContactStep::ROW) {
+      const int jlast = MIN(jfirst + HVI::UniformContactStep::ROW, jnum);
+      step.make_room();
+      for (int jj = jfirst; jj < jlast; jj++) {
+        const int j = jlist[jj] & NEIGHMASK;
+        const double delx = xi[0] - x[j][0];
+        const double dely = xi[1] - x[j][1];
+        const double delz = xi[2] - x[j][2];
+        step.add(delx * delx + dely * dely + delz * delz,
+                 delx * (vi[0] - v[j][0]) + dely * (vi[1] - v[j][1]) + delz * (vi[2] - v[j][2]));
+      }
+    }
+  }
+  step.finish(least);
+}
+
+void PairHVIContact::tighten_each(HVI::ContactTimes &least) const
+{
+  const double *const *const x = atom->x;
+  const double *const *const v = atom->v;
+  const double *const rmass = atom->rmass;
+  const double *const mass = atom->mass;
+  const int *const type = atom->type;
+  const double mvv2e = force->mvv2e;
+  const int np1 = atom->ntypes + 1;
+  std::vector<HVI::ContactStep> steps(np1 * np1);    // of pairs of types
+
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const int itype = type[i];
+    const int *const jlist = list->firstneigh[i];
+    const int jnum = list->numneigh[i];
+    const double mi = rmass ? rmass[i] : mass[itype];
+
+    for (int jj = 0; jj < jnum; jj++) {
+      const int j = jlist[jj] & NEIGHMASK;
+      const int jtype = type[j];
+      const double delx = x[i][0] - x[j][0];
+      const double dely = x[i][1] - x[j][1];
+      const double delz = x[i][2] - x[j][2];
+      const double mj = rmass ? rmass[j] : mass[jtype];
+      steps[itype * np1 + jtype].add(
+          law[itype][jtype], mvv2e * mi * mj / (mi + mj), delx * delx + dely * dely + delz * delz,
+          delx * (v[i][0] - v[j][0]) + dely * (v[i][1] - v[j][1]) + delz * (v[i][2] - v[j][2]),
+          least);
     }
   }
 }

@@ -15,7 +15,7 @@ PairStyle(hvi/contact,PairHVIContact);
 #ifndef LMP_PAIR_HVI_CONTACT_H
 #define LMP_PAIR_HVI_CONTACT_H
 
-#include "hvi_contact.h"
+#include "hvi_contact_step.h"
 #include "hvi_energy_carrier.h"
 #include "hvi_timestep.h"
 #include "pair.h"
@@ -56,18 +56,16 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::Ener
   // pairs in touch, a batch of them; NROW at most from a row of the list before there is a look at
   // whether the batch is full
 
-  static constexpr int NROW = 64, NTOUCH = 256, NLANE = 8;
+  static constexpr int NROW = 64, NTOUCH = 256;
   struct Touching {
     double delx[NTOUCH], dely[NTOUCH], delz[NTOUCH], rsq[NTOUCH];
     int i[NTOUCH], j[NTOUCH];
   };
 
   void allocate();
-  struct Extremes {
-    double rsq, energy;
-  };
   bool one_mass() const;
-  Extremes extremes() const;
+  void tighten_uniform(HVI::ContactTimes &) const;
+  void tighten_each(HVI::ContactTimes &) const;
   template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void eval();
   template <int EVFLAG, int NEWTON_PAIR, int UNIFORM> void work_off(const Touching &, int);
 };

@@ -77,6 +77,22 @@ def test_a_list_that_stays_gives_others(lmp, tmp_path, name):
     assert max(error(name, tmp_path, k) for k in range(3)) > 1e-3
 
 
+@pytest.mark.parametrize("name", SCENES)
+def test_runs_without_setup_are_one_run(lmp, tmp_path, name):
+    """pre no: lists in the same steps, and the last bit"""
+    found = []
+    for more in ("run 120\n", "run 33\nrun 80 pre no\nrun 7 pre no\n"):
+        r = lmp(text(name, tmp_path) + more + DUMP.format("end"))
+        found.append((r.thermo["Nbuild"][-1], (tmp_path / "end").read_bytes()))
+    assert found[0] == found[1] and found[0][0] > 0
+
+
+def test_a_velocity_that_is_no_number_stops_the_run(lmp, tmp_path):
+    """in the first look at it"""
+    r = lmp(text("impact", tmp_path) + "run 10\nvariable bad atom exp(1e4)-exp(1e4)\nset atom 7 vx v_bad\nrun 20\n", expect_fail=True)
+    assert all(part in r.error for part in ("Particle 7 is at ", "nan", " at step 11: the simulation is unstable"))
+
+
 def test_not_for_another_pair_style(lmp, tmp_path):
     """a run of hvi/contact with lists relative leaves nothing to one of another style: LAMMPS decides again"""
     count = {}

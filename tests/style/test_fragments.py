@@ -499,6 +499,31 @@ run 0
     assert lmp(text.format(cutoff=5.5), nranks=2).thermo["c_x[1]"][0] == 1
 
 
+@pytest.mark.parametrize("words", ["hvi/fragment distance 1.5", "hvi/cloud axis z plane 0.1", "hvi/hole axis z centre 2 2 plane 2"])
+def test_what_is_no_number_is_said(lmp, words):
+    """neither left out nor sorted"""
+    text = f"""units lj
+atom_modify map array
+boundary f f f
+region box block 0 5 0 5 0 5
+create_box 1 box
+lattice sc 1.0 origin 0.5 0.5 0.5
+create_atoms 1 box
+mass 1 1
+pair_style zero 1.2
+pair_coeff * *
+comm_modify cutoff 3
+neighbor 0.3 bin
+variable bad atom exp(1e4)-exp(1e4)
+set atom 9 vy v_bad
+compute x all {words}
+thermo_style custom step c_x[1]
+run 0
+"""
+    found = lmp(text, expect_fail=True).stdout
+    assert re.search(rf"Compute {words.split()[0]}: particle 9 is at 3.5 1.5 0.5 with velocity 0 -?nan 0 at step 0: the simulation is unstable", found), found
+
+
 # ---------------------------------------------------------------------- hvi_components alone
 @pytest.fixture(scope="module")
 def snake_exe(root, tmp_path_factory):

@@ -1,5 +1,9 @@
 """Particles that leave through a fixed face take energy, momentum and mass with them, all booked."""
 
+import os
+import shutil
+import subprocess
+
 import numpy as np
 import pytest
 from scenes import R_EQ, State, books, contact, cube, ledger, momentum_error, scene, spring
@@ -73,13 +77,14 @@ def test_other_faces(lmp, boundary):
     check(book, s, 1e-5)
 
 
-def test_at_the_start(lmp):
+@pytest.mark.parametrize("newton, nranks, comm", [("on", 1, "brick"), ("on", 4, "brick"), ("off", 3, "tiled"), ("off", 4, "brick")])
+def test_at_the_start(lmp, newton, nranks, comm):
     """particles moved out between runs leave at setup, with their bonds"""
     s = cube(3, 0.02, 0.1, margin=2.0)
-    text = scene(s, "s.data") + "fix nve all nve\n" + ledger() + LOST + "run 0\n"
+    text = scene(s, "s.data", newton=newton, comm=comm) + "fix nve all nve\n" + ledger() + LOST + "run 0\n"
     text += "group g id 19:27\nset group g vx 1.0\ndisplace_atoms g move 0.3 0 0 units box\nrun 0\n"
     text += f"variable shifted atom x+xhi-{2.4 + R_EQ / 2}\nset group all x v_shifted\nrun 0\nrun 10\n"
-    runs = [books(t) for t in lmp(text).runs]
+    runs = [books(t) for t in lmp(text, nranks=nranks).runs]
     before, after = runs[1], runs[2]
     assert after["left_count"][0] == 9 and after["left_mass"][0] == 9.0
     assert after["total"][0] == pytest.approx(before["total"][0], rel=1e-12)
@@ -206,3 +211,43 @@ def test_triclinic_and_periodic(lmp, nranks):
     book = books(lmp(text, nranks=nranks).thermo)
     check(book, s, 1e-5)
     assert book["left_count"][-1] > 40
+
+
+@pytest.fixture(scope="module")
+def traffic(root, tmp_path_factory):
+    """LAMMPS that writes how many bytes each of its ranks got from all others at once"""
+    compiler = shutil.which(os.environ.get("MPICC", "mpicc"))
+    if not compiler:
+        pytest.fail("no mpicc: set MPICC", pytrace=False)
+    folder = tmp_path_factory.mktemp("traffic")
+    subprocess.run([compiler, "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", str(root / "tests" / "components" / "traffic.c"), "-o",
+                    str(folder / "traffic.so")], check=True)
+
+    def run(lmp, lmp_exe, text, nranks):
+        script = folder / "lmp"
+        script.write_text(f'#!/bin/sh\nexport ASAN_OPTIONS="$ASAN_OPTIONS:verify_asan_link_order=0"\nLD_PRELOAD={folder}/traffic.so exec {lmp_exe} "$@"\n')
+        script.chmod(0o755)
+        result = lmp(text, nranks=nranks, exe=script)
+        return result, [int((result.cwd / f"traffic.{k}").read_text()) for k in range(nranks)]
+
+    return run
+
+
+def test_nobody_is_told_where_nothing_can_tear(lmp, lmp_exe, traffic):
+    """SPH alone: energy goes with its particles"""
+    pair = "pair_style hvi/sph cubic\npair_coeff * * eos tait 1 10 7 h 1.2\n"
+    result, got = traffic(lmp, lmp_exe, pair_at_the_face(pair, atoms="atom_style sph", commands="set group all sph/rho 1.0\n"), 3)
+    assert books(result.thermo)["left_count"][-1] == 1 and got == [0, 0, 0]
+
+
+@pytest.mark.parametrize("bonded", [True, False])
+def test_who_is_near_is_told(lmp, lmp_exe, traffic, bonded):
+    """a row along y, one particle of each rank near the face; that of rank 0 leaves, and tears something apart on rank 1"""
+    x = np.array([[4.9991, 7.3, 0], [4.9, 8.2, 0], [4.9, 20.0, 0], [4.9, 28.0, 0]])
+    s = State(x, [[3.0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0]], [[0, 1]] if bonded else [], [[-5, 5], [0, 31], [-5, 5]])
+    text = fly(s, 60, 1e-5, every=5, processors="1 * 1", rebuild="every 1 check no", **({} if bonded else {"bond": "bond_style none\n"}))
+    result, got = traffic(lmp, lmp_exe, text, 4)
+    book = books(result.thermo)
+    assert book["left_count"][-1] == 1 and book["bonds_left"][-1] == bonded
+    assert book["left"][-1] > 4.6 and np.abs(book["ratio"] - 1).max() <= 1e-8
+    assert max(got[2:]) < 64 <= min(got[:2])  # bytes of a leaver

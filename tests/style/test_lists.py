@@ -180,14 +180,25 @@ def test_defaults_do_not(lmp, tmp_path):
 
 
 def test_runs_in_turn(lmp, tmp_path):
-    """the fix given again with the other word; a run without setup, which LAMMPS's own criterion decides"""
-    more = "run 20\nrun 20 pre no\nunfix sph\nfix sph all hvi/sph sleep no lists displacement\nrun 20\n"
-    more += "unfix sph\nfix sph all hvi/sph sleep no lists relative\nrun 20\n"
+    """the fix given again with the other word"""
+    more = "run 20\nunfix sph\nfix sph all hvi/sph sleep no lists displacement\nrun 20\nunfix sph\nfix sph all hvi/sph sleep no lists relative\nrun 20\n"
     n = builds(lmp, tmp_path, "relative", "", more)
-    assert n[0] < 0.4 * n[1] and n[3] < 0.7 * n[2], n
-    late = text("faces", tmp_path) + "run 20\nrun 20 pre no\n" + WRITE.format("late0") + "run 0\n" + WRITE.format("fresh0")
-    lmp(late)
+    assert n[2] < 0.7 * n[1] and n[0] < 0.7 * n[1], n
+
+
+@pytest.mark.parametrize("name", ["faces", "impact"])
+def test_runs_without_setup_are_one_run(lmp, tmp_path, name):
+    """pre no and every: lists in the same steps, and the last bit; forces are those of a fresh list; neigh_modify in between holds"""
+    begin, end = text(name, tmp_path), WRITE.format("end")
+    found = []
+    for more in ("run 40\n", "run 13\nrun 20 pre no\nrun 7 pre no\n", "run 0\nrun 40 pre no every 8 NULL\n", "run 20 post no\nrun 20 pre no\n"):
+        found.append((lmp(begin + more + end).thermo["Nbuild"][-1], (tmp_path / "end").read_bytes()))
+    assert found[0][0] > 2 and found[1:] == found[:1] * 3
+    lmp(begin + "run 20\nrun 20 pre no\n" + WRITE.format("late0") + "run 0\n" + WRITE.format("fresh0"))
     assert error(tmp_path, 0) <= 1e-12
+    each = lmp(begin + "run 10\nneigh_modify check no\nrun 10 pre no\nneigh_modify check yes\nrun 10 pre no\n")
+    count = [t["Nbuild"][-1] for t in each.runs]
+    assert count[1] == count[0] + 10 and count[2] < count[1] + 10
 
 
 @pytest.mark.parametrize("nranks", [1, 2])

@@ -35,7 +35,7 @@ compute d all hvi/cloud axis z plane {z} quantile 0.8
 compute f all hvi/fragment distance {REACH}
 compute b all hvi/fragment distance {REACH} region beyond
 compute s all hvi/fragment distance {REACH} damage yes
-thermo_style custom step c_c[*] c_d[*]
+thermo_style custom step c_c[*] c_d[*] c_f[*] c_b[*] c_s[*]
 thermo_modify format float %.17g
 run {steps}
 write_dump all custom atoms.dump id type mass x y z vx vy vz v_clock c_st[*] c_near c_sound {columns} modify sort id &
@@ -112,7 +112,7 @@ def test_cloud(runs, name, quantile):
 
 @pytest.mark.parametrize("name", ["f", "b", "s"])
 def test_fragments(runs, name):
-    """by distance, by bonds and by the columns of computes that know of no mirrors: the rows of the whole model"""
+    """by distance, by bonds and by the columns of the compute per particle, which knows of no mirrors: the rows of the whole model"""
     want = in_order(rows(runs[""][0], name))
     cloud = {"axis": "z", "plane": ROOM + HEIGHT} if name == "b" else {}
     for planes in ("x", "xy"):
@@ -138,6 +138,50 @@ def test_fragments(runs, name):
             assert t["ke"].sum() == pytest.approx(want[:, 8].sum(), rel=1e-8)
             own = len(np.unique(found.label[found.label <= part.ids[-1]]))
             assert found.images() == pytest.approx(len(t) / own) and 1 < found.images() < 2 ** len(planes)
+
+
+@pytest.mark.parametrize("name", ["f", "b", "s"])
+def test_fragments_of_the_compute(runs, name):
+    """table and vector of a half and of a quarter: those of the whole model, and those of Python on the same dump, IDs too"""
+    want, cloud = in_order(rows(runs[""][0], name)), {"axis": "z", "plane": ROOM + HEIGHT} if name == "b" else {}
+    whole = [runs[""][1][f"c_{name}[{k + 1}]"][-1] for k in range(5)]
+    for planes in ("x", "xy"):
+        folder, thermo = runs[planes]
+        table = np.stack(list(hvi.Dump(folder / f"{name}.rows").rows(0).values()), axis=1)
+        found = hvi.find(frame(runs, planes), distance=REACH, failed=hvi.fragments.FAILED if name == "s" else None, **cloud)
+        python = np.array(found.table.tolist())
+        assert table.shape == python.shape and np.all(np.abs(table - python) <= CLOSE * (1 + np.abs(python)))
+        got = in_order(table - [0, 0, 0, 0, 0 if "y" in planes else ROOM, 0, 0, 0, 0, 0, 0])
+        assert got.shape == want.shape and np.abs(got - want).max() < 1e-7  # as well as the runs agree
+        vector = [thermo[f"c_{name}[{k + 1}]"][-1] for k in range(5)]
+        summary = [found.summary[key] for key in ("fragments", "particles", "fragmentation", "largest_fragment_mass_fraction", "single_particles_mass")]
+        assert vector == pytest.approx(summary, rel=CLOSE) and vector == pytest.approx(whole, rel=CLOSE)
+
+
+@pytest.mark.parametrize("planes, sides, nranks", [("y", False, 1), ("yz", True, 2), ("xyz", False, 3), ("z", True, 1)])
+def test_fragments_behind_any_planes(lmp, tmp_path, material, planes, sides, nranks):
+    """upper planes, along any directions, on any number of ranks"""
+    text, _ = start(planes, tmp_path, material, steps=40, sides=sides)
+    computes = f"compute f all hvi/fragment distance {REACH} damage yes\ncompute st all hvi/atom damage spalled\n"
+    dumps = """write_dump all local f.rows c_f[*] modify format float %.17g
+write_dump all custom a.dump id type mass x y z vx vy vz c_st[*] modify format float %.17g colname c_st[1] damage colname c_st[2] spalled
+"""
+    lmp(text.replace("run 40", computes + "run 40") + dumps, nranks=nranks)
+    at = [f"{axis}={ROOM},hi" if sides else f"{axis}=0" for axis in planes]
+    found = hvi.find(hvi.Dump(tmp_path / "a.dump", units="lj", mirror=at)[0], distance=REACH, failed=hvi.fragments.FAILED)
+    got, want = np.stack(list(hvi.Dump(tmp_path / "f.rows").rows(0).values()), axis=1), np.array(found.table.tolist())
+    assert got.shape == want.shape and np.all(np.abs(got - want) <= CLOSE * (100 + np.abs(want)))
+    assert 1 < found.images() < 2 ** len(planes) and want[0, 1] > 8
+
+
+def test_bonds_do_not_tell(lmp, tmp_path, material):
+    """what hangs together with its image"""
+    text = "units lj\natom_style hybrid sph bond\nregion box block 0 9 0 9 0 9\nboundary f f f\ncreate_box 1 box bond/types 1\n"
+    text += "create_atoms 1 single 0.5 0.5 0.5\nmass 1 1.0\nset group all sph/rho 1.0\npair_style hvi/sph cubic mirror x 0 lo\n"
+    text += "pair_coeff 1 1 eos tait 1 10 7 h 1.2\nbond_style zero nocoeff\nbond_coeff *\nfix sph all hvi/sph\nspecial_bonds lj/coul 1 1 1\n"
+    text += "compute f all hvi/fragment bonds\nthermo_style custom step c_f[1]\nrun 0\n"
+    assert "bonds do not tell what hangs together with its image" in lmp(text, expect_fail=True).error
+    assert lmp(text.replace("bonds\n", "distance 1.01\n")).thermo["c_f[1]"][0] == 1
 
 
 def test_its_own_image(runs):

@@ -65,11 +65,12 @@ def equal(one, two, rel):
             assert abs(a[name] - b[name]) <= rel * scale + (1e-9 if name == "push" else 1e-25), name
 
 
-def test_as_a_dump_says(walls, tmp_path):
-    """sums, what has passed, what is apart, bulge and hole from positions, velocities and IDs"""
+@pytest.mark.parametrize("quarter", [False, True])
+def test_as_a_dump_says(walls, tmp_path, quarter):
+    """sums, what has passed, what is apart, bulge and hole from positions, velocities and IDs; pieces of a quarter are those of the whole"""
     dump = "write_dump all custom end.dump id type mass x y z vx vy vz c_state[1] c_state[2] c_state[3] modify colname c_state[1] damage colname c_state[2] spalled format float %.17g\n"
-    first, second = walls(scene(steps=150) + PRINT + dump)
-    frame = hvi.Dump(str(tmp_path / "end.dump"), units="si")[0]
+    first, second = walls(scene(steps=150, quarter=quarter) + PRINT + dump)
+    frame, whole = (hvi.Dump(str(tmp_path / "end.dump"), units="si", mirror=planes)[0] for planes in ("none", ["x=0", "y=0"] if quarter else "none"))
     kind, z, v, m = frame["type"].astype(int), frame.x[:, 2], frame.v[:, 2], frame.m
     energy = 0.5 * m * (frame.v**2).sum(axis=1)
     failed = hvi.fragments.has_failed(frame)
@@ -100,8 +101,11 @@ def test_as_a_dump_says(walls, tmp_path):
     assert first["spall_mass"] == pytest.approx(m[passed & ~hull & (kind == 2)].sum(), rel=1e-12, abs=1e-20)
     assert first["apart_number"] == (passed & ~hull).sum()
     assert first["bulge"] == pytest.approx(z[body & (kind == 2)].max() + 3e-4 - 1.2e-3, rel=1e-9)
-    _, said = hvi.fragments.both(frame.select(passed), distance=9e-4, failed=list(hvi.fragments.FAILED))
-    assert (first["fragments"], first["pieces_apart"]) == (said["fragments"], said["pieces_apart"])
+    found, said = hvi.fragments.both(whole.select(passed), distance=9e-4, failed=list(hvi.fragments.FAILED))
+    assert (first["fragments"], first["pieces_apart"]) == (said["fragments"], said["pieces_apart"]) and first["fragments"] > first["pieces_apart"] > 5
+    assert first["largest_mass"] == pytest.approx(found.table["mass"][0], rel=1e-12)
+    assert first["largest_velocity"] == pytest.approx(found.table["vz"][0], rel=1e-10) or np.sum(found.table["mass"] > 0.999 * found.table["mass"][0]) > 1
+    assert first["largest_apart_mass"] == pytest.approx(said["largest_apart_mass_fraction"] * said["mass"], rel=1e-12)
     assert first["rear_strain"] > 0.01 and first["failed_depth"] > 0 and first["plastic_power"] > 0
     assert first["hole_found"] == first["plane_found"] == 1 and 3.6e-3 < first["hole_min"] <= first["hole_diameter"] <= first["hole_max"] < 9e-3
     assert 0 < second["body_mass"] <= second["mass"] * (1 + 1e-12)

@@ -3,9 +3,14 @@
    The contact law alone, against the formulas as printed.
 ------------------------------------------------------------------------- */
 
-#include "hvi_contact.h"
+#include "hvi_contact_step.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+#include <vector>
 
 using HVI::Contact;
 
@@ -110,6 +115,80 @@ TEST(ContactPrefactor, OneHasTheForceOfThePaper)
   const Contact law = Contact::make(2.0, 1.0, 1.0);
   EXPECT_NEAR(law.force(1.0), 12.0, 1e-13);
   EXPECT_NEAR(law.energy(1.0), 0.5, 1e-15);
+}
+
+struct Pair {
+  double m, rsq, rdotv;
+};
+
+std::vector<Pair> pairs(int n, double mass, int seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  std::vector<Pair> made;
+  for (int i = 0; i < n; i++)
+    made.push_back({mass > 0.0 ? mass : 0.2 + part(random), 0.5 + 1.5 * part(random), 20.0 * (part(random) - 0.5)});
+  return made;
+}
+
+// each pair by itself
+
+HVI::ContactTimes all_of(const Contact &law, const std::vector<Pair> &list)
+{
+  HVI::ContactTimes least = {1e200, 1e200};
+  for (const Pair &p : list) {
+    const bool touching = p.rsq < law.cutsq;
+    if (touching) least.contact = std::min(least.contact, p.m / law.stiffness(p.rsq));
+    if (p.rdotv >= 0.0) continue;
+    const double e = 0.5 * p.m * p.rdotv * p.rdotv / p.rsq + (touching ? law.energy(p.rsq) : 0.0);
+    least.approach = std::min(least.approach, p.m / law.stiffness(law.turning_rsq(e)));
+  }
+  return least;
+}
+
+HVI::ContactTimes uniform(const Contact &law, double m, const std::vector<Pair> &list)
+{
+  HVI::ContactTimes least = {1e200, 1e200};
+  HVI::UniformContactStep step(law, m);
+  for (size_t n = 0; n < list.size(); n++) {
+    if (n % HVI::UniformContactStep::ROW == 0) step.make_room();
+    step.add(list[n].rsq, list[n].rdotv);
+  }
+  step.finish(least);
+  return least;
+}
+
+TEST(ContactStep, FindsTheLeastOfAllPairs)
+{
+  const Contact law = Contact::make(1.3, 1.0, 1.0);
+  for (int n : {0, 1, 7, 64, 200, 1000})
+    for (int seed = 0; seed < 20; seed++) {
+      for (double mass : {0.7, 0.0}) {
+        const auto list = pairs(n, mass, seed);
+        const HVI::ContactTimes want = all_of(law, list);
+        HVI::ContactTimes found = {1e200, 1e200};
+        HVI::ContactStep step;
+        for (const Pair &p : list) step.add(law, p.m, p.rsq, p.rdotv, found);
+        EXPECT_EQ(found.contact, want.contact);
+        EXPECT_EQ(found.approach, want.approach);
+        if (mass == 0.0) continue;
+        found = uniform(law, mass, list);
+        EXPECT_NEAR(found.contact, want.contact, 1e-12 * want.contact);
+        EXPECT_NEAR(found.approach, want.approach, 1e-12 * want.approach);
+      }
+    }
+}
+
+TEST(ContactStep, TellsWhatIsNotANumber)
+{
+  const Contact law = Contact::make(1.0, 1.0, 1.0);
+  auto list = pairs(100, 1.0, 3);
+  list[17].rdotv = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(uniform(law, 1.0, list).approach));
+  HVI::ContactTimes found = {1e200, 1e200};
+  HVI::ContactStep step;
+  for (int n = 0; n <= 17; n++) step.add(law, 1.0, list[n].rsq, list[n].rdotv, found);
+  EXPECT_TRUE(std::isnan(found.approach));
 }
 
 }    // namespace

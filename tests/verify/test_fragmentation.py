@@ -75,16 +75,16 @@ def test_apart_by_distance_is_apart_by_neighbors(lmp, root, tmp_path, capsys, v0
         assert distance[1] == pytest.approx(neighbors[1], abs=largest), us
         assert distance[2] == pytest.approx(neighbors[2], rel=mean), us
     assert found[120][0][0] > 1.1 * found[40][0][0]  # so 40 us is not the end
-    # the compute and the command find the same of the quarter; without --mirror none the command counts images, too
-    distance = found[120][0]
-    assert result["pieces_apart"] == distance[0] and result["largest_apart_mass_fraction"] == pytest.approx(distance[1], abs=1e-5)
+    # the compute and the command find the same, of the whole; with --mirror none the command has the pieces of the quarter
     counts = []
-    for words in (["--mirror", "none"], []):
+    for words in ([], ["--mirror", "none"]):
         assert cli.main(["fragments", str(tmp_path / "plate.dump"), "--distance", str(1.5e-3 * dx), "--sound", "--type", "1", *words]) == 0
         said = dict(line.split(": ", 1) for line in capsys.readouterr().out.splitlines() if ": " in line)
         counts.append((int(said["fragments"]), int(said["pieces_apart"])))
-    assert counts[0] == (result["fragments"], result["pieces_apart"])
-    assert np.all(np.array(counts[1]) > 2 * np.array(counts[0]))
+        fraction = float(said["largest_apart_mass_fraction"])
+        assert fraction == pytest.approx(found[120][0][1] if words else result["largest_apart_mass_fraction"], abs=1e-5)
+    assert counts[0] == (result["fragments"], result["pieces_apart"]) and counts[1][1] == found[120][0][0]
+    assert np.all(np.array(counts[0]) > 2 * np.array(counts[1]))
 
 
 @pytest.mark.parametrize("shift", [0, 0.25])

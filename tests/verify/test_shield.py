@@ -125,7 +125,7 @@ def test_quarter_is_the_whole(shield):
     # if the largest fragments are single particles, which is the largest is anybody's guess
     single = quarter["wall1_largest_fragment_mm"] < 1.01 * (6 / np.pi) ** (1 / 3) * HOW["dx"]
     for key in PER_WALL:
-        if key not in ("reached", "perforated", "detached_spall", "fragments", "pieces_apart", *["largest_fragment_velocity_m_s"] * single):
+        if key not in ("reached", "perforated", "detached_spall", *["largest_fragment_velocity_m_s"] * single):
             assert quarter[f"wall1_{key}"] == pytest.approx(whole[f"wall1_{key}"], rel=1e-3), key
     assert quarter["hole1_diameter_mm"] == pytest.approx(whole["hole1_diameter_mm"], rel=0.03)
     assert abs(quarter["energy_ratio"] - 1) < 1e-3 and quarter["momentum_error"] < 1e-10
