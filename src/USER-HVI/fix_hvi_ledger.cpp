@@ -228,10 +228,8 @@ void FixHVILedger::pre_exchange()
 
 void FixHVILedger::let_go(double dt)
 {
-  if (output->thermo->lostflag == Thermo::ERROR) return;
-
   HVILeavers leavers(lmp);
-  const bigint nleft = leavers.pick();
+  const bigint nleft = leavers.pick(output->thermo->lostflag != Thermo::ERROR);
   if (nleft == 0) return;
 
   held.admit();

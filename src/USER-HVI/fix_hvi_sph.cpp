@@ -126,7 +126,7 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {"", "_rates"}), store(nullptr), ledger(nullptr),
     strength(nullptr), evaluation(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0},
     last(0.0), due(false), stepping(0), wallbit(0), follow(0), checked(0), quiet(1.0e-10),
-    relative(true), most_frozen(0), swiftest(0.0)
+    relative(true), most_frozen(0), deletes_frozen(false), swiftest(0.0)
 {
   static_assert(covers<Extra>(FIELDS), "a number of the record is missing, or there twice");
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
@@ -144,14 +144,15 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
       if (jgroup == -1) error->all(FLERR, "Could not find fix hvi/sph walls group ID {}", value);
       wallbit |= group->bitmask[jgroup];
     } else if (key == "bad") {
-      if (value != "error" && value != "freeze")
-        error->all(FLERR, "Fix hvi/sph bad must be error or freeze N, not {}", value);
+      if (value != "error" && value != "freeze" && value != "delete")
+        error->all(FLERR, "Fix hvi/sph bad must be error, freeze N or delete N, not {}", value);
       most_frozen = 0;
+      deletes_frozen = value == "delete";
       if (value == "error") continue;
-      if (++iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hvi/sph bad freeze", error);
+      if (++iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hvi/sph bad " + value, error);
       most_frozen = utils::bnumeric(FLERR, arg[iarg + 1], false, lmp);
       if (most_frozen < 1)
-        error->all(FLERR, "Fix hvi/sph bad freeze must be 1 or more particles, not {}",
+        error->all(FLERR, "Fix hvi/sph bad {} must be 1 or more particles, not {}", value,
                    arg[iarg + 1]);
     } else if (key == "lists") {
       if (value != "relative" && value != "displacement")
@@ -604,7 +605,7 @@ void FixHVISPH::count_frozen() const
   if (frozen > most_frozen)
     error->all(
         FLERR,
-        "Fix hvi/sph: {} particles take no part any more at step {}, more than bad freeze {} "
+        "Fix hvi/sph: {} particles take no part any more at step {}, more than the {} that bad "
         "allows: see the warnings above for the first; a shorter step or another equation "
         "of state may help",
         frozen, update->ntimestep, most_frozen);

@@ -96,6 +96,8 @@ class FixHVISPH :
   // momentum and energy stay.  False: that is an error.
 
   bool freeze(int i);
+  bool may_send_away() const override { return deletes_frozen; }
+  bool is_to_go(int i) const override { return has_frozen(i); }
   bool has_frozen(int i) const { return extra[i].frozen != 0.0; }
   static bool is_frozen(double rho) { return rho == 0.0; }
 
@@ -135,7 +137,8 @@ class FixHVISPH :
   bool relative;    // lists are made anew by relative motion
 
   bigint most_frozen;    // particles that may be; 0: none
-  double swiftest;       // of the last forces: largest |drho/dt|/rho
+  bool deletes_frozen;
+  double swiftest;    // of the last forces: largest |drho/dt|/rho
 
   void note_change(int);
   void count_frozen() const;

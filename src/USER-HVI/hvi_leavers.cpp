@@ -36,15 +36,23 @@ static constexpr double BIG = 1.0e100;
 
 /* ---------------------------------------------------------------------- */
 
-bigint HVILeavers::pick()
+bigint HVILeavers::pick(bool at_faces)
 {
   bool fixed[3][2], any = false;
   for (int k = 0; k < 3; k++)
     for (int side = 0; side < 2; side++) {
-      fixed[k][side] = domain->boundary[k][side] == 1;
+      fixed[k][side] = at_faces && domain->boundary[k][side] == 1;
       any = any || fixed[k][side];
     }
-  if (!any) return 0;
+  std::vector<const HVI::EnergyCarrier *> send_away;
+  for (const auto *const carrier : HVI::find_interface<HVI::EnergyCarrier>(lmp))
+    if (carrier->may_send_away()) send_away.push_back(carrier);
+  if (!any && send_away.empty()) return 0;
+  const auto is_to_go = [&](int i) {
+    return std::any_of(send_away.begin(), send_away.end(), [i](const HVI::EnergyCarrier *carrier) {
+      return carrier->is_to_go(i);
+    });
+  };
 
   // beyond a face, or within depth of it
 
@@ -65,7 +73,7 @@ bigint HVILeavers::pick()
 
   const double zero[3] = {0.0, 0.0, 0.0};
   for (int i = 0; i < atom->nlocal; i++)
-    if (beyond(i, zero)) leaving.push_back(i);
+    if (beyond(i, zero) || is_to_go(i)) leaving.push_back(i);
 
   const bigint here = leaving.size();
   MPI_Allreduce(&here, &number, 1, MPI_LMP_BIGINT, MPI_SUM, world);

@@ -37,7 +37,7 @@ class HVILeavers : protected Pointers {
 
   HVILeavers(class LAMMPS *lmp) : Pointers(lmp), dt(0.0), reach(0.0), number(0) {}
 
-  bigint pick();    // how many, on all ranks
+  bigint pick(bool at_faces);    // how many, on all ranks
   Account take_out(double dt, int clampbit);
 
  private:

@@ -66,9 +66,21 @@ def test_frozen(lmp, tmp_path, nranks, newton, pair):
 
 
 @pytest.mark.parametrize("nranks", [1, 2])
+def test_deleted(lmp, tmp_path, nranks):
+    """it is taken out with the next lists and booked as what leaves; where losing particles is an error, too"""
+    text = gas("bad delete 1").replace("neighbor 0.3 bin", "neighbor 0.3 bin\nneigh_modify every 1 delay 0 check no").replace("c_book[32]", "c_book[32] c_book[20] c_book[21] atoms").replace(
+        "hvi/sph bad", "hvi/sph lists displacement bad")
+    r = lmp(text + BAD.format(43) + "run 20\n" + OUT.format(tmp_path / "deleted"), nranks=nranks)
+    t = r.thermo
+    assert [t[name][-1] for name in ("c_book[32]", "c_book[19]", "c_book[20]", "c_book[21]", "Atoms")] == [1, N**3 - 1, 1, 1, N**3 - 1]
+    lmp(text + "group bad id 43\ndelete_atoms group bad compress no\nrun 20\n" + OUT.format(tmp_path / "without"), nranks=nranks)
+    np.testing.assert_allclose(rows(tmp_path / "deleted"), rows(tmp_path / "without"), rtol=1e-9, atol=1e-11)
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
 def test_more_than_allowed(lmp, nranks):
     r = lmp(gas("bad freeze 2") + "".join(BAD.format(i) for i in (5, 43, 170)) + "run 20\n", nranks=nranks, expect_fail=True)
-    assert "3 particles take no part any more at step" in r.stdout and "more than bad freeze 2 allows" in r.stdout
+    assert "3 particles take no part any more at step" in r.stdout and "more than the 2 that bad allows" in r.stdout
 
 
 def test_restart(lmp, tmp_path):
