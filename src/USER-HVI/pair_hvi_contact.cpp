@@ -217,15 +217,19 @@ void PairHVIContact::tighten_uniform(HVI::ContactTimes &least) const
 
     for (int jfirst = 0; jfirst < jnum; jfirst += HVI::UniformContactStep::ROW) {
       const int jlast = MIN(jfirst + HVI::UniformContactStep::ROW, jnum);
-      step.make_room();
+      const auto row = step.row();
+      double *const __restrict rsq = row.rsq;    // else the loop would reload positions
+      double *const __restrict rdotv = row.rdotv;
       for (int jj = jfirst; jj < jlast; jj++) {
         const int j = jlist[jj] & NEIGHMASK;
         const double delx = xi[0] - x[j][0];
         const double dely = xi[1] - x[j][1];
         const double delz = xi[2] - x[j][2];
-        step.add(delx * delx + dely * dely + delz * delz,
-                 delx * (vi[0] - v[j][0]) + dely * (vi[1] - v[j][1]) + delz * (vi[2] - v[j][2]));
+        rsq[jj - jfirst] = delx * delx + dely * dely + delz * delz;
+        rdotv[jj - jfirst] =
+            delx * (vi[0] - v[j][0]) + dely * (vi[1] - v[j][1]) + delz * (vi[2] - v[j][2]);
       }
+      step.filled(jlast - jfirst);
     }
   }
   step.finish(least);

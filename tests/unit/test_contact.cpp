@@ -150,9 +150,14 @@ HVI::ContactTimes uniform(const Contact &law, double m, const std::vector<Pair> 
 {
   HVI::ContactTimes least = {1e200, 1e200};
   HVI::UniformContactStep step(law, m);
-  for (size_t n = 0; n < list.size(); n++) {
-    if (n % HVI::UniformContactStep::ROW == 0) step.make_room();
-    step.add(list[n].rsq, list[n].rdotv);
+  for (size_t first = 0; first < list.size(); first += HVI::UniformContactStep::ROW) {
+    const auto row = step.row();
+    const size_t number = std::min<size_t>(HVI::UniformContactStep::ROW, list.size() - first);
+    for (size_t n = 0; n < number; n++) {
+      row.rsq[n] = list[first + n].rsq;
+      row.rdotv[n] = list[first + n].rdotv;
+    }
+    step.filled(number);
   }
   step.finish(least);
   return least;

@@ -81,16 +81,15 @@ class UniformContactStep {
     }
   }
 
-  void make_room()    // for ROW pairs
+  struct Row {
+    double *rsq, *rdotv;
+  };
+  Row row()    // room for ROW pairs
   {
     if (n > NBATCH - ROW) work_off();
+    return {rsq + n, rdotv + n};
   }
-  void add(double rsq_one, double rdotv_one)
-  {
-    rsq[n] = rsq_one;
-    rdotv[n] = rdotv_one;
-    n++;
-  }
+  void filled(int npairs) { n += npairs; }
 
   void finish(ContactTimes &least)
   {
@@ -123,16 +122,18 @@ class UniformContactStep {
       rsq[n] = BIG;
       rdotv[n] = 0.0;
     }
+    const double s6 = c.s6, depth = c.depth, half_m = 0.5 * m;
     for (int first = 0; first < n; first += NLANE)
+#pragma GCC unroll 1    // else it is unrolled into scalars before it can go in vectors
       for (int k = 0; k < NLANE; k++) {
         const double one = rsq[first + k], rate = rdotv[first + k];
         const double r2inv = 1.0 / one;
 
         // q > 1/2 of Contact::energy() is where they touch
 
-        double dq = c.s6 * (r2inv * r2inv * r2inv) - 0.5;
+        double dq = s6 * (r2inv * r2inv * r2inv) - 0.5;
         dq = dq < 0.0 ? 0.0 : dq;
-        const double energy = 0.5 * m * rate * rate * r2inv + c.depth * dq * dq;
+        const double energy = half_m * rate * rate * r2inv + depth * dq * dq;
         const double e = rate >= 0.0 ? 0.0 : energy;
         shortest[k] = one < shortest[k] ? one : shortest[k];
         most[k] = e > most[k] ? e : most[k];
