@@ -208,6 +208,13 @@ void HVIScheme::take_out(int i)
 void HVIScheme::no_answer(int i, double rho) const
 {
   const int itype = atom->type[i];
+  if (rho == 0.0)
+    error->one(
+        FLERR,
+        "Pair hvi/sph: particle {} (type {}) has no density at step {}: give it one before the "
+        "run (set ... sph/rho, or pair_coeff ... spacing).  What comes during a run, by fix "
+        "deposit for instance, has none: add particles between runs",
+        atom->tag[i], itype, update->ntimestep);
   error->one(FLERR,
              "Pair hvi/sph: equation of state {} of particle {} (type {}) has no answer at "
              "density {} and energy per mass {} at step {}",

@@ -98,7 +98,7 @@ def test_restart(lmp, tmp_path):
 def test_density_of_nothing_is_an_error(lmp):
     """a density that was never given is no frozen particle"""
     r = lmp(gas("bad freeze 1").replace("sph/rho 1.0 ", "") + "run 2\n", expect_fail=True)
-    assert "has no answer at density 0" in r.stdout
+    assert "has no density at step 0" in r.stdout
 
 
 @pytest.mark.parametrize("pair", ["viscosity 1 2", "dissipation riemann"])
