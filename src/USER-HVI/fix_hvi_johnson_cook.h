@@ -18,7 +18,7 @@ FixStyle(hvi/johnson-cook,FixHVIJohnsonCook);
 #include "fix_hvi_records.h"
 #include "hvi_energy_carrier.h"
 #include "hvi_solid_model.h"
-#include "hvi_sph.h"
+#include "hvi_sph_records.h"
 
 #include <memory>
 #include <string>

@@ -84,16 +84,7 @@ void PairHVISPH::compute(int eflag, int vflag)
   if (records.art && !records.traction) artificial_stress();
   if (mirrored) images.fill(set.mirror, records);
 
-  HVI::SphWork work = {
-      records,    {(int) rows.size(), rows.data(), list->numneigh, list->firstneigh},
-      set.laws,   visc_a,
-      visc_b,     tension,
-      ratio,      weight,
-      atom->type, mirrored ? &images : nullptr,
-      &kept,      fields.embedded.empty() ? nullptr : fields.embedded.data(),
-      this,       evflag != 0,
-      fastest};
-  if (records.traction) work.laws.half = 0.5 * integrator->step();
+  HVI::SphWork work = work_of_sweeps();
   if (sweeps->has_first()) {
     sweeps->first(work);
     if (mirrored) images.fold_sums(records);
@@ -121,23 +112,41 @@ void PairHVISPH::compute(int eflag, int vflag)
 
 /* ---------------------------------------------------------------------- */
 
-void PairHVISPH::tally(int i, int n, const HVI::SphNear &near, bool vectors)
+HVI::SphWork PairHVISPH::work_of_sweeps()
 {
-  const int nlocal = atom->nlocal, newton_pair = force->newton_pair;
-  for (int m = 0; m < n; m++) {
-    const int j = near.j[m];
-    const double d[3] = {near.d[m][0], near.d[m][1], near.d[m][2]};
-    if (set.mirror.planes && images.is_image(j)) {
-      double f[3] = {near.fx[m], near.fy[m], near.fz[m]};
-      if (!vectors)
-        for (int k = 0; k < 3; k++) f[k] = near.force[m] * d[k];
-      tally_image(i, j, f, d);
-    } else if (vectors)
-      ev_tally_xyz(i, j, nlocal, newton_pair, 0.0, 0.0, near.fx[m], near.fy[m], near.fz[m], d[0],
-                   d[1], d[2]);
-    else
-      ev_tally(i, j, nlocal, newton_pair, 0.0, 0.0, near.force[m], d[0], d[1], d[2]);
-  }
+  HVI::SphFields &fields = store->fields;
+  HVI::SphWork work;
+  work.records = fields.view();
+  work.list.inum = rows.size();
+  work.list.ilist = rows.data();
+  work.list.numneigh = list->numneigh;
+  work.list.firstneigh = list->firstneigh;
+  work.laws = set.laws;
+  work.visc_a = visc_a;
+  work.visc_b = visc_b;
+  work.tension = tension;
+  work.ratio = ratio;
+  work.weight = weight;
+  work.type = atom->type;
+  work.embedded = fields.embedded.empty() ? nullptr : fields.embedded.data();
+  work.images = set.mirror.planes ? &images : nullptr;
+  work.kept = &kept;
+  work.watcher = this;
+  work.tally = evflag != 0;
+  work.half_step = set.whole ? 0.5 * integrator->step() : 0.0;
+  work.fastest = fastest;
+  return work;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHVISPH::tally(int i, int j, const double *d, const double *f)
+{
+  if (set.mirror.planes && images.is_image(j))
+    tally_image(i, j, f, d);
+  else
+    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, 0.0, 0.0, f[0], f[1], f[2], d[0], d[1],
+                 d[2]);
 }
 
 /* ----------------------------------------------------------------------
@@ -249,9 +258,10 @@ void PairHVISPH::choose_skin()
 int PairHVISPH::choose_scene()
 {
   int scene = set.riemann ? HVI::SPH_RIEMANN : (set.density ? HVI::SPH_DENSITY : 0);
-  if (strength) scene |= HVI::SPH_STRENGTH;
+  if (set.laws.symmetric) scene |= HVI::SPH_SYMMETRIC;
+  if (set.laws.stock) scene |= HVI::SPH_STOCK;
+  if (set.whole) scene |= HVI::SPH_SOLID;
   if (set.laws.art_eps > 0.0) scene |= HVI::SPH_ARTSTRESS;
-  if (set.whole) scene |= HVI::SPH_CORRECTED;
   if (set.whole && strength->can_fail()) scene |= HVI::SPH_BODIES;
   if (set.variable) scene |= HVI::SPH_OWN_H;
   int first = 0;
@@ -350,6 +360,7 @@ void PairHVISPH::setup()
     return widest(i, j);
   };
   if (sweeps->scene() & HVI::SPH_SPACINGS) report.weight = weight;
+  report.vectors = sweeps->vectors();
   report.forward = comm_forward;
   report.reverse = force->newton_pair ? comm_reverse : 0;
   if (set.whole) {

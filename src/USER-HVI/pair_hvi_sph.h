@@ -125,6 +125,7 @@ class PairHVISPH :
   // of a force evaluation
 
   int choose_scene();
+  HVI::SphWork work_of_sweeps();
   bool find_weights();
   double widest(int, int) const;
   void find_images();
@@ -152,7 +153,7 @@ class PairHVISPH :
 
   // told by the sweeps
 
-  void tally(int, int, const HVI::SphNear &, bool) override;
+  void tally(int, int, const double *, const double *) override;
   void tally_image(int, int, const double *, const double *);
   void overlap(int, int) override;
 };

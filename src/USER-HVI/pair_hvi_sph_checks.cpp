@@ -53,10 +53,10 @@ void PairHVISPH::check_fixes() const
     error->all(FLERR, "Pair style hvi/sph h variable needs fix hvi/sph, which keeps h");
   if (strength && set.laws.symmetric)
     error->all(FLERR, "Pair style hvi/sph: fix hvi/johnson-cook works with form sum");
-  if (strength && set.riemann && set.gradient != HVI::SphSettings::CORRECTED)
+  if (strength && set.gradient != HVI::SphSettings::CORRECTED)
     error->all(FLERR,
-               "Pair style hvi/sph: dissipation riemann with fix hvi/johnson-cook needs gradient "
-               "corrected");
+               "Pair style hvi/sph: gradient plain and gradient law were removed: leave the word "
+               "out, for solids have corrected gradients");
   if (set.laws.art_eps > 0.0 && !strength)
     error->all(FLERR,
                "Pair style hvi/sph artstress needs fix hvi/johnson-cook, which keeps the stress");

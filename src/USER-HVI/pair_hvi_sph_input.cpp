@@ -95,11 +95,11 @@ void PairHVISPH::settings(int narg, char **arg)
   set.kernel = arg[0];
   if (set.kernel == "gaussian")
     set.kernel = "gauss";    // pair style hybrid takes gauss for a pair style
-  if (!HVI::with_kernel(set.kernel, [this](auto k) {
-        set.support = decltype(k)::support;
-      }))
+  const HVI::KernelFunctions *const kernel = HVI::find_kernel(set.kernel);
+  if (!kernel)
     error->all(FLERR, "Unknown pair_style hvi/sph kernel {}: use one of {}", set.kernel,
-               HVI::KERNEL_NAMES);
+               HVI::kernel_names());
+  set.support = kernel->support;
 
   int iarg = 1;
   auto need = [&](int n) {
@@ -228,9 +228,7 @@ void PairHVISPH::settings(int narg, char **arg)
                  "symmetric, dim of the box, constant h, energy yes, no interface dissipation");
     laws.symmetric = 1;
   }
-  HVI::with_kernel(set.kernel, [&laws](auto k) {
-    laws.norm = decltype(k)::norm(laws.dim);
-  });
+  laws.norm = kernel->norm[laws.dim - 1];
   no_virial_fdotr_compute = set.mirror.planes ? 1 : 0;    // planes push, too
   set.text =
       fmt::format("{} dim {} form {} h {}{}", set.kernel, laws.dim,

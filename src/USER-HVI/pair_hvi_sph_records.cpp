@@ -23,7 +23,6 @@
 #include "fix_hvi_sph.h"
 #include "force.h"
 #include "hvi_artstress.h"
-#include "hvi_sph_solid.h"
 #include "math_special.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -109,7 +108,7 @@ void PairHVISPH::gather()
     s.vy = vest[i][1];
     s.vz = vest[i][2];
     s.rho = rho[i];
-    s.w = laws.symmetric ? m : m / rho[i];
+    s.w = m / rho[i];
     if (records.traction) {
       HVI::SphTraction &T = records.traction[i];
       T = {};
@@ -124,12 +123,12 @@ void PairHVISPH::gather()
       }
       s.w *= known.width;
     }
-    s.p = laws.symmetric ? p / (rho[i] * rho[i]) : p;
+    s.p = p;
     s.c = std::sqrt(csq);
     if (!(s.c <= fastest * place.h)) fastest = s.c / place.h;
-    s.type = itype;
+    s.body = itype;
     if (records.traction && records.stress[i].p_min == 0.0 && records.stress[i].shear == 0.0)
-      s.type += HVI::RUBBLE;
+      s.body += HVI::SphState::RUBBLE;
   }
 }
 
@@ -336,11 +335,11 @@ void PairHVISPH::finish_slopes()
     HVI::SphSlopes &slopes = records.slopes[i];
     const double start = set.h[atom->type[i]], h = records.place[i].h;
     const double W0 = sweeps->w(0.0) * set.laws.norm / MathSpecial::powint(h, set.laws.dim);
-    const double n = slopes.volume + W0;
+    const double n = slopes.n + W0;
     const bool follows = set.variable && h > set.hmin * start && h < set.hmax * start;
-    const double omega = follows ? 1.0 + (slopes.omega / set.laws.dim - W0) / n : 1.0;
-    slopes.omega = 1.0 / MAX(omega, 0.25);
-    slopes.volume = slopes.omega / n;
+    const double omega = follows ? 1.0 + (slopes.spread / set.laws.dim - W0) / n : 1.0;
+    const double by_omega = 1.0 / MAX(omega, 0.25);
+    slopes.replace_sums(by_omega / n, by_omega);
   }
   forward(records.slopes);
 }

@@ -140,8 +140,7 @@ void PairHVISPH::read_restart_settings(FILE *fp)
     set.mirror.side[k] = values[10 + k];
   }
   no_virial_fdotr_compute = set.mirror.planes ? 1 : 0;
-  HVI::with_kernel(set.kernel, [&](auto k) {
-    set.support = decltype(k)::support;
-    laws.norm = decltype(k)::norm(laws.dim);
-  });
+  const HVI::KernelFunctions &kernel = *HVI::find_kernel(set.kernel);
+  set.support = kernel.support;
+  laws.norm = kernel.norm[laws.dim - 1];
 }

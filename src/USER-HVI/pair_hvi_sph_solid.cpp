@@ -96,23 +96,6 @@ static VelocityGradient gradient(const SphGradV &L)
   return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
 }
 
-// in place of M
-
-static void put_inverse(const Symmetric &s, SphGradV &g)
-{
-  g.mxx = s.xx;
-  g.myy = s.yy;
-  g.mzz = s.zz;
-  g.mxy = s.xy;
-  g.mxz = s.xz;
-  g.myz = s.yz;
-}
-
-static Symmetric get_inverse(const SphGradV &g)
-{
-  return {g.mxx, g.myy, g.mzz, g.mxy, g.mxz, g.myz};
-}
-
 /* ----------------------------------------------------------------------
    L M^-1 with M of the middle of the step, which L belongs to: M - dt/2 (L + L^T), but for (dt/2)^2 v (x) v.
    So nothing expands that turns, whether its M can be inverted or not.
@@ -138,13 +121,9 @@ static void put_normal(SphGradV &contact, double nu)
   if (contact.mxx + contact.myy + contact.mzz > 0.0)
     normal = HVI::along_largest(
         {contact.mxx, contact.myy, contact.mzz, contact.mxy, contact.mxz, contact.myz});
-  const double share = MIN(1.0, 4.0 * contact.nu / nu);
-  contact.xx = share * normal.xx;
-  contact.yy = share * normal.yy;
-  contact.zz = share * normal.zz;
-  contact.xy = share * normal.xy;
-  contact.xz = share * normal.xz;
-  contact.yz = share * normal.yz;
+  double *const n = &normal.xx;
+  for (int k = 0; k < 6; k++) n[k] *= MIN(1.0, 4.0 * contact.nu / nu);
+  contact.set_normal(normal);
 }
 
 /* ----------------------------------------------------------------------
@@ -175,7 +154,7 @@ void PairHVISPH::correct_gradient(int i)
     const Symmetric by_all = inverse(all, scale * all.nu, store->fields.along);
     L_all = corrected(all, scale * all.nu, store->fields.along, half);
     put_normal(contact, all.nu);
-    put_inverse(by_all, contact);
+    contact.set_inverse(by_all);
   }
 
   if (integrator->is_due()) strength->try_out(i, L, integrator->step());
@@ -189,7 +168,7 @@ void PairHVISPH::correct_gradient(int i)
 
   // the law of the solid sees what hangs together; rubble as forces see it: it may have failed since
 
-  const VelocityGradient &seen = s.type != itype ? L_all : L;
+  const VelocityGradient &seen = s.is_rubble() ? L_all : L;
   own.xx = seen.xx;
   own.xy = seen.xy;
   own.xz = seen.xz;
@@ -199,7 +178,7 @@ void PairHVISPH::correct_gradient(int i)
   own.zx = seen.zx;
   own.zy = seen.zy;
   own.zz = seen.zz;
-  put_inverse(by_own, own);
+  own.set_inverse(by_own);
 }
 
 bool PairHVISPH::touches(int i) const
@@ -225,15 +204,16 @@ void PairHVISPH::find_traction(int i)
   const bool held = is_embedded(i);
   if (held && touches(i))
     put_normal(records.contact[i], records.state[i].w / T.volume);    // nu of a lattice
-  const Symmetric by_own = held ? ONE : get_inverse(records.gradv[i]);
+  const Symmetric by_own = held ? ONE : records.gradv[i].inverse();
   Symmetric by_all = by_own;
   double rest = 0.0;
   if (touches(i)) {
     const SphGradV &contact = records.contact[i];
-    if (!held) by_all = get_inverse(contact);
+    if (!held) by_all = contact.inverse();
+    const Symmetric n = contact.normal();
     if (S.shear > 0.0)
-      rest = -(contact.xx * S.xx + contact.yy * S.yy + contact.zz * S.zz +
-               2.0 * (contact.xy * S.xy + contact.xz * S.xz + contact.yz * S.yz));
+      rest = -(n.xx * S.xx + n.yy * S.yy + n.zz * S.zz +
+               2.0 * (n.xy * S.xy + n.xz * S.xz + n.yz * S.yz));
   }
   const double scale = T.volume / records.state[i].w, push = T.p + rest, p = scale * push;
   const VelocityGradient B =

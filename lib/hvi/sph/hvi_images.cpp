@@ -52,17 +52,9 @@ void Images::fill(const MirrorPlanes &mirror, const SphView &records) const
     records.state[a] = records.state[image.owner];
     reflect.velocity(records.state[a]);
     records.rates[a] = {};
-    if (records.stress) {
-      records.stress[a] = records.stress[image.owner];
-      reflect.symmetric(records.stress[a]);
-      records.gradv[a] = {};
-    }
+    if (records.gradv) records.gradv[a] = {};
     if (records.contact) records.contact[a] = {};
     if (records.slopes) records.slopes[a] = {};
-    if (records.art && !records.traction) {
-      records.art[a] = records.art[image.owner];
-      reflect.symmetric(records.art[a]);
-    }
     a++;
   }
 }
@@ -90,11 +82,6 @@ void Images::fold(const SphView &records, bool newton)
       double *const to = &records.rates[image.owner].fx;
       const double *const from = &r.fx;
       for (int k = 0; k < (int) (sizeof(r) / sizeof(double)); k++) to[k] += from[k];
-      if (records.gradv && !records.traction) {
-        reflect.gradient(records.gradv[a]);
-        double *const L = &records.gradv[image.owner].xx;
-        for (int k = 0; k < SphGradV::SENT; k++) L[k] += (&records.gradv[a].xx)[k];
-      }
     }
     a++;
   }

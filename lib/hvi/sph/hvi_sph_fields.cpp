@@ -99,9 +99,7 @@ std::string SphFields::arrays() const
 
 double SphFields::pressure(int i) const
 {
-  if (traction) return traction[i].p;
-  const SphState &s = state[i];
-  return settings.laws.symmetric ? s.p * s.rho * s.rho : s.p;
+  return traction ? traction[i].p : state[i].p;
 }
 
 // L M^-1 is exact in a linear field.  The law sees it, forces do not.  Where neighbors lie in a
