@@ -106,14 +106,14 @@ def scenes():
     for style in ("hvi", "hvi-dt", "parity"):
         yield ("" if style == "hvi-dt" else "rare-") + f"shock-{style}", example("stock-comparison/in.shock", 100, variables=variables(style=style, pair="cubic h constant interface 0.3", h=2)
                                                                               if style != "parity" else variables(style=style))
-    yield "collapse", example("stock-comparison/in.collapse", 200)
+    yield "rare-collapse", example("stock-comparison/in.collapse", 200)
 
     yield "plate", example(plate, 400, variables=variables(dx=1))
     yield "plate-fine", example(plate, 120, variables=variables(dx=0.5))
     yield "plate-np2", example(plate, 300, variables=variables(dx=1), ranks=2)
     yield "plate-newton-off", example(plate, 300, variables=variables(dx=1), ranks=2, newton=False)
     yield "plate-viscosity", example(plate, 300, variables=variables(dx=1, pair="viscosity 1 2"))
-    yield "plate-interface", example(plate, 200, variables=variables(dx=1, pair="viscosity 1 2 interface auto"))
+    yield "rare-plate-interface", example(plate, 200, variables=variables(dx=1, pair="viscosity 1 2 interface auto"))
     yield "plate-variable-h", example(plate, 200, variables=variables(dx=1, pair="dissipation riemann h variable"))
     yield "plate-gauss", example(plate, 100, variables=variables(dx=1, kernel="gauss"))
     yield "plate-principal", example(plate, 300, variables=variables(dx=1, damage="yes", spall="principal"))

@@ -183,7 +183,7 @@ void HVIScheme::gather_records()
     s.vy = vest[i][1];
     s.vz = vest[i][2];
     s.rho = rho[i];
-    s.type = itype;
+    s.body = itype;
     s.c = std::sqrt(gather(i, known, s));
     if (!(s.c <= fastest * place.h)) fastest = s.c / place.h;
   }
@@ -432,7 +432,8 @@ double HVIScheme::fastest_to_images(double far) const
 
 HVISchemeFluid::HVISchemeFluid(LAMMPS *lmp, const HVIPairTables &tables) : HVIScheme(lmp, tables)
 {
-  choose(set.density ? HVI::SPH_DENSITY : 0);
+  choose((set.density ? HVI::SPH_DENSITY : 0) | (set.laws.symmetric ? HVI::SPH_SYMMETRIC : 0) |
+         (set.laws.stock ? HVI::SPH_STOCK : 0));
 }
 
 /* ----------------------------------------------------------------------
@@ -441,8 +442,8 @@ HVISchemeFluid::HVISchemeFluid(LAMMPS *lmp, const HVIPairTables &tables) : HVISc
 
 double HVISchemeFluid::gather(int i, const EosState &eos, HVI::SphState &s)
 {
-  s.w = set.laws.symmetric ? mass(i) : mass(i) / s.rho;
-  s.p = set.laws.symmetric ? eos.p / (s.rho * s.rho) : eos.p;
+  s.w = mass(i) / s.rho;
+  s.p = eos.p;
   if (!set.laws.stock) return eos.csq;
   const double c0 = store->materials.of(atom->type[i])->eos->c0();
   const double csq = c0 > 0.0 ? c0 * c0 : eos.p / s.rho;

@@ -54,7 +54,8 @@ class HVIScheme : protected Pointers {
   void prepare();
   void forces(bool tally);
 
-  int terms() const { return sweeps->scene(); }    // bits of SphScene
+  int terms() const { return sweeps->scene(); }         // bits of SphScene
+  bool vectors() const { return sweeps->vectors(); }    // of pairs, not the reference loop
   bool has_inactive() const { return quiet.v < HVI::NO_BOUND; }
 
   // the largest h, at the start, of a kernel between particles of two types; weights between these, null: all

@@ -122,10 +122,10 @@ void HVISchemeRiemann::finish_slopes()
     HVI::SphSlopes &slopes = records.slopes[i];
     const double start = set.h[atom->type[i]], h = records.place[i].h;
     const double W0 = sweeps->w(0.0) * set.laws.norm / MathSpecial::powint(h, set.laws.dim);
-    const double n = slopes.volume + W0;
+    const double n = slopes.n + W0;
     const bool follows = set.variable && h > set.hmin * start && h < set.hmax * start;
-    const double omega = follows ? 1.0 + (slopes.omega / set.laws.dim - W0) / n : 1.0;
-    slopes.omega = 1.0 / MAX(omega, 0.25);
-    slopes.volume = slopes.omega / n;
+    const double omega = follows ? 1.0 + (slopes.spread / set.laws.dim - W0) / n : 1.0;
+    const double by_omega = 1.0 / MAX(omega, 0.25);
+    slopes.replace_sums(by_omega / n, by_omega);
   }
 }

@@ -36,7 +36,7 @@ using HVI::VelocityGradient;
 HVISchemeSolid::HVISchemeSolid(LAMMPS *lmp, const HVIPairTables &tables) :
     HVIScheme(lmp, tables), strength(FixHVIJohnsonCook::find(lmp)), mesh(HVI::find_mesh(lmp))
 {
-  int terms = HVI::SPH_CORRECTED | HVI::SPH_STRENGTH;
+  int terms = HVI::SPH_SOLID;
   if (set.riemann)
     terms |= HVI::SPH_RIEMANN;
   else if (set.density)
@@ -124,7 +124,7 @@ double HVISchemeSolid::gather(int i, const EosState &eos, HVI::SphState &s)
   }
   s.w = T.volume * eos.width;
   s.p = T.p;
-  if (limit.p_min == 0.0 && limit.shear == 0.0) s.type += HVI::RUBBLE;
+  if (limit.p_min == 0.0 && limit.shear == 0.0) s.body += HVI::SphState::RUBBLE;
   return eos.csq + 4.0 / 3.0 * limit.shear / s.rho;
 }
 
@@ -133,7 +133,7 @@ double HVISchemeSolid::gather(int i, const EosState &eos, HVI::SphState &s)
 void HVISchemeSolid::sum_gradients()
 {
   const HVI::SphView &records = work.records;
-  work.laws.half = 0.5 * integrator->step();
+  work.half_step = 0.5 * integrator->step();
   if (records.push)
     for (int i = 0; i < atom->nlocal; i++)
       if (fields.asleep(i)) records.push[i] = {};
@@ -195,23 +195,6 @@ static void put_gradient(const VelocityGradient &L, SphGradV &g)
   g.zz = L.zz;
 }
 
-// in place of M
-
-static void put_inverse(const Symmetric &s, SphGradV &g)
-{
-  g.mxx = s.xx;
-  g.myy = s.yy;
-  g.mzz = s.zz;
-  g.mxy = s.xy;
-  g.mxz = s.xz;
-  g.myz = s.yz;
-}
-
-static Symmetric get_inverse(const SphGradV &g)
-{
-  return {g.mxx, g.myy, g.mzz, g.mxy, g.mxz, g.myz};
-}
-
 /* ----------------------------------------------------------------------
    L M^-1 with M of the middle of the step, which L belongs to: M - dt/2 (L + L^T), but for (dt/2)^2 v (x) v.
    So nothing expands that turns, whether its M can be inverted or not.
@@ -237,13 +220,9 @@ static void put_normal(SphGradV &contact, double nu)
   if (contact.mxx + contact.myy + contact.mzz > 0.0)
     normal = HVI::along_largest(
         {contact.mxx, contact.myy, contact.mzz, contact.mxy, contact.mxz, contact.myz});
-  const double share = MIN(1.0, 4.0 * contact.nu / nu);
-  contact.xx = share * normal.xx;
-  contact.yy = share * normal.yy;
-  contact.zz = share * normal.zz;
-  contact.xy = share * normal.xy;
-  contact.xz = share * normal.xz;
-  contact.yz = share * normal.yz;
+  double *const n = &normal.xx;
+  for (int k = 0; k < 6; k++) n[k] *= MIN(1.0, 4.0 * contact.nu / nu);
+  contact.set_normal(normal);
 }
 
 bool HVISchemeSolid::touches(int i) const
@@ -282,11 +261,11 @@ void HVISchemeSolid::correct_gradients()
       const Symmetric by_all = inverse(all, scale * all.nu, fields.along);
       L_all = corrected(all, scale * all.nu, fields.along, half);
       put_normal(contact, all.nu);
-      put_inverse(by_all, contact);
+      contact.set_inverse(by_all);
     }
     T.div = L_all.xx + L_all.yy + L_all.zz;
-    put_gradient(s.type != atom->type[i] ? L_all : L, own);
-    put_inverse(by_own, own);
+    put_gradient(s.is_rubble() ? L_all : L, own);
+    own.set_inverse(by_own);
   }
 }
 
@@ -334,15 +313,16 @@ void HVISchemeSolid::find_tractions()
     const bool held = is_embedded(i);
     if (held && touches(i))
       put_normal(records.contact[i], records.state[i].w / T.volume);    // nu of a lattice
-    const Symmetric by_own = held ? ONE : get_inverse(records.gradv[i]);
+    const Symmetric by_own = held ? ONE : records.gradv[i].inverse();
     Symmetric by_all = by_own;
     double rest = 0.0;
     if (touches(i)) {
       const SphGradV &contact = records.contact[i];
-      if (!held) by_all = get_inverse(contact);
+      if (!held) by_all = contact.inverse();
+      const Symmetric n = contact.normal();
       if (borne.shear > 0.0)
-        rest = -(contact.xx * S.xx + contact.yy * S.yy + contact.zz * S.zz +
-                 2.0 * (contact.xy * S.xy + contact.xz * S.xz + contact.yz * S.yz));
+        rest = -(n.xx * S.xx + n.yy * S.yy + n.zz * S.zz +
+                 2.0 * (n.xy * S.xy + n.xz * S.xz + n.yz * S.yz));
     }
     const double scale = T.volume / records.state[i].w, push = T.p + rest, p = scale * push;
     const VelocityGradient B = product(

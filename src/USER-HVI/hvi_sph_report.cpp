@@ -41,8 +41,9 @@ static constexpr double FILL_LEAST = 0.4;    // of a body's bounding box, if tha
 /* ---------------------------------------------------------------------- */
 
 HVISphReport::HVISphReport(LAMMPS *lmp, FixHVIStore *store, const std::vector<char> &is_ours) :
-    Pointers(lmp), weight(nullptr), laws(atom->ntypes + 1), solid(false), kept_bytes(0), forward(0),
-    reverse(0), border(0), store(store), is_ours(is_ours), rows(atom->ntypes + 1), spread(0.0)
+    Pointers(lmp), weight(nullptr), vectors(true), laws(atom->ntypes + 1), solid(false),
+    kept_bytes(0), forward(0), reverse(0), border(0), store(store), is_ours(is_ours),
+    rows(atom->ntypes + 1), spread(0.0)
 {
 }
 
@@ -226,6 +227,10 @@ void HVISphReport::write()
   more += fmt::format("  communication beyond atom_style sph, doubles per ghost: {} forward and {} "
                       "reverse in each step, {} when new\n",
                       forward, reverse, border);
+  if (!vectors)
+    more += fmt::format("  reference loop, pair by pair: takes about {} times as long as loops in "
+                        "vectors (pair_style hvi/sph, Loops)\n",
+                        solid ? 2 : (set.riemann ? 7 : 3));
   if (!is_told(settings + more)) utils::logmesg(lmp, text + more);
 }
 
@@ -236,14 +241,12 @@ void HVISphReport::write()
 
 static double gradient_sum(const std::string &kernel, double h_over_s)
 {
+  const HVI::KernelFunctions &k = *HVI::find_kernel(kernel);
   double sum = 0.0;
-  HVI::with_kernel(kernel, [&](auto k) {
-    using K = decltype(k);
-    for (int n = 1; n < K::support * h_over_s; n++) {
-      const double q = n / h_over_s;
-      sum -= 2.0 * K::norm(1) * q * K::template dw<double>(q) / h_over_s;
-    }
-  });
+  for (int n = 1; n < k.support * h_over_s; n++) {
+    const double q = n / h_over_s;
+    sum -= 2.0 * k.norm[0] * q * k.dw(q) / h_over_s;
+  }
   return sum;
 }
 

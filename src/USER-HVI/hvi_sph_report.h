@@ -30,6 +30,7 @@ class HVISphReport : protected Pointers {
 
   std::function<double(int, int)> widest;    // h of the wider kernel between two types
   const double *const *weight;      // of types in each other's density; null: all are alike
+  bool vectors;                     // of pairs, not the reference loop
   std::vector<std::string> laws;    // by type, what is in force besides the equation of state
   std::vector<char> unmoved;    // by owned particle: not integrated in a run before; empty: unknown
   bool solid;                   // there is a fix that keeps stress

@@ -127,11 +127,11 @@ void PairHVISPH::settings(int narg, char **arg)
   set.kernel = arg[0];
   if (set.kernel == "gaussian")
     set.kernel = "gauss";    // pair style hybrid takes gauss for a pair style
-  if (!HVI::with_kernel(set.kernel, [this](auto k) {
-        set.support = decltype(k)::support;
-      }))
+  const HVI::KernelFunctions *const kernel = HVI::find_kernel(set.kernel);
+  if (!kernel)
     error->all(FLERR, "Unknown pair_style hvi/sph kernel {}: use one of {}", set.kernel,
-               HVI::KERNEL_NAMES);
+               HVI::kernel_names());
+  set.support = kernel->support;
 
   int iarg = 1;
   auto need = [&](int n) {
@@ -260,9 +260,7 @@ void PairHVISPH::settings(int narg, char **arg)
                  "symmetric, dim of the box, constant h, energy yes, no interface dissipation");
     laws.symmetric = 1;
   }
-  HVI::with_kernel(set.kernel, [&laws](auto k) {
-    laws.norm = decltype(k)::norm(laws.dim);
-  });
+  laws.norm = kernel->norm[laws.dim - 1];
   no_virial_fdotr_compute = set.mirror.planes ? 1 : 0;    // planes push, too
   set.text =
       fmt::format("{} dim {} form {} h {}{}", set.kernel, laws.dim,
@@ -571,6 +569,7 @@ void PairHVISPH::setup()
     return scheme->widest(i, j);
   };
   report.weight = scheme->weights();
+  report.vectors = scheme->vectors();
   const HVIScheme::Traffic traffic = scheme->traffic();
   report.forward = traffic.all_forward;
   report.reverse = force->newton_pair ? traffic.all_reverse : 0;
@@ -805,24 +804,13 @@ void PairHVISPH::unpack_reverse_comm(int n, int *list, double *buf)
 
 /* ---------------------------------------------------------------------- */
 
-void PairHVISPH::tally(int i, int n, const HVI::SphNear &near, bool vectors)
+void PairHVISPH::tally(int i, int j, const double *d, const double *f)
 {
-  const int nlocal = atom->nlocal, newton_pair = force->newton_pair;
-  const HVI::Images &images = scheme->mirror_images();
-  for (int m = 0; m < n; m++) {
-    const int j = near.j[m];
-    const double d[3] = {near.d[m][0], near.d[m][1], near.d[m][2]};
-    if (set.mirror.planes && images.is_image(j)) {
-      double f[3] = {near.fx[m], near.fy[m], near.fz[m]};
-      if (!vectors)
-        for (int k = 0; k < 3; k++) f[k] = near.force[m] * d[k];
-      tally_image(i, j, f, d);
-    } else if (vectors)
-      ev_tally_xyz(i, j, nlocal, newton_pair, 0.0, 0.0, near.fx[m], near.fy[m], near.fz[m], d[0],
-                   d[1], d[2]);
-    else
-      ev_tally(i, j, nlocal, newton_pair, 0.0, 0.0, near.force[m], d[0], d[1], d[2]);
-  }
+  if (set.mirror.planes && scheme->mirror_images().is_image(j))
+    tally_image(i, j, f, d);
+  else
+    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, 0.0, 0.0, f[0], f[1], f[2], d[0], d[1],
+                 d[2]);
 }
 
 /* ----------------------------------------------------------------------
@@ -972,8 +960,7 @@ void PairHVISPH::read_restart_settings(FILE *fp)
     set.mirror.side[k] = values[10 + k];
   }
   no_virial_fdotr_compute = set.mirror.planes ? 1 : 0;
-  HVI::with_kernel(set.kernel, [&](auto k) {
-    set.support = decltype(k)::support;
-    laws.norm = decltype(k)::norm(laws.dim);
-  });
+  const HVI::KernelFunctions &kernel = *HVI::find_kernel(set.kernel);
+  set.support = kernel.support;
+  laws.norm = kernel.norm[laws.dim - 1];
 }

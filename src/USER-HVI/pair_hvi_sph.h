@@ -95,7 +95,7 @@ class PairHVISPH :
 
   // told by the sweeps
 
-  void tally(int, int, const HVI::SphNear &, bool) override;
+  void tally(int, int, const double *, const double *) override;
   void tally_image(int, int, const double *, const double *);
   void overlap(int, int) override;
 };

@@ -6,10 +6,9 @@
    See the LICENSE file in the top-level directory.
 ------------------------------------------------------------------------- */
 
-// the tensile part of a stress, and powers of vectors
+// the tensile part of a stress
 
 #include "hvi_artstress.h"
-#include "hvi_vector.h"
 
 #include <gtest/gtest.h>
 
@@ -58,14 +57,4 @@ TEST(Artstress, NothingToDoAtRest)
 {
   const Deviator got = tensile_part(0.0, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
   EXPECT_EQ(contract(got, got), 0.0);
-}
-
-TEST(Artstress, PowersOfVectors)
-{
-  for (const double n : {0.3, 1.0, 2.55, 4.0, 7.0, 31.5})
-    for (const double x : {0.0, 0.2, 1.0, 1.7}) {
-      const Vec got = pow(Vec{} + x, n);
-      for (int k = 0; k < LANES; k++)
-        EXPECT_NEAR(got[k], std::pow(x, n), 1e-13 * std::pow(x, n)) << x << " " << n;
-    }
 }

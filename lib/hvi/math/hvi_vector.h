@@ -45,19 +45,6 @@ static inline Vec abs(const Vec &x)
   return x < 0.0 ? -x : x;
 }
 
-// for n >= 0; a call of pow() only where n is not a whole number
-
-static inline Vec pow(Vec x, double n)
-{
-  const int whole = static_cast<int>(n);
-  Vec y = Vec{} + 1.0;
-  if (n > whole)
-    for (int k = 0; k < LANES; k++) y[k] = __builtin_pow(x[k], n - whole);
-  for (int k = whole; k > 0; k >>= 1, x *= x)
-    if (k & 1) y *= x;
-  return y;
-}
-
 static inline double sum(const Vec &x)
 {
   double s = 0.0;

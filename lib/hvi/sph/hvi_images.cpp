@@ -82,11 +82,6 @@ void Images::fold(const SphView &records, bool newton)
       double *const to = &records.rates[image.owner].fx;
       const double *const from = &r.fx;
       for (int k = 0; k < (int) (sizeof(r) / sizeof(double)); k++) to[k] += from[k];
-      if (records.gradv && !records.traction) {
-        reflect.gradient(records.gradv[a]);
-        double *const L = &records.gradv[image.owner].xx;
-        for (int k = 0; k < SphGradV::SENT; k++) L[k] += (&records.gradv[a].xx)[k];
-      }
     }
     a++;
   }

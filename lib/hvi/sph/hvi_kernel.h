@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 
 namespace HVI {
 
@@ -22,11 +21,12 @@ namespace HVI {
      W(r, h) = norm(D)/h^D w(q),   q = r/h,   D = 1, 2, 3
      w(q) = 0 for q >= support
 
-   dw is dw/dq, and dw_q is (dw/dq)/q: grad W = norm/h^(D+2) dw_q x_ij.
-   All functions are valid for every q >= 0 and free of branches, so that
-   loops over them vectorize (GCC needs -fno-trapping-math for the selects,
-   unless the machine has AVX-512).  Each kernel has its own constant in 1D, 2D
-   and 3D; all follow from D-dimensional integrals of w in closed form.
+   dw_q is (dw/dq)/q: grad W = norm/h^(D+2) dw_q x_ij.  All functions are valid for every q >= 0.
+   Each kernel has its own constant in 1D, 2D and 3D; all follow from D-dimensional integrals of w in
+   closed form.  KERNELS, at the end, has them all.
+
+   Cubic and Gauss are written for doubles and for vectors of them (T), and free of branches, so that
+   they vectorize (GCC needs -fno-trapping-math for the selects, unless the machine has AVX-512).
 
    Esposito (2024) eq 2.26 prints a cubic spline whose constants (eq 2.27)
    belong to the polynomial 2/3 - q^2 + q^3/2; that one is used here.
@@ -34,7 +34,6 @@ namespace HVI {
 
 namespace Kernel {
   static constexpr double PI = 3.14159265358979323846;
-  // T: double, or a vector of them
 
   template <class T> static inline T at_least(const T &x, double least)
   {
@@ -48,13 +47,13 @@ namespace Kernel {
   {
     return at_least(x, 0.0);
   }
-  template <class T> static inline T pow4(const T &x)
+  static inline double pow4(double x)
   {
     return (x * x) * (x * x);
   }
-  template <class T> static inline T pow5(const T &x)
+  static inline double pow5(double x)
   {
-    return (x * x) * (x * x) * x;
+    return pow4(x) * x;
   }
 }    // namespace Kernel
 
@@ -63,22 +62,18 @@ namespace Kernel {
 struct Lucy {
   static constexpr const char *name = "lucy";
   static constexpr double support = 1.0;
+  static constexpr double norm[] = {1.25, 5.0 / Kernel::PI, 105.0 / (16.0 * Kernel::PI)};
 
-  static double norm(int dim)
+  static double w(double q)
   {
-    return dim == 1 ? 1.25 : dim == 2 ? 5.0 / Kernel::PI : 105.0 / (16.0 * Kernel::PI);
-  }
-  template <class T> static inline T w(const T &q)
-  {
-    const T a = Kernel::positive<T>(1.0 - q);
+    const double a = Kernel::positive(1.0 - q);
     return (1.0 + 3.0 * q) * a * a * a;
   }
-  template <class T> static inline T dw_q(const T &q)
+  static double dw_q(double q)
   {
-    const T a = Kernel::positive<T>(1.0 - q);
+    const double a = Kernel::positive(1.0 - q);
     return -12.0 * a * a;
   }
-  template <class T> static inline T dw(const T &q) { return q * dw_q(q); }
 };
 
 // Johnson, Stryk & Beissel, Comput. Methods Appl. Mech. Eng. 139 (1996) 347.
@@ -88,23 +83,16 @@ struct Lucy {
 struct Quadratic {
   static constexpr const char *name = "quadratic";
   static constexpr double support = 2.0;
+  static constexpr double norm[] = {1.0, 2.0 / Kernel::PI, 1.25 / Kernel::PI};
 
-  static double norm(int dim)
+  static double w(double q)
   {
-    return dim == 1 ? 1.0 : dim == 2 ? 2.0 / Kernel::PI : 1.25 / Kernel::PI;
-  }
-  template <class T> static inline T w(const T &q)
-  {
-    const T a = Kernel::positive<T>(2.0 - q);
+    const double a = Kernel::positive(2.0 - q);
     return 0.1875 * a * a;
   }
-  template <class T> static inline T dw(const T &q)
+  static double dw_q(double q)
   {
-    return -0.375 * Kernel::positive<T>(2.0 - q);
-  }
-  template <class T> static inline T dw_q(const T &q)
-  {
-    return dw(q) / Kernel::at_least<T>(q, 1e-30);
+    return -0.375 * Kernel::positive(2.0 - q) / Kernel::at_least(q, 1e-30);
   }
 };
 
@@ -114,11 +102,8 @@ struct Quadratic {
 struct Cubic {
   static constexpr const char *name = "cubic";
   static constexpr double support = 2.0;
+  static constexpr double norm[] = {1.0, 15.0 / (7.0 * Kernel::PI), 1.5 / Kernel::PI};
 
-  static double norm(int dim)
-  {
-    return dim == 1 ? 1.0 : dim == 2 ? 15.0 / (7.0 * Kernel::PI) : 1.5 / Kernel::PI;
-  }
   template <class T> static inline T w(const T &q)
   {
     const T a = Kernel::positive<T>(2.0 - q);
@@ -133,63 +118,52 @@ struct Cubic {
     const T outer = -0.5 * a * a / Kernel::at_least<T>(q, 1.0);
     return q < 1.0 ? inner : outer;
   }
-  template <class T> static inline T dw(const T &q) { return q * dw_q(q); }
 };
 
 struct Quartic {
   static constexpr const char *name = "quartic";
   static constexpr double support = 2.5;
+  static constexpr double norm[] = {1.0 / 24.0, 96.0 / (1199.0 * Kernel::PI),
+                                    1.0 / (20.0 * Kernel::PI)};
 
-  static double norm(int dim)
+  static double w(double q)
   {
-    return dim == 1 ? 1.0 / 24.0
-        : dim == 2  ? 96.0 / (1199.0 * Kernel::PI)
-                    : 1.0 / (20.0 * Kernel::PI);
-  }
-  template <class T> static inline T w(const T &q)
-  {
-    const T inner = 14.375 + q * q * (6.0 * q * q - 15.0);
-    const T outer = Kernel::pow4<T>(Kernel::positive<T>(2.5 - q)) -
-        5.0 * Kernel::pow4<T>(Kernel::positive<T>(1.5 - q));
+    const double inner = 14.375 + q * q * (6.0 * q * q - 15.0);
+    const double outer =
+        Kernel::pow4(Kernel::positive(2.5 - q)) - 5.0 * Kernel::pow4(Kernel::positive(1.5 - q));
     return q < 0.5 ? inner : outer;
   }
-  template <class T> static inline T dw_q(const T &q)
+  static double dw_q(double q)
   {
-    const T a = Kernel::positive<T>(2.5 - q);
-    const T b = Kernel::positive<T>(1.5 - q);
-    const T inner = 24.0 * q * q - 30.0;
-    const T outer = (20.0 * b * b * b - 4.0 * a * a * a) / Kernel::at_least<T>(q, 0.5);
+    const double a = Kernel::positive(2.5 - q);
+    const double b = Kernel::positive(1.5 - q);
+    const double inner = 24.0 * q * q - 30.0;
+    const double outer = (20.0 * b * b * b - 4.0 * a * a * a) / Kernel::at_least(q, 0.5);
     return q < 0.5 ? inner : outer;
   }
-  template <class T> static inline T dw(const T &q) { return q * dw_q(q); }
 };
 
 struct Quintic {
   static constexpr const char *name = "quintic";
   static constexpr double support = 3.0;
+  static constexpr double norm[] = {1.0 / 120.0, 7.0 / (478.0 * Kernel::PI),
+                                    1.0 / (120.0 * Kernel::PI)};
 
-  static double norm(int dim)
+  static double w(double q)
   {
-    return dim == 1 ? 1.0 / 120.0
-        : dim == 2  ? 7.0 / (478.0 * Kernel::PI)
-                    : 1.0 / (120.0 * Kernel::PI);
-  }
-  template <class T> static inline T w(const T &q)
-  {
-    const T inner = 66.0 + q * q * (q * q * (30.0 - 10.0 * q) - 60.0);
-    const T outer = Kernel::pow5<T>(Kernel::positive<T>(3.0 - q)) -
-        6.0 * Kernel::pow5<T>(Kernel::positive<T>(2.0 - q));
+    const double inner = 66.0 + q * q * (q * q * (30.0 - 10.0 * q) - 60.0);
+    const double outer =
+        Kernel::pow5(Kernel::positive(3.0 - q)) - 6.0 * Kernel::pow5(Kernel::positive(2.0 - q));
     return q < 1.0 ? inner : outer;
   }
-  template <class T> static inline T dw_q(const T &q)
+  static double dw_q(double q)
   {
-    const T inner = q * q * (120.0 - 50.0 * q) - 120.0;
-    const T outer = (30.0 * Kernel::pow4<T>(Kernel::positive<T>(2.0 - q)) -
-                     5.0 * Kernel::pow4<T>(Kernel::positive<T>(3.0 - q))) /
-        Kernel::at_least<T>(q, 1.0);
+    const double inner = q * q * (120.0 - 50.0 * q) - 120.0;
+    const double outer = (30.0 * Kernel::pow4(Kernel::positive(2.0 - q)) -
+                          5.0 * Kernel::pow4(Kernel::positive(3.0 - q))) /
+        Kernel::at_least(q, 1.0);
     return q < 1.0 ? inner : outer;
   }
-  template <class T> static inline T dw(const T &q) { return q * dw_q(q); }
 };
 
 // Zisis et al. (2013) eq 11, truncated at 3h.  The constant is that of the cut kernel: the
@@ -200,15 +174,12 @@ struct Gauss {
   static constexpr const char *name = "gauss";
   static constexpr double support = 3.0;
 
-  static double norm(int dim)
-  {
-    const double cut = std::exp(-9.0);
-    const double erf3 = std::sqrt(Kernel::PI) * std::erf(3.0);
-    return 1.0 /
-        (dim == 1       ? erf3
-             : dim == 2 ? Kernel::PI * (1.0 - cut)
-                        : Kernel::PI * (erf3 - 6.0 * cut));
-  }
+  // sqrt(pi) erf(3), with the last digit that the C library gives, and exp(-9)
+
+  static constexpr double erf3 = 1.7724146965190422;
+  static constexpr double cut = 1.2340980408667954950e-4;
+  static constexpr double norm[] = {1.0 / erf3, 1.0 / (Kernel::PI * (1.0 - cut)),
+                                    1.0 / (Kernel::PI * (erf3 - 6.0 * cut))};
 
   // exp(-t) for 0 <= t <= 9 to 1e-14: Taylor series of exp(9/32 - t/16), which is within
   // 0.28 of 1, then four squarings.  A call of std::exp would keep loops from vectorizing.
@@ -241,7 +212,6 @@ struct Gauss {
     return q < 3.0 ? s : T{};
   }
   template <class T> static inline T dw_q(const T &q) { return -2.0 * w(q); }
-  template <class T> static inline T dw(const T &q) { return q * dw_q(q); }
 };
 
 // Wendland, Adv. Comput. Math. 4 (1995) 389, with the scaling and constants of Dehnen & Aly,
@@ -251,57 +221,77 @@ struct Gauss {
 struct Wendland2 {
   static constexpr const char *name = "wendland2";
   static constexpr double support = 2.0;
+  static constexpr double norm[] = {0.75, 1.75 / Kernel::PI, 21.0 / (16.0 * Kernel::PI)};
 
-  static double norm(int dim)
+  static double w(double q)
   {
-    return dim == 1 ? 0.75 : dim == 2 ? 1.75 / Kernel::PI : 21.0 / (16.0 * Kernel::PI);
+    return Kernel::pow4(Kernel::positive(1.0 - 0.5 * q)) * (1.0 + 2.0 * q);
   }
-  template <class T> static inline T w(const T &q)
+  static double dw_q(double q)
   {
-    return Kernel::pow4<T>(Kernel::positive<T>(1.0 - 0.5 * q)) * (1.0 + 2.0 * q);
-  }
-  template <class T> static inline T dw_q(const T &q)
-  {
-    const T a = Kernel::positive<T>(1.0 - 0.5 * q);
+    const double a = Kernel::positive(1.0 - 0.5 * q);
     return -5.0 * a * a * a;
   }
-  template <class T> static inline T dw(const T &q) { return q * dw_q(q); }
 };
 
 struct Wendland4 {
   static constexpr const char *name = "wendland4";
   static constexpr double support = 2.0;
+  static constexpr double norm[] = {27.0 / 32.0, 2.25 / Kernel::PI, 495.0 / (256.0 * Kernel::PI)};
 
-  static double norm(int dim)
+  static double w(double q)
   {
-    return dim == 1 ? 27.0 / 32.0 : dim == 2 ? 2.25 / Kernel::PI : 495.0 / (256.0 * Kernel::PI);
+    const double a = Kernel::positive(1.0 - 0.5 * q);
+    return Kernel::pow4(a) * a * a * (1.0 + q * (3.0 + q * (35.0 / 12.0)));
   }
-  template <class T> static inline T w(const T &q)
+  static double dw_q(double q)
   {
-    const T a = Kernel::positive<T>(1.0 - 0.5 * q);
-    return Kernel::pow4<T>(a) * a * a * (1.0 + q * (3.0 + q * (35.0 / 12.0)));
+    return -(14.0 / 3.0) * Kernel::pow5(Kernel::positive(1.0 - 0.5 * q)) * (1.0 + 2.5 * q);
   }
-  template <class T> static inline T dw_q(const T &q)
-  {
-    return -(14.0 / 3.0) * Kernel::pow5<T>(Kernel::positive<T>(1.0 - 0.5 * q)) * (1.0 + 2.5 * q);
-  }
-  template <class T> static inline T dw(const T &q) { return q * dw_q(q); }
 };
 
-// calls f(Kernel{}) for the kernel of that name; false if there is none
+// of all, for whoever takes them one number at a time
 
-static constexpr const char *KERNEL_NAMES =
-    "lucy, quadratic, cubic, quartic, quintic, gauss, wendland2, wendland4";
+struct KernelFunctions {
+  const char *name;
+  double support;        // in units of h
+  const double *norm;    // in one, two, three dimensions
+  double (*w)(double q), (*dw_q)(double q);
 
-template <typename F, typename... Kernels> bool with_kernel_of(const std::string &name, F &&f)
+  double dw(double q) const { return q * dw_q(q); }
+};
+
+template <class K> constexpr KernelFunctions functions_of()
 {
-  return ((name == Kernels::name && (f(Kernels{}), true)) || ...);
+  return {K::name, K::support, K::norm,
+          [](double q) {
+            return K::w(q);
+          },
+          [](double q) {
+            return K::dw_q(q);
+          }};
 }
 
-template <typename F> bool with_kernel(const std::string &name, F &&f)
+static constexpr KernelFunctions KERNELS[] = {functions_of<Lucy>(),      functions_of<Quadratic>(),
+                                              functions_of<Cubic>(),     functions_of<Quartic>(),
+                                              functions_of<Quintic>(),   functions_of<Gauss>(),
+                                              functions_of<Wendland2>(), functions_of<Wendland4>()};
+
+// null: there is none of that name
+
+inline const KernelFunctions *find_kernel(const std::string &name)
 {
-  return with_kernel_of<F, Lucy, Quadratic, Cubic, Quartic, Quintic, Gauss, Wendland2, Wendland4>(
-      name, std::forward<F>(f));
+  for (const KernelFunctions &kernel : KERNELS)
+    if (name == kernel.name) return &kernel;
+  return nullptr;
+}
+
+inline std::string kernel_names()
+{
+  std::string names;
+  for (const KernelFunctions &kernel : KERNELS)
+    names += (names.empty() ? "" : ", ") + std::string(kernel.name);
+  return names;
 }
 
 }    // namespace HVI

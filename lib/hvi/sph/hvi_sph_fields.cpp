@@ -44,7 +44,7 @@ void SphFields::choose(int wanted)
 
 template <class Each> void SphFields::each_array(const Each &each)
 {
-  const bool solid = terms & SPH_CORRECTED, bodies = solid && (terms & SPH_BODIES);
+  const bool solid = terms & SPH_SOLID, bodies = solid && (terms & SPH_BODIES);
   each("place", place, records.place, true);
   each("state", state, records.state, true);
   each("rates", rates, records.rates, true);
@@ -91,9 +91,7 @@ std::string SphFields::arrays()
 
 double SphFields::pressure(int i) const
 {
-  if (traction) return traction[i].p;
-  const SphState &s = state[i];
-  return settings.laws.symmetric ? s.p * s.rho * s.rho : s.p;
+  return traction ? traction[i].p : state[i].p;
 }
 
 }    // namespace HVI

@@ -11,6 +11,7 @@
 
 #include "hvi_mirror.h"
 #include "hvi_sph.h"
+#include "hvi_sph_records.h"
 #include "hvi_stress.h"
 
 #include <memory>

@@ -9,28 +9,44 @@
 #ifndef LMP_HVI_SPH_RECORDS_H
 #define LMP_HVI_SPH_RECORDS_H
 
+#include "hvi_inverse.h"
 #include "hvi_vector.h"
 
-// the records of SPH particles: what the loop over pairs reads and adds to; no LAMMPS in here
+// the records of SPH particles: what the loops over pairs read and add to; no LAMMPS in here
 
 namespace HVI {
 
-// records of a particle: where it is, what its neighbors must know (one cache line), what they do to it
+/* ----------------------------------------------------------------------
+   Stages of a force evaluation: records are filled; in some scenes a first sweep over pairs adds up
+   sums, from which the pair style, between the sweeps, makes what the forces need; the sweep of the
+   forces adds to SphRates.  Numbers that are replaced between the sweeps have a function with the
+   name of what is there afterwards.
+------------------------------------------------------------------------- */
+
+// filled: where a particle is
 
 struct alignas(32) SphPlace {
   double x, y, z, h;
 };
 
+// filled: what its neighbors must know, one cache line
+
 struct alignas(64) SphState {
+  static constexpr double RUBBLE = 0.5;
+
   double vx, vy, vz;
-  double
-      w;    // weight in sums over particles: m/rho in form sum, m in form symmetric; see Howto_sph for
-            // gradient corrected
-  double p;    // pressure, in form symmetric p/rho^2
+  double w;    // weight in sums over neighbors: the volume m/rho, in solids times (rho/rho0)^(1/3)
+  double p;    // pressure
   double c;    // speed of sound
   double rho;
-  double type;    // with gradient corrected more for rubble, see SphBonds
+  double
+      body;    // the type, and RUBBLE added to it where a solid has failed: one number for vectors
+
+  int type() const { return static_cast<int>(body); }
+  bool is_rubble() const { return body != type(); }
 };
+
+// the forces: what its neighbors do to it
 
 struct alignas(64) SphRates {
   static constexpr int FORCE = 3, WITH_POWER = 4;    // its first numbers
@@ -41,7 +57,7 @@ struct alignas(64) SphRates {
   double unused[2];
 };
 
-// artificial stress of solids
+// between the sweeps: artificial stress of solids
 
 struct alignas(64) SphStress {
   static constexpr int SENT = 6;
@@ -50,34 +66,63 @@ struct alignas(64) SphStress {
   double unused[2];
 };
 
-// of solids: velocity gradient L_ab = d v_a/d x_b, and what it comes out as if L is 1
+/* ----------------------------------------------------------------------
+   First sweep, in solids: sums over what a particle hangs together with and, in another of these records,
+   over what else touches it,
+
+     L = - sum_j w_j v_ij (x) grad W_i,   M = - sum_j w_j x_ij (x) grad W_i,   nu = sum_j w_j W_i
+
+   M is 1 where particles are even all around.  Between the sweeps M^-1 takes the place of M, the velocity
+   gradient L M^-1 that of L; of what touches what of the stress is normal to the contact, n (x) n times a
+   share, that of L.
+------------------------------------------------------------------------- */
 
 struct alignas(64) SphGradV {
   static constexpr int SENT = 16, SENT_L = 9;    // all; L only
-  double xx, xy, xz, yx;
+  double xx, xy, xz, yx;                         // L_ab: of v_a along b
   double yy, yz, zx, zy;
-  double zz, mxx, myy,
-      mzz;    // M = - sum_j V_j x_ij (x) grad W_ij: 1 where particles are even all around
+  double zz, mxx, myy, mzz;
   double mxy, mxz, myz;
-  double nu;    // sum_j w_j W_ij, with gradient corrected only
+  double nu;
+
+  Symmetric inverse() const { return {mxx, myy, mzz, mxy, mxz, myz}; }
+  Symmetric normal() const { return {xx, yy, zz, xy, xz, yz}; }
+  void set_inverse(const Symmetric &s)
+  {
+    mxx = s.xx;
+    myy = s.yy;
+    mzz = s.zz;
+    mxy = s.xy;
+    mxz = s.xz;
+    myz = s.yz;
+  }
+  void set_normal(const Symmetric &s)
+  {
+    xx = s.xx;
+    yy = s.yy;
+    zz = s.zz;
+    xy = s.xy;
+    xz = s.xz;
+    yz = s.yz;
+  }
 };
 
-// with gradient corrected: the force on i is w_i w_j (T_i + T_j) grad W, with M^-1 in T; and what else
-// is known at the end of the step only: see fix hvi/sph
+// between the sweeps, in solids: the force on i is w_i w_j (T_i + T_j) grad W, with M^-1 in T; and what
+// else is known at the end of the step only: see fix hvi/sph
 
 struct alignas(64) SphTraction {
   static constexpr int SENT = 13;
-  double xx, xy, xz, yx;
+  double xx, xy, xz, yx;    // T
   double yy, yz, zx, zy;
   double zz;
   double p;             // pressure
   double vx, vy, vz;    // velocity at that time, with which forces do work
-  double volume;
-  double rho,
-      div;    // of owned particles only; div: trace of L with all neighbors, which changes the density
+  double volume;        // filled: m/rho
+  double rho;           // density; of owned particles only, as is the next
+  double div;           // trace of the velocity gradient by which that density is advanced
 };
 
-// the part of T that is a pressure, which also acts between bodies
+// between the sweeps, in solids: the part of T that is a pressure, which also acts between bodies
 
 struct alignas(64) SphPush {
   static constexpr int SENT = 7;
@@ -94,17 +139,32 @@ static_assert(sizeof(SphPlace) == sizeof(Vec4) && sizeof(SphState) == 2 * sizeof
                   sizeof(SphRates) == 2 * sizeof(Vec4),
               "records are read as vectors");
 
-// gradients at a particle: of velocity the symmetric part, and of pressure; and how its density
-// follows from the number of particles n = sum_j W(x_ij, h_i), itself included
+/* ----------------------------------------------------------------------
+   First sweep, with Riemann problems without solids: gradients at a particle, of velocity the symmetric
+   part, and of pressure; and how its density follows from the places of its neighbors, by
+
+     n = sum_j w_j/w_i W(r, h_i),   spread = sum_j w_j/w_i h_i dW/dh(r, h_i)
+
+   Between the sweeps what forces need of these takes their place: 1/(n Omega) and 1/Omega.
+------------------------------------------------------------------------- */
 
 struct alignas(32) SphSlopes {
   static constexpr int SENT = 11;    // of the numbers below, to other ranks
   double xx, yy, zz, xy;
   double xz, yz, px, py;
   double pz;
-  double volume;    // first n, then 1/(n Omega)
-  double omega;     // first h dW/dh summed over neighbors, then 1/Omega
+  double n, spread;
   double unused;
+
+  void replace_sums(double by_n_omega, double by_omega)
+  {
+    n = by_n_omega;
+    spread = by_omega;
+  }
+  double by_n_omega() const { return n; }
+  double by_omega() const { return spread; }
+  static constexpr double SphSlopes::*BY_N_OMEGA = &SphSlopes::n;    // for vectors
+  static constexpr double SphSlopes::*BY_OMEGA = &SphSlopes::spread;
 };
 static_assert(sizeof(SphSlopes) == 3 * sizeof(Vec4), "records are read as vectors");
 
@@ -118,11 +178,11 @@ struct SphView {
   SphPlace *place = nullptr;
   SphState *state = nullptr;
   SphRates *rates = nullptr;
-  SphSlopes *slopes = nullptr;    // dissipation riemann
+  SphSlopes *slopes = nullptr;    // Riemann problems without solids
   SphGradV *gradv = nullptr;      // solids, as are the next
   SphTraction *traction = nullptr;
   SphStress *art = nullptr;       // artificial stress
-  SphGradV *contact = nullptr;    // between bodies, as is the next
+  SphGradV *contact = nullptr;    // what touches, where there are bodies; as is the next
   SphPush *push = nullptr;
 };
 

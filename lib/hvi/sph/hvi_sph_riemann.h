@@ -9,89 +9,17 @@
 #ifndef LMP_HVI_SPH_RIEMANN_H
 #define LMP_HVI_SPH_RIEMANN_H
 
-#include "hvi_sph.h"
+#include "hvi_sph_pairs.h"
 
 // dissipation riemann: the equations are in doc/src/Howto_sph.rst
 
 namespace HVI {
 
-// each particle has its own kernel here: grad W(r, h_i) = F_i d, and grad W(r, h_j) = F_j d.  Between
-// types whose h are as 1 to ratio at the start, either is as wide as the mean of both: h_i (1 + ratio)/2.
-
-template <class Kernel, int SCENE> class SphTwoKernels {
- public:
-  SphTwoKernels(const SphLaws &laws, const SphPlace &pi) :
-      norm(laws.norm), two(laws.dim > 1), three(laws.dim > 2), h_i(pi.h), hinv_i(1.0 / pi.h),
-      scale_i(scale(hinv_i))
-  {
-  }
-  inline void F(const Vec &r, const Vec &dh, Vec &F_i, Vec &F_j,
-                const Vec &ratio = Vec{} + 1.0) const
-  {
-    if (SCENE & SPH_SPACINGS) {
-      Vec inv_i, inv_j;
-      widen(dh, ratio, inv_i, inv_j);
-      F_i = scale(inv_i) * inv_i * inv_i * Kernel::template dw_q<Vec>(r * inv_i);
-      F_j = scale(inv_j) * inv_j * inv_j * Kernel::template dw_q<Vec>(r * inv_j);
-      return;
-    }
-    F_i = scale_i * hinv_i * hinv_i * Kernel::template dw_q<Vec>(r * hinv_i);
-    F_j = F_i;
-    if (SCENE & SPH_OWN_H) {
-      const Vec hinv = 1.0 / (h_i - dh);
-      F_j = scale(hinv) * hinv * hinv * Kernel::template dw_q<Vec>(r * hinv);
-    }
-  }
-
-  // W, and h dW/dh = - (dim W + norm/h^dim q dw/dq)
-
-  inline void W(const Vec &r, const Vec &dh, Vec &W_i, Vec &W_j, Vec &s_i, Vec &s_j,
-                const Vec &ratio = Vec{} + 1.0) const
-  {
-    if (SCENE & SPH_SPACINGS) {
-      Vec inv_i, inv_j;
-      widen(dh, ratio, inv_i, inv_j);
-      both(r * inv_i, scale(inv_i), W_i, s_i);
-      both(r * inv_j, scale(inv_j), W_j, s_j);
-      return;
-    }
-    const Vec q_i = r * hinv_i;
-    W_i = scale_i * Kernel::template w<Vec>(q_i);
-    W_j = W_i;
-    if (SCENE & SPH_OWN_H) {
-      const double dim = 1.0 + two + three;
-      const Vec hinv = 1.0 / (h_i - dh), q_j = r * hinv, scale_j = scale(hinv);
-      W_j = scale_j * Kernel::template w<Vec>(q_j);
-      s_i = -(dim * W_i + scale_i * q_i * q_i * Kernel::template dw_q<Vec>(q_i));
-      s_j = -(dim * W_j + scale_j * q_j * q_j * Kernel::template dw_q<Vec>(q_j));
-    }
-  }
-
- private:
-  const double norm, two, three, h_i, hinv_i, scale_i;
-
-  inline void widen(const Vec &dh, const Vec &ratio, Vec &inv_i, Vec &inv_j) const
-  {
-    const Vec narrower = 2.0 / (1.0 + ratio);
-    inv_i = hinv_i * narrower;
-    inv_j = narrower * ratio / (h_i - dh);
-  }
-  inline void both(const Vec &q, const Vec &scale, Vec &W, Vec &spread) const
-  {
-    W = scale * Kernel::template w<Vec>(q);
-    spread = -((1.0 + two + three) * W + scale * q * q * Kernel::template dw_q<Vec>(q));
-  }
-  template <class T> inline T scale(const T &hinv) const    // norm/h^dim, without a choice
-  {
-    return norm * hinv * (two * hinv + (1.0 - two)) * (three * hinv + (1.0 - three));
-  }
-};
-
 // of types of the neighbors: their h to that of i's, and by how much they count more than i itself in
 // its density, w_j/w_i: see PairHVISPH::find_weights()
 
 template <int SCENE>
-inline void sph_spacings(const SphLaws &laws, const Vec &type_j, Vec &ratio, Vec &weight)
+inline void sph_spacings(const SphRows &laws, const Vec &type_j, Vec &ratio, Vec &weight)
 {
   ratio = weight = Vec{} + 1.0;
   if (SCENE & SPH_SPACINGS)
@@ -103,14 +31,14 @@ inline void sph_spacings(const SphLaws &laws, const Vec &type_j, Vec &ratio, Vec
 }
 
 /* ----------------------------------------------------------------------
-   Sums for the gradients of particle i and its n near neighbors, as sph_interact:
+   Sums for the gradients of particle i and its n near neighbors, as sph_fluid:
      d_a v_b = - sum_j V_j v_ij,b d_a W_ij,  d_a p = - sum_j V_j (p_i - p_j) d_a W_ij
    with the mean of both kernels.  Not normalized: where neighbors are missing gradients are too
    small, and dissipation is larger.
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
-inline void sph_slopes(int i, const SphPlace &pi, const SphState *state, int n, const SphLaws &laws,
+inline void sph_slopes(int i, const SphPlace &pi, const SphState *state, int n, const SphRows &laws,
                        SphNear &near, SphSlopes *slopes, SphSlopes &total)
 {
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
@@ -160,10 +88,10 @@ inline void sph_slopes(int i, const SphPlace &pi, const SphState *state, int n, 
       spread_j *= less;
     }
     sum_i[9] += W_i;
-    add_column(slopes, j, &SphSlopes::volume, W_j);
+    add_column(slopes, j, &SphSlopes::n, W_j);
     if (SCENE & SPH_OWN_H) {
       sum_i[10] += spread_i;
-      add_column(slopes, j, &SphSlopes::omega, spread_j);
+      add_column(slopes, j, &SphSlopes::spread, spread_j);
     }
   }
 
@@ -181,8 +109,29 @@ static inline Vec limited(const Vec &a, const Vec &b)
   return a * b > 0.0 ? (a > 0.0 ? size : -size) : Vec{};
 }
 
+// less extrapolation of velocity in shocks, against overshoot
+
+static constexpr double STEEP = 1.5;
+
 /* ----------------------------------------------------------------------
-   All pairs of particle i with its n near neighbors, as sph_interact.
+   Impedances of either side, times r: each is hit by a shock of the velocity which the problem of sounds would
+   give, and shocks are faster by A |velocity|: (gamma + 1)/2 = 1.2 in diatomic gas, 1.2 to 1.5 in metals.
+   u = r (U_i - U_j), p = p_i - p_j.
+------------------------------------------------------------------------- */
+
+HVI_INLINE void sph_impedances(double rho_i, double c_i, const Vec &rho_j, const Vec &c_j,
+                               const Vec &r, const Vec &u, const Vec &p, Vec &z_i, Vec &z_j)
+{
+  static constexpr double A = 1.2;
+  const Vec zero = {};
+  const Vec za_i = zero + rho_i * c_i, za_j = rho_j * c_j, zainv = 1.0 / (za_i + za_j);
+  const Vec push_i = -zainv * (za_j * u + p * r), push_j = zainv * (p * r - za_i * u);
+  z_i = za_i * r + rho_i * A * (push_i > 0.0 ? push_i : zero);
+  z_j = za_j * r + rho_j * A * (push_j > 0.0 ? push_j : zero);
+}
+
+/* ----------------------------------------------------------------------
+   All pairs of particle i with its n near neighbors, as sph_fluid.
 
    Half-way between i and j meet the states which either extrapolates: U, velocity
    along d, and p.  Of their acoustic Riemann problem, with impedances
@@ -204,13 +153,8 @@ static inline Vec limited(const Vec &a, const Vec &b)
 
 template <class Kernel, int SCENE>
 inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const SphSlopes *slopes,
-                        int n, const SphLaws &laws, SphNear &near, SphRates *rates, SphRates &total)
+                        int n, const SphRows &laws, SphNear &near, SphRates *rates, SphRates &total)
 {
-  // shocks are faster by A |u|: (gamma + 1)/2 = 1.2 in diatomic gas, 1.2 to 1.5 in metals.
-  // STEEP: less extrapolation of velocity in shocks, against overshoot.
-
-  static constexpr double A = 1.2, STEEP = 1.5;
-
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
   const SphTwoKernels<Kernel, SCENE> kernels(laws, pi);
   const SphState si = state[i];
@@ -255,18 +199,13 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     const Vec ahead_pi = 2.0 * (own.px * dx + own.py * dy + own.pz * dz);
     const Vec ahead_pj = 2.0 * (other[6] * dx + other[7] * dy + other_pz * dz);
 
-    // either side is hit by a shock of the velocity which the problem of sounds would give: all times r
-
-    const Vec za_i = zero + rho_i * c_i, za_j = rho_j * c_j, zainv = 1.0 / (za_i + za_j);
-    const Vec push_i = -zainv * (za_j * u + p * r), push_j = zainv * (p * r - za_i * u);
-    const Vec closing = u < 0.0 ? -u : zero;
-    const Vec z_i = za_i * r + rho_i * A * (push_i > 0.0 ? push_i : zero);
-    const Vec z_j = za_j * r + rho_j * A * (push_j > 0.0 ? push_j : zero);
+    Vec z_i, z_j;
+    sph_impedances(rho_i, c_i, rho_j, c_j, r, u, p, z_i, z_j);
 
     // all other quotients in one
 
     const Vec c = r * (c_i < c_j ? zero + c_i : c_j);
-    const Vec steep = c + STEEP * closing, z_sum = z_i + z_j;
+    const Vec steep = c + STEEP * (u < 0.0 ? -u : zero), z_sum = z_i + z_j;
     const Vec V_sum = SCENE & SPH_SPACINGS ? weight * V_i + V_j : V_i + V_j;
     const Vec left = steep * z_sum, right = rsq * V_sum, inverse = 1.0 / (left * right);
     const Vec keep = 0.5 * c * inverse * right * z_sum;    // c/steep
@@ -296,12 +235,12 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
       stretch = u < 0.0 ? u : acts * u;
     }
 
-    const Vec volume_j = read_column(slopes, j, &SphSlopes::volume);
-    const Vec omega_j = SCENE & SPH_OWN_H ? read_column(slopes, j, &SphSlopes::omega) : one;
-    const double omega_i = SCENE & SPH_OWN_H ? own.omega : 1.0;
+    const double by_n_i = own.by_n_omega(), by_omega_i = SCENE & SPH_OWN_H ? own.by_omega() : 1.0;
+    const Vec by_n_j = read_column(slopes, j, SphSlopes::BY_N_OMEGA);
+    const Vec by_omega_j = SCENE & SPH_OWN_H ? read_column(slopes, j, SphSlopes::BY_OMEGA) : one;
     const Vec counts_i = SCENE & SPH_SPACINGS ? weight * F_i : F_i;
     const Vec counts_j = SCENE & SPH_SPACINGS ? F_j / weight : F_j;
-    const Vec G_i = V_i * own.volume * counts_i, G_j = V_j * volume_j * counts_j, G = G_i + G_j;
+    const Vec G_i = V_i * by_n_i * counts_i, G_j = V_j * by_n_j * counts_j, G = G_i + G_j;
     const Vec force = -pstar * G;
     *(Vec *) (near.force + m) = force;
     const Vec E_i = pstar * (G_i * u - G * delta), E_j = pstar * (G_j * u + G * delta);
@@ -313,12 +252,12 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     fz += f[2];
     de += E_i;
     const Vec flow_i = SCENE & SPH_SPACINGS ? weight * flow : flow;
-    drho += rho_i * (own.volume * counts_i * stretch - omega_i * flow_i);
+    drho += rho_i * (by_n_i * counts_i * stretch - by_omega_i * flow_i);
     heat += qheat;
 
     for (int k = 0; k < 3; k++) first[k] = -f[k];
     first[3] = E_j;
-    second[0] = rho_j * (volume_j * counts_j * stretch + omega_j * flow);
+    second[0] = rho_j * (by_n_j * counts_j * stretch + by_omega_j * flow);
     second[1] = qheat;
     second[2] = second[3] = zero;
     add_columns(rates, j, 0, first);

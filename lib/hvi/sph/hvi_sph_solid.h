@@ -17,30 +17,25 @@
 namespace HVI {
 
 /* ----------------------------------------------------------------------
-   Who hangs together: bodies with tension between them, as far as they are sound.  The type in
-   SphState has RUBBLE added where a particle has failed.
+   Who hangs together: bodies with tension between them, as far as they are sound, by SphState::body.
 ------------------------------------------------------------------------- */
 
-static constexpr double RUBBLE = 0.5;
-
 struct SphBonds {
-  Vec tied = {};      // 1: one body, sound or not
   Vec bonded = {};    // 1: hang together
   Vec rubble = {};    // 1: would, but both have failed
   double sound;
   const double *tension;    // by type of the neighbor
 
-  SphBonds(double type_i, const double *tension_in) :
-      sound(type_i == static_cast<int>(type_i) ? 1.0 : 0.0), tension(tension_in)
+  SphBonds(const SphState &i, const double *tension_in) :
+      sound(i.is_rubble() ? 0.0 : 1.0), tension(tension_in)
   {
   }
-  inline void find(const Vec &type_j)
+  inline void find(const Vec &body_j)
   {
     for (int k = 0; k < LANES; k++) {
-      const int jtype = static_cast<int>(type_j[k]);
-      const double both = type_j[k] == jtype ? sound : 0.0;
-      const double neither = type_j[k] == jtype ? 0.0 : 1.0 - sound;
-      tied[k] = tension[jtype];
+      const int jtype = static_cast<int>(body_j[k]);
+      const double both = body_j[k] == jtype ? sound : 0.0;
+      const double neither = body_j[k] == jtype ? 0.0 : 1.0 - sound;
       bonded[k] = tension[jtype] * both;
       rubble[k] = tension[jtype] * neither;
     }
@@ -78,7 +73,7 @@ struct SphBonds {
 
 template <class Kernel, int SCENE>
 inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int n,
-                          const SphLaws &laws, SphNear &near, SphGradV *gradv, SphGradV *contact,
+                          const SphRows &laws, SphNear &near, SphGradV *gradv, SphGradV *contact,
                           SphGradV &total)
 {
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
@@ -86,7 +81,7 @@ inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int 
   const SphState si = state[i];
   const Vec zero = {}, one = zero + 1.0;
   Vec sum_i[16] = {};
-  SphBonds bonds(si.type, laws.row_tension);
+  SphBonds bonds(si, laws.row_tension);
 
   for (int m = 0; m < nlanes; m += LANES) {
     static constexpr int in_turn[4] = {0, 1, 2, 3};
@@ -113,7 +108,7 @@ inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int 
       const Vec wF_i = -w_j * F_i, wF_j = -w_i * F_j;
       Vec g_i[6], g_j[6], on_j[16];
       for (int k = 0; k < 3; k++) {
-        const Vec middle = d[k] - laws.half * a[k];
+        const Vec middle = d[k] - laws.half_step * a[k];
         g_i[k] = wF_i * middle;
         g_j[k] = wF_j * middle;
         g_i[k + 3] = wF_i * d[k];
@@ -153,25 +148,24 @@ inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int 
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
-inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, const SphLaws &laws,
+inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, const SphRows &laws,
                       SphNear &near, SphRates &total)
 {
-  // A and STEEP as in sph_riemann().  Where the solid is compressed, extrapolation goes with 1/(1 +
-  // COMPRESSION |tr L| r/c): any overshoot of a shock would unload the solid from its yield surface
+  // where the solid is compressed, extrapolation goes with 1/(1 + COMPRESSION |tr L| r/c): any overshoot
+  // of a shock would unload the solid from its yield surface
 
-  static constexpr double A = 1.2, STEEP = 1.5, COMPRESSION = 300.0;
+  static constexpr double COMPRESSION = 300.0;
 
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
   const SphTwoKernels<Kernel, SCENE> kernels(laws, pi);
   const SphState si = records.state[i];
   const SphTraction T_i = records.traction[i];
   const SphGradV L_i = SCENE & SPH_RIEMANN ? records.gradv[i] : SphGradV{};
-  const SphStress R_i = SCENE & SPH_ARTSTRESS ? records.art[i] : SphStress{};
   const double c_i = si.c, rho_i = si.rho, V_i = T_i.volume;
-  SphBonds bonds(si.type, laws.row_tension);
+  SphBonds bonds(si, laws.row_tension);
 
   const Vec zero = {}, one = zero + 1.0;
-  Vec fx = zero, fy = zero, fz = zero, de = zero, drho = zero, heat = zero, overlaps = zero;
+  Vec fx = zero, fy = zero, fz = zero, de = zero, heat = zero, overlaps = zero;
   Vec fastest = near.fastest;
 
   for (int m = 0; m < nlanes; m += LANES) {
@@ -196,11 +190,10 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
     kernels.F(r, d[3], F_i, F_j);
     const Vec F = 0.5 * (F_i + F_j);
 
-    Vec a = zero + laws.a, b = zero + laws.b, bonded = one, tied = one;
+    Vec a = zero + laws.a, b = zero + laws.b, bonded = one;
     if (SCENE & SPH_BODIES) {
       bonds.find(second[3]);
       bonded = bonds.bonded;
-      tied = bonds.tied;
       for (int k = 0; k < LANES; k++) {
         const int jtype = static_cast<int>(second[3][k]);
         a[k] = laws.row_a[jtype];
@@ -250,16 +243,14 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
           along(L_i.xx, L_i.yy, L_i.zz, L_i.xy + L_i.yx, L_i.xz + L_i.zx, L_i.yz + L_i.zy);
       const Vec ahead_j = along(L[0], L[4], L[8], L[1] + L[3], L[2] + L[6], L[5] + L[7]);
       const Vec p = T_i.p - p_j;
-      const Vec za_i = zero + rho_i * c_i, za_j = rho_j * c_j, zainv = 1.0 / (za_i + za_j);
-      const Vec push_i = -zainv * (za_j * u + p * r), push_j = zainv * (p * r - za_i * u);
-      const Vec closing = u < 0.0 ? -u : zero;
-      const Vec z_i = za_i * r + rho_i * A * (push_i > 0.0 ? push_i : zero);
-      const Vec z_j = za_j * r + rho_j * A * (push_j > 0.0 ? push_j : zero);
+      Vec z_i, z_j;
+      sph_impedances(rho_i, c_i, rho_j, c_j, r, u, p, z_i, z_j);
       const Vec c = r * (c_i < c_j ? zero + c_i : c_j);
       const Vec trace_j = -(L[0] + L[4] + L[8]);
       const double trace_i = -(L_i.xx + L_i.yy + L_i.zz);
       const Vec most = trace_i > trace_j ? zero + trace_i : trace_j;
-      const Vec steep = c + STEEP * closing + COMPRESSION * rsq * (most > 0.0 ? most : zero);
+      const Vec steep =
+          c + STEEP * (u < 0.0 ? -u : zero) + COMPRESSION * rsq * (most > 0.0 ? most : zero);
       const Vec z_sum = z_i + z_j;
       const Vec inverse = 1.0 / (steep * z_sum * rsq);
       const Vec keep = 0.5 * c * inverse * rsq * z_sum;
@@ -268,8 +259,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
       const Vec jump = known > u ? known - u : zero;    // what comes apart is not held
       q = z_i * z_j * inverse * steep * jump;
     } else if (nearing) {
-      const Vec hv = h * (rdotv < 0.0 ? rdotv : zero);
-      const Vec Pi = hv * (2.0 * b * hv - a * (c_i + c_j) * soft) / (soft * soft * (rho_i + rho_j));
+      const Vec Pi = sph_viscosity(h, soft, rdotv, c_i + c_j, rho_i + rho_j, a, b);
       q = 0.5 * rho_i * rho_j * Pi;
     }
     const Vec VVF = 2.0 * V_i * V_j * F;
@@ -277,23 +267,6 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
     const Vec half[3] = {0.5 * visc * d[0], 0.5 * visc * d[1], 0.5 * visc * d[2]};
     const Vec qheat = -(half[0] * dv_work[0] + half[1] * dv_work[1] + half[2] * dv_work[2]);
     act(half, half);
-
-    // interface density dissipation as in sph_interact()
-
-    Vec drho_j = zero;
-    if (SCENE & SPH_DENSITY) {
-      const double z_i = rho_i * c_i;
-      const Vec z_j = rho_j * c_j, dp = T_i.p - p_j, size = abs(dp);
-      const Vec speed = sqrt(dv[0] * dv[0] + dv[1] * dv[1] + dv[2] * dv[2]);
-      const Vec wave = tied * (z_i < z_j ? zero + z_i : z_j) * speed;
-      const Vec excess = (size > wave ? size - wave : zero) / (size + 1.0e-300);
-      const Vec by_states = laws.automatic * excess / (z_i + z_j);
-      const Vec constant = laws.alpha / (c_i + c_j);
-      const Vec acts = T_i.p + p_j > 0.0 ? one : tied;
-      const Vec phi = 2.0 * acts * dp * F * r;
-      drho += phi * V_j * (constant + by_states * rho_i);
-      drho_j = -phi * V_i * (constant + by_states * rho_j);
-    }
 
     if (SCENE & SPH_BODIES) {
       if (sum(one - bonded) > 0.0) {
@@ -312,19 +285,6 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
         act(t_i, t_j);
       }
     }
-    if (SCENE & SPH_ARTSTRESS) {
-      Vec R[8];
-      for (int k = 0; k < 2; k++) read_columns(records.art, j, k, R + 4 * k);
-      const Vec factor = bonded * V_i * V_j * F * pow(Kernel::template w<Vec>(r / h), laws.art_n);
-      const Vec t_i[3] = {factor * (R_i.xx * d[0] + R_i.xy * d[1] + R_i.xz * d[2]),
-                          factor * (R_i.xy * d[0] + R_i.yy * d[1] + R_i.yz * d[2]),
-                          factor * (R_i.xz * d[0] + R_i.yz * d[1] + R_i.zz * d[2])};
-      const Vec t_j[3] = {factor * (R[0] * d[0] + R[3] * d[1] + R[4] * d[2]),
-                          factor * (R[3] * d[0] + R[1] * d[1] + R[5] * d[2]),
-                          factor * (R[4] * d[0] + R[5] * d[1] + R[2] * d[2])};
-      act(t_i, t_j);
-    }
-
     *(Vec *) (near.fx + m) = f[0];
     *(Vec *) (near.fy + m) = f[1];
     *(Vec *) (near.fz + m) = f[2];
@@ -335,7 +295,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
     heat += qheat;
     Vec on_j[4] = {-f[0], -f[1], -f[2], de_j};
     add_columns(records.rates, j, 0, on_j);
-    Vec more[4] = {drho_j, qheat, zero, zero};
+    Vec more[4] = {zero, qheat, zero, zero};
     add_columns(records.rates, j, 1, more);
   }
 
@@ -344,7 +304,6 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
   total.fy += sum(fy);
   total.fz += sum(fz);
   total.de += sum(de);
-  total.drho += sum(drho);
   total.heat += sum(heat);
   return sum(overlaps) > 0.0;
 }

@@ -13,6 +13,8 @@
 #include "hvi_sph_sweep.h"
 
 #include "hvi_kernel.h"
+#include "hvi_sph_fluid.h"
+#include "hvi_sph_reference.h"
 #include "hvi_sph_solid.h"
 
 #include <algorithm>
@@ -27,7 +29,7 @@ namespace {
   template <class Kernel, int SCENE> class Sweeps final : public SphSweeps {
    public:
     int scene() const override { return SCENE; }
-    bool has_first() const override { return (SCENE & (SPH_RIEMANN | SPH_CORRECTED)) != 0; }
+    bool vectors() const override { return true; }
     void first(SphWork &) const override;
     void forces(SphWork &) const override;
     double w(double q) const override { return Kernel::template w<double>(q); }
@@ -36,9 +38,10 @@ namespace {
     template <class Record, class Law>
     static void each_particle(SphWork &, Pass, Record *, const Law &);
     template <class Record>
-    static int within_reach(const SphWork &, const SphLaws &, const SphPlace &, const int *, int,
+    static int within_reach(const SphWork &, const SphRows &, const SphPlace &, const int *, int,
                             const Record *, SphNear &);
     static int all_of(const SphWork &, const SphPlace &, const int *, int, SphNear &);
+    static void tell(const SphWork &, int, int, const SphNear &);
   };
 
   /* ----------------------------------------------------------------------
@@ -50,8 +53,7 @@ namespace {
     free.clear();
     for (int jj = 0; jj < jnum; jj++) {
       const int j = jlist[jj] & NEIGHBOR_INDEX;
-      const int owner = work.images && work.images->is_image(j) ? work.images->owner(j) : j;
-      if (work.embedded[owner] != work.embedded[i]) free.push_back(j);
+      if (!work.in_elements_together(i, j)) free.push_back(j);
     }
   }
 
@@ -61,7 +63,7 @@ namespace {
 
   template <class Kernel, int SCENE>
   template <class Record>
-  inline int Sweeps<Kernel, SCENE>::within_reach(const SphWork &work, const SphLaws &laws,
+  inline int Sweeps<Kernel, SCENE>::within_reach(const SphWork &work, const SphRows &laws,
                                                  const SphPlace &pi, const int *jlist, int number,
                                                  const Record *records, SphNear &near)
   {
@@ -73,18 +75,18 @@ namespace {
       const int j = jlist[jj] & NEIGHBOR_INDEX;
       const Vec4 d = part(&pi, 0) - part(&place[j], 0);
       __builtin_prefetch(&state[j]);
-      if (!(SCENE & SPH_STRENGTH)) __builtin_prefetch(&records[j], 1);
+      if (!(SCENE & SPH_SOLID)) __builtin_prefetch(&records[j], 1);
       near.j[n] = j;
       near.d[n] = d;
       const Vec4 square = d * d;
       const double rsq = square[0] + square[2] + square[1];
       if (SCENE & SPH_SPACINGS) {
-        const double ratio = laws.row_ratio[static_cast<int>(state[j].type)];
+        const double ratio = laws.row_ratio[state[j].type()];
         const double h = 0.5 * (1.0 + ratio) * std::max(pi.h, (pi.h - d[3]) / ratio);
         n += rsq < Kernel::support * Kernel::support * h * h;
       } else if (SCENE & SPH_OWN_H) {
-        const double h = SCENE & (SPH_RIEMANN | SPH_CORRECTED) ? std::max(pi.h, pi.h - d[3])
-                                                               : pi.h - 0.5 * d[3];
+        const double h = SCENE & (SPH_RIEMANN | SPH_SOLID) ? std::max(pi.h, pi.h - d[3])
+                                                           : pi.h - 0.5 * d[3];
         n += rsq < Kernel::support * Kernel::support * h * h;
       } else
         n += rsq < reachsq;
@@ -103,7 +105,7 @@ namespace {
     for (int jj = 0; jj < number; jj++) {
       const int j = jlist[jj];
       __builtin_prefetch(&state[j]);
-      if (SCENE & SPH_CORRECTED) {
+      if (SCENE & SPH_SOLID) {
         __builtin_prefetch(&work.records.traction[j]);
         __builtin_prefetch(&work.records.traction[j].zz);
         if (SCENE & SPH_RIEMANN) {
@@ -134,7 +136,9 @@ namespace {
   {
     const SphList &list = work.list;
     SphKept &kept = *work.kept;
-    SphLaws laws = work.laws;
+    SphRows laws = {};
+    static_cast<SphLaws &>(laws) = work.laws;
+    laws.half_step = work.half_step;
     SphNear near;
     near.fastest = Vec{} + work.fastest;
     std::size_t nkept = 0;
@@ -204,18 +208,18 @@ namespace {
 
   template <class Kernel, int SCENE> void Sweeps<Kernel, SCENE>::first(SphWork &work) const
   {
-    if constexpr ((SCENE & SPH_CORRECTED) != 0) {
+    if constexpr ((SCENE & SPH_SOLID) != 0) {
       const SphView &r = work.records;
       each_particle(
           work, FIRST, r.gradv,
-          [&](int i, const SphPlace &pi, int n, const SphLaws &laws, SphNear &near, SphGradV &sum) {
+          [&](int i, const SphPlace &pi, int n, const SphRows &laws, SphNear &near, SphGradV &sum) {
             sph_gradients<Kernel, SCENE>(i, pi, r.state, n, laws, near, r.gradv, r.contact, sum);
           });
     } else if constexpr ((SCENE & SPH_RIEMANN) != 0) {
       const SphState *const state = work.records.state;
       SphSlopes *const slopes = work.records.slopes;
       each_particle(work, FIRST, slopes,
-                    [=](int i, const SphPlace &pi, int n, const SphLaws &laws, SphNear &near,
+                    [=](int i, const SphPlace &pi, int n, const SphRows &laws, SphNear &near,
                         SphSlopes &sum) {
                       sph_slopes<Kernel, SCENE>(i, pi, state, n, laws, near, slopes, sum);
                     });
@@ -227,44 +231,55 @@ namespace {
     const SphView &r = work.records;
     each_particle(
         work, has_first() ? SECOND : ONLY, r.rates,
-        [&](int i, const SphPlace &pi, int n, const SphLaws &laws, SphNear &near, SphRates &sum) {
+        [&](int i, const SphPlace &pi, int n, const SphRows &laws, SphNear &near, SphRates &sum) {
           bool overlaps;
-          if constexpr ((SCENE & SPH_CORRECTED) != 0)
+          if constexpr ((SCENE & SPH_SOLID) != 0)
             overlaps = sph_solid<Kernel, SCENE>(i, pi, r, n, laws, near, sum);
           else if constexpr ((SCENE & SPH_RIEMANN) != 0)
             overlaps =
                 sph_riemann<Kernel, SCENE>(i, pi, r.state, r.slopes, n, laws, near, r.rates, sum);
           else
-            overlaps = sph_interact<Kernel, SCENE>(i, pi, r.state, n, laws, near, r.rates, sum,
-                                                   nullptr, nullptr, nullptr);
+            overlaps = sph_fluid<Kernel, SCENE>(i, pi, r.state, n, laws, near, r.rates, sum);
           if (overlaps)
             for (int m = 0; m < n; m++)
               if (near.d[m][0] == 0.0 && near.d[m][1] == 0.0 && near.d[m][2] == 0.0)
                 work.watcher->overlap(i, near.j[m]);
-          if (work.tally && n) work.watcher->tally(i, n, near, (SCENE & SPH_STRENGTH) != 0);
+          if (work.tally) tell(work, i, n, near);
         });
+  }
+
+  template <class Kernel, int SCENE>
+  void Sweeps<Kernel, SCENE>::tell(const SphWork &work, int i, int n, const SphNear &near)
+  {
+    for (int m = 0; m < n; m++) {
+      const double d[3] = {near.d[m][0], near.d[m][1], near.d[m][2]}, along = near.force[m];
+      const double f[3] = {SCENE & SPH_SOLID ? near.fx[m] : along * d[0],
+                           SCENE & SPH_SOLID ? near.fy[m] : along * d[1],
+                           SCENE & SPH_SOLID ? near.fz[m] : along * d[2]};
+      work.watcher->tally(i, near.j[m], d, f);
+    }
   }
 
   /* ----------------------------------------------------------------------
      The scenes that are compiled, cheaper ones first: taken is the first that has all the terms
-     asked for.  Terms it has besides come out as nothing, to the last digit: so rare
-     scenes share a loop, and 8 kernels do not make 200 of them.
+     asked for.  Terms it has besides come out as nothing, to the last digit.
   ------------------------------------------------------------------------- */
 
-  constexpr int H = SPH_OWN_H, B = SPH_BODIES, D = SPH_DENSITY, R = SPH_RIEMANN, A = SPH_ARTSTRESS,
-                C = SPH_CORRECTED | SPH_STRENGTH, W = SPH_SPACINGS;
+  constexpr int H = SPH_OWN_H, B = SPH_BODIES, D = SPH_DENSITY, R = SPH_RIEMANN, S = SPH_SOLID,
+                W = SPH_SPACINGS;
 
   using Scenes =
-      std::integer_sequence<int, 0, H, B, H | B, H | B | D, R, R | H, R | H | B, R | H | B | W, C,
-                            C | B, C | H | B, C | H | B | D, C | H | B | D | A, C | R, C | R | B,
-                            C | R | H | B, C | R | H | B | A>;
+      std::integer_sequence<int, 0, H, B, H | B, H | B | D, R, R | H, R | H | B, R | H | B | W, S,
+                            S | B, S | H | B, S | R, S | R | B, S | R | H | B>;
 
   template <class Kernel, int... SCENE>
   std::unique_ptr<SphSweeps> make(int scene, std::integer_sequence<int, SCENE...>)
   {
-    // what a Riemann problem and viscosity do excludes each other, so that bit must be the same; likewise C
+    // what these two do and what is done without them exclude each other
+
+    constexpr int SAME = R | S;
     std::unique_ptr<SphSweeps> made;
-    ((!made && (scene & ~SCENE) == 0 && (scene & R) == (SCENE & R) && (scene & C) == (SCENE & C)
+    ((!made && (scene & ~SCENE) == 0 && (scene & SAME) == (SCENE & SAME)
           ? (void) (made = std::make_unique<Sweeps<Kernel, SCENE>>())
           : (void) 0),
      ...);
@@ -275,10 +290,9 @@ namespace {
 std::unique_ptr<SphSweeps> make_sph_sweeps(const std::string &kernel, int scene)
 {
   std::unique_ptr<SphSweeps> made;
-  with_kernel(kernel, [&](auto k) {
-    made = make<decltype(k)>(scene, Scenes());
-  });
-  return made;
+  if (kernel == Cubic::name) made = make<Cubic>(scene, Scenes());
+  if (kernel == Gauss::name) made = make<Gauss>(scene, Scenes());
+  return made ? std::move(made) : make_sph_reference(kernel, scene);
 }
 
 }    // namespace HVI
