@@ -9,6 +9,7 @@
 #ifndef LMP_HVI_TIMESTEP_H
 #define LMP_HVI_TIMESTEP_H
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -73,6 +74,10 @@ class TimeStepSource {
   virtual ~TimeStepSource() noexcept(false) {}
   virtual void tighten(TimeStepBounds &bounds) = 0;
   virtual bool at_hand() const { return false; }    // it is left over from the last forces
+
+  // for an error message: what on this rank has the fastest signals, a particle say, and its state
+
+  virtual std::string fastest_signal() const { return ""; }
 };
 
 // shortest distance over which the pair style acts, NO_BOUND without one

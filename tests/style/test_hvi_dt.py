@@ -1,5 +1,7 @@
 """fix hvi/dt: C sqrt(m/k) of the stiffest pair, m its reduced mass, now or where it will turn back; what limits it."""
 
+import re
+
 import numpy as np
 import pytest
 from scenes import KAPPA, PAIR, R_EQ, State, collision, contact, cube, scene
@@ -200,6 +202,57 @@ def test_growth_is_that_of_the_sources(lmp):
         growth[name] = t["Dt"][1:] / t["Dt"][:-1]
         assert (t["f_step[3]"][1:] == GROWING).all()
     assert growth[SPH] == pytest.approx(1.01, rel=1e-9) and growth["all"] == pytest.approx(1.0005, rel=1e-9)
+
+
+TWO = """units lj
+atom_style sph
+atom_modify map array
+region box block -9 9 -9 9 -9 9
+create_box 2 box
+create_atoms 1 single 0 0 0
+create_atoms 1 single 1 0 0
+mass * 1.0
+set group all sph/rho 1.0
+pair_style hvi/sph cubic
+pair_coeff * * eos tait 1.0 1.0 7 h 1.2
+fix fluid all hvi/sph
+"""
+
+
+def faster(sound):
+    """the same two particles with another speed of sound"""
+    return f"pair_coeff * * eos tait 1.0 {sound} 7 h 1.2\n"
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_floor(lmp, nranks):
+    """a hundredth of the first step ends the run by default, another part if asked for; 0: never"""
+    step = f"fix step all hvi/dt {C} {{}}\n{SHOW.replace('fix nve all nve', '')}run 1\n"
+    for words, part in (("", 0.01), ("floor 0.2", 0.2), ("floor 0", 1e-5)):
+        row = lmp(TWO + step.format(words) + faster(0.999 / part) + "run 1\n", nranks=nranks).thermo
+        assert row["Dt"][0] == pytest.approx(C * 1.2 * part / 0.999, rel=1e-12) and row["f_step[3]"][0] == SIGNAL
+    for words, part in (("", 0.01), ("floor 0.2", 0.2)):
+        error = lmp(TWO + step.format(words) + faster(1.001 / part) + "run 1\n", nranks=nranks, expect_fail=True).error
+        dt = C * 1.2
+        assert re.search(rf"Time step {dt * part / 1.001:.5g}\d* of fix hvi/dt fell below floor {part} times the first one, {dt:g}, at step 1", error), error
+        assert "give fix hvi/dt another floor" in error
+
+
+def test_floor_is_no_matter_of_contacts(lmp):
+    """whose bounce may be a thousand times shorter than the way there: they have min"""
+    text = scene(pair(1.5, 1.0), "s.data") + f"fix step all hvi/dt {C} max 0.02 every 1\n" + SHOW + "run 0\nvelocity all ramp vx 0 -1e5 x 0 1 units box\nrun 0\n"
+    t = lmp(text).thermo
+    assert t["Dt"][0] < 1e-3 * 0.02
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_floor_after_a_restart(lmp, nranks):
+    """the first step is that of the first run"""
+    step = f"fix step all hvi/dt {C}\nrun 1\n" + faster(50.0) + "run 1\nwrite_restart r\n"
+    lmp(TWO + step, nranks=nranks)
+    again = f"read_restart r\n{faster(99.0)}fix fluid all hvi/sph\nfix step all hvi/dt {C}\nrun 1\n"
+    lmp(again, nranks=nranks)
+    assert f"the first one, {C * 1.2:g}" in lmp(again.replace("coeff * * eos tait 1.0 99.0", "coeff * * eos tait 1.0 101.0"), nranks=nranks, expect_fail=True).error
 
 
 @pytest.mark.parametrize("stiff", [1, 2])
