@@ -31,6 +31,7 @@ struct TimeStepBounds {
   double spring = NO_BOUND;      // stiffness of intact bonds
   double approach = NO_BOUND;    // stiffness where approaching pairs will turn back
   double signal = NO_BOUND;      // not of a stiffness: a length over the speed of signals
+  double alone = NO_BOUND;       // the same of what has no neighbors: counts if nothing else does
 
   // a step that is stable as it is: not in proportion to C
 

@@ -43,7 +43,7 @@ static constexpr double SKIN_OF_SPACING = 0.7;    // see choose_skin()
 PairHVISPH::PairHVISPH(LAMMPS *lmp) :
     Pair(lmp), own_skin(0.0), visc_a(nullptr), visc_b(nullptr), tension(nullptr), ratio(nullptr),
     weight(nullptr), store(nullptr), integrator(nullptr), lists(nullptr), mesh(nullptr),
-    strength(nullptr), placed(false), fastest(0.0), narrowest(HVI::NO_BOUND), halo()
+    strength(nullptr), placed(false), fastest(0.0), alone(0.0), narrowest(HVI::NO_BOUND), halo()
 {
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
@@ -72,6 +72,7 @@ void PairHVISPH::compute(int eflag, int vflag)
 
   HVI::SphFields &fields = store->fields;
   const bool mirrored = set.mirror.planes;
+  if (neighbor->ago == 0) find_neighbors();
   if (mirrored) find_images();
   const int nrecords = mirrored ? MAX(atom->nmax, images.end()) : atom->nmax;
   fields.grow(nrecords, mirrored ? nrecords / 16 : 0);
@@ -106,6 +107,7 @@ void PairHVISPH::compute(int eflag, int vflag)
   sweeps->forces(work);
   fastest = work.fastest /
       (0.5 * set.support);    // half of the reach stands for h, for all kernels alike
+  alone /= 0.5 * set.support;
 
   if (mirrored) images.fold(records, force->newton_pair);
   scatter();
@@ -382,5 +384,5 @@ void PairHVISPH::setup()
 
 double PairHVISPH::memory_usage()
 {
-  return kept.bytes();    // records are the store's
+  return kept.bytes() + has_neighbor.capacity();    // records are the store's
 }

@@ -58,6 +58,7 @@ class PairHVISPH :
   void unpack_reverse_comm(int, int *, double *) override;
   void tighten(HVI::TimeStepBounds &) override;
   bool at_hand() const override { return true; }
+  std::string fastest_signal() const override;
   double memory_usage() override;
 
  private:
@@ -87,6 +88,7 @@ class PairHVISPH :
   double rho_far, v_quiet;                   // differences that count as none
   bool placed;                               // all are in the cells of lists
   std::vector<int> rows;                     // of the list, of those that are awake
+  std::vector<char> has_neighbor;            // in the list, or its own image: owned and ghosts
 
   // of a density and an energy per mass: pressure, dp/drho at constant entropy, cube root of rho/rho0
 
@@ -97,6 +99,7 @@ class PairHVISPH :
 
   double
       fastest;    // of the last forces: 1/time in which signals pass half of what a kernel reaches
+  double alone;        // the same of particles without neighbors
   double narrowest;    // and the smallest h
 
   // records that are being communicated: the first numbers of each, as many as are sent
@@ -127,6 +130,7 @@ class PairHVISPH :
   int choose_scene();
   bool find_weights();
   double widest(int, int) const;
+  void find_neighbors();
   void find_images();
   void gather();
   void gather_stress();

@@ -52,7 +52,7 @@ void PairHVISPH::gather()
   const int nall = atom->nlocal + atom->nghost;
   const HVI::SphView &records = store->fields.view();
   const HVI::SphLaws &laws = set.laws;
-  fastest = 0.0;
+  fastest = alone = 0.0;
   narrowest = HVI::NO_BOUND;
   eos_states.assign(atom->ntypes + 1, EosState());
 
@@ -126,7 +126,8 @@ void PairHVISPH::gather()
     }
     s.p = laws.symmetric ? p / (rho[i] * rho[i]) : p;
     s.c = std::sqrt(csq);
-    if (!(s.c <= fastest * place.h)) fastest = s.c / place.h;
+    double &most = has_neighbor[i] ? fastest : alone;
+    if (!(s.c <= most * place.h)) most = s.c / place.h;
     s.type = itype;
     if (records.traction && records.stress[i].p_min == 0.0 && records.stress[i].shear == 0.0)
       s.type += HVI::RUBBLE;
@@ -430,6 +431,22 @@ void PairHVISPH::scatter()
 
 /* ---------------------------------------------------------------------- */
 
+// Sound counts for the time step where it can go to a neighbor: no particle is within reach that is not in
+// the list.  Of a pair on two ranks the ghost counts on the rank that has the pair.
+
+void PairHVISPH::find_neighbors()
+{
+  has_neighbor.assign(atom->nlocal + atom->nghost, 0);
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii], n = list->numneigh[i];
+    const int *const jlist = list->firstneigh[i];
+    if (n) has_neighbor[i] = 1;
+    for (int jj = 0; jj < n; jj++) has_neighbor[jlist[jj] & NEIGHMASK] = 1;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
 void PairHVISPH::find_images()
 {
   double reachsq = 0.0;
@@ -446,8 +463,10 @@ void PairHVISPH::find_images()
                    "hvi/sph does not integrate it, so does not put it back",
                    atom->tag[i], "xyz"[k], update -> ntimestep);
 
-  images.find(set.mirror, atom->x, atom->type, is_ours, atom->nlocal, atom->nlocal + atom->nghost,
-              reachsq);
+  const int nall = atom->nlocal + atom->nghost;
+  images.find(set.mirror, atom->x, atom->type, is_ours, atom->nlocal, nall, reachsq);
+  for (int a = nall; a < images.end(); a++)
+    if (images.is_own(a)) has_neighbor[images.owner(a)] = 1;
 }
 
 /* ----------------------------------------------------------------------
@@ -460,6 +479,7 @@ void PairHVISPH::find_images()
 void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
 {
   if (fastest * bounds.signal > 1.0 || std::isnan(fastest)) bounds.signal = 1.0 / fastest;
+  if (alone * bounds.alone > 1.0) bounds.alone = 1.0 / alone;
 
   double h = narrowest;
   for (int i = 1; i <= atom->ntypes; i++)
@@ -471,6 +491,29 @@ void PairHVISPH::tighten(HVI::TimeStepBounds &bounds)
   if (set.mirror.planes) speed = MAX(speed, fastest_to_images(deep / apart));
   if (speed * bounds.meet > deep) bounds.meet = deep / speed;
   bounds.come_closer(placed ? apart : deep);
+}
+
+// of all particles with neighbors the largest c/h of the last forces
+
+std::string PairHVISPH::fastest_signal() const
+{
+  const HVI::SphView &records = store->fields.view();
+  int most = -1;
+  double rate = 0.0;
+  for (int i = 0; i < (int) has_neighbor.size(); i++) {
+    if (store->fields.is_idle(i) || !is_ours[atom->type[i]] || !has_neighbor[i]) continue;
+    const double here = records.state[i].c / records.place[i].h;
+    if (here <= rate) continue;
+    most = i;
+    rate = here;
+  }
+  if (most < 0) return "";
+  const int type = atom->type[most];
+  return fmt::format(
+      "the fastest sound is {} of particle {} (type {}) at density {}, energy per mass {}, h {}",
+      records.state[most].c, atom->tag[most], type, atom->rho[most],
+      atom->esph[most] / (atom->rmass ? atom->rmass[most] : atom->mass[type]),
+      records.place[most].h);
 }
 
 // of particles and their images, less by a factor where these are far
