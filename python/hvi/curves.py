@@ -35,13 +35,18 @@ class Eos:
         if self.law == "polynomial":
             gamma = np.where(mu > 0.0, v["B0"] + mu * (v["B1"] + mu * v["B2"]), v["B0"])
             cold = mu * (v["A1"] + mu * (v["A2"] + mu * v["A3"]))
-            return np.where(mu > 0.0, cold, mu * ((v["T1"] or v["A1"]) + mu * v["T2"])) + gamma * self.rho0 * e
+            return self._expanded(rho, np.where(mu > 0.0, cold, mu * ((v["T1"] or v["A1"]) + mu * v["T2"])) + gamma * self.rho0 * e, v["B0"])
         if self.law == "tillotson":
             return self._tillotson(rho, e)
         gamma = v["g0"] + v.get("a", 0.0) * mu
         stiff = self.rho0 * v["C"] ** 2
         squeezed = stiff * eta / self.ratio(eta) ** 2 * (1.0 - 0.5 * gamma * eta)
-        return np.where(eta > 0.0, squeezed, stiff * mu) + gamma * self.rho0 * e
+        return self._expanded(rho, np.where(eta > 0.0, squeezed, stiff * mu) + gamma * self.rho0 * e, v["g0"] - v.get("a", 0.0))
+
+    def _expanded(self, rho, p, thin):
+        """hvi_eos_expansion.h; thin: Gamma rho/rho0 that the law's line has at density 0"""
+        x, h = np.minimum(rho / self.rho0, 1.0), 2.0 / 3.0 / thin if 3.0 * thin > 2.0 / 3.0 else 3.0
+        return p * np.where(p > 0.0, 1.0 - (1.0 - x) ** 2 * (1.0 + (2.0 - h) * x), 1.0)
 
     def ratio(self, eta):
         """C/Us of the cubic Hugoniot"""

@@ -30,8 +30,8 @@ enum { MAXIMUM, CONTACT, SPRING, APPROACH, GROWING, SIGNAL, NLIMITER };
 /* ---------------------------------------------------------------------- */
 
 FixHVIDt::FixHVIDt(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), dtmin(0.0), dtmax(HVI::NO_BOUND), asked(0), every(1), limiter(MAXIMUM),
-    restored(0), chosen(0), laststep(0)
+    Fix(lmp, narg, arg), dtmin(0.0), dtmax(HVI::NO_BOUND), floor(0.01), asked(0), every(1),
+    limiter(MAXIMUM), restored(0), chosen(0), laststep(0), first(0.0)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix hvi/dt", error);
 
@@ -60,6 +60,10 @@ FixHVIDt::FixHVIDt(LAMMPS *lmp, int narg, char **arg) :
       dtmax = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
       if (!(dtmax > 0.0) || !std::isfinite(dtmax))
         error->all(FLERR, "Fix hvi/dt max must be > 0, not {}", arg[iarg + 1]);
+    } else if (strcmp(arg[iarg], "floor") == 0) {
+      floor = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+      if (!(floor >= 0.0) || !(floor < 1.0))
+        error->all(FLERR, "Fix hvi/dt floor must be >= 0 and < 1, not {}", arg[iarg + 1]);
     } else if (strcmp(arg[iarg], "every") == 0) {
       asked = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
       if (asked <= 0) error->all(FLERR, "Fix hvi/dt every must be > 0, not {}", arg[iarg + 1]);
@@ -144,11 +148,46 @@ double FixHVIDt::choose(int going_on)
                "positions or velocities are NaN",
                update->ntimestep);
   if (dt < dtmin)
-    error->all(FLERR, "Time step {} of fix hvi/dt fell below min {} at step {}", dt, dtmin,
-               update->ntimestep);
+    error->all(FLERR, "Time step {} of fix hvi/dt fell below min {} at step {}{}", dt, dtmin,
+               update->ntimestep, limiter == SIGNAL ? fastest_signal() : "");
+  if (limiter == SIGNAL && dt < floor * first)
+    error->all(FLERR,
+               "Time step {} of fix hvi/dt fell below floor {} times the first one, {}, at step "
+               "{}{}: find out why, or give fix hvi/dt another floor",
+               dt, floor, first, update->ntimestep, fastest_signal());
   if (dt >= factor * HVI::NO_BOUND)
     error->all(FLERR, "Fix hvi/dt finds nothing that limits the time step: give it a max");
+  if (first == 0.0) first = dt;
   return dt;
+}
+
+/* ----------------------------------------------------------------------
+   what the source says that has the shortest signal bound of all ranks
+------------------------------------------------------------------------- */
+
+std::string FixHVIDt::fastest_signal()
+{
+  struct {
+    double time;
+    int rank;
+  } here = {HVI::NO_BOUND, comm->me}, shortest;
+  HVI::TimeStepSource *fastest = nullptr;
+  for (auto *source : sources) {
+    HVI::TimeStepBounds bounds;
+    source->tighten(bounds);
+    const double time = MIN(factor * bounds.signal, bounds.stable);
+    if (time < here.time) {
+      here.time = time;
+      fastest = source;
+    }
+  }
+  MPI_Allreduce(&here, &shortest, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
+
+  char text[400] = "";
+  if (comm->me == shortest.rank && fastest)
+    snprintf(text, sizeof(text), "%s", fastest->fastest_signal().c_str());
+  MPI_Bcast(text, sizeof(text), MPI_CHAR, shortest.rank, world);
+  return text[0] ? std::string(", ") + text : "";
 }
 
 /* ----------------------------------------------------------------------
@@ -188,10 +227,10 @@ double FixHVIDt::compute_vector(int n)
 void FixHVIDt::write_restart(FILE *fp)
 {
   if (comm->me) return;
-  const double list[3] = {update->dt, (double) limiter, (double) laststep};
+  const double list[4] = {update->dt, (double) limiter, (double) laststep, first};
   const int size = sizeof(list);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(list, sizeof(double), 3, fp);
+  fwrite(list, sizeof(double), 4, fp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -203,5 +242,6 @@ void FixHVIDt::restart(char *buf)
   update->dt_default = 0;
   limiter = static_cast<int>(list[1]);
   laststep = static_cast<bigint>(list[2]);
+  first = list[3];
   restored = 1;
 }

@@ -18,6 +18,7 @@ FixStyle(hvi/dt,FixHVIDt);
 #include "fix.h"
 #include "hvi_timestep.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -35,14 +36,16 @@ class FixHVIDt : public Fix {
   void restart(char *) override;
 
  private:
-  double factor, dtmin, dtmax;
+  double factor, dtmin, dtmax, floor;
   int asked, every;    // asked 0: every is what suits the sources
   int limiter;
   int restored, chosen;    // dt is from a restart file, from an earlier run
   bigint laststep;         // that chose dt
+  double first;            // step that was chosen; 0: none yet
   std::vector<HVI::TimeStepSource *> sources;
 
   double choose(int);
+  std::string fastest_signal();
   void apply(double);
 };
 

@@ -86,6 +86,8 @@ void HVIScheme::prepare()
 
 void HVIScheme::start()
 {
+  if (neighbor->ago == 0 || (int) has_neighbor.size() != atom->nlocal + atom->nghost)
+    find_neighbors();
   if (set.mirror.planes) find_images();
   const int nrecords = set.mirror.planes ? MAX(atom->nmax, images.end()) : atom->nmax;
   fields.grow(nrecords, set.mirror.planes ? nrecords / 16 : 0);
@@ -112,6 +114,7 @@ void HVIScheme::forces(bool tally)
   sweeps->forces(work);
   fastest = work.fastest /
       (0.5 * set.support);    // half of the reach stands for h, for all kernels alike
+  alone /= 0.5 * set.support;
   if (set.mirror.planes) images.fold(work.records, force->newton_pair);
   scatter();
   forces_done();
@@ -140,7 +143,7 @@ void HVIScheme::gather_records()
   const double *const rho = atom->rho;
   const int nall = atom->nlocal + atom->nghost;
   const HVI::SphView &records = fields.view();
-  fastest = 0.0;
+  fastest = alone = 0.0;
   narrowest = HVI::NO_BOUND;
   eos_states.assign(atom->ntypes + 1, EosState());
 
@@ -185,7 +188,8 @@ void HVIScheme::gather_records()
     s.rho = rho[i];
     s.body = itype;
     s.c = std::sqrt(gather(i, known, s));
-    if (!(s.c <= fastest * place.h)) fastest = s.c / place.h;
+    double &most = has_neighbor[i] ? fastest : alone;
+    if (!(s.c <= most * place.h)) most = s.c / place.h;
   }
 }
 
@@ -329,6 +333,23 @@ void HVIScheme::scatter()
   for (int k = 0; k < 3; k++) fields.plane_force[k] = images.force[k];
 }
 
+/* ----------------------------------------------------------------------
+   Sound counts for the time step where it can go to a neighbor: no particle is within reach that is not in
+   the list.  Of a pair on two ranks the ghost counts on the rank that has the pair.
+------------------------------------------------------------------------- */
+
+void HVIScheme::find_neighbors()
+{
+  const NeighList &list = *pairs.style->list;
+  has_neighbor.assign(atom->nlocal + atom->nghost, 0);
+  for (int ii = 0; ii < list.inum; ii++) {
+    const int i = list.ilist[ii], n = list.numneigh[i];
+    const int *const jlist = list.firstneigh[i];
+    if (n) has_neighbor[i] = 1;
+    for (int jj = 0; jj < n; jj++) has_neighbor[jlist[jj] & NEIGHMASK] = 1;
+  }
+}
+
 /* ---------------------------------------------------------------------- */
 
 void HVIScheme::find_images()
@@ -348,8 +369,10 @@ void HVIScheme::find_images()
                    "hvi/sph does not integrate it, so does not put it back",
                    atom->tag[i], "xyz"[k], update -> ntimestep);
 
-  images.find(set.mirror, atom->x, atom->type, pairs.is_ours, atom->nlocal,
-              atom->nlocal + atom->nghost, reachsq);
+  const int nall = atom->nlocal + atom->nghost;
+  images.find(set.mirror, atom->x, atom->type, pairs.is_ours, atom->nlocal, nall, reachsq);
+  for (int a = nall; a < images.end(); a++)
+    if (images.is_own(a)) has_neighbor[images.owner(a)] = 1;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -395,6 +418,7 @@ void HVIScheme::unpack_reverse(int n, const int *list, const double *buf)
 void HVIScheme::tighten(HVI::TimeStepBounds &bounds) const
 {
   if (fastest * bounds.signal > 1.0 || std::isnan(fastest)) bounds.signal = 1.0 / fastest;
+  if (alone * bounds.alone > 1.0) bounds.alone = 1.0 / alone;
 
   double h = narrowest;
   for (int i = 1; i <= atom->ntypes; i++)
@@ -406,6 +430,27 @@ void HVIScheme::tighten(HVI::TimeStepBounds &bounds) const
   if (set.mirror.planes) speed = MAX(speed, fastest_to_images(deep / apart));
   if (speed * bounds.meet > deep) bounds.meet = deep / speed;
   bounds.come_closer(placed ? apart : deep);
+}
+
+// of all particles with neighbors the largest c/h of the last forces
+
+std::string HVIScheme::fastest_signal() const
+{
+  const HVI::SphView &records = fields.view();
+  int most = -1;
+  double rate = 0.0;
+  for (int i = 0; i < (int) has_neighbor.size(); i++) {
+    if (!is_ours(i) || !has_neighbor[i]) continue;
+    const double here = records.state[i].c / records.place[i].h;
+    if (here <= rate) continue;
+    most = i;
+    rate = here;
+  }
+  if (most < 0) return "";
+  return fmt::format(
+      "the fastest sound is {} of particle {} (type {}) at density {}, energy per mass {}, h {}",
+      records.state[most].c, atom->tag[most], atom->type[most], atom->rho[most],
+      atom->esph[most] / mass(most), records.place[most].h);
 }
 
 // of particles and their images, less by a factor where these are far

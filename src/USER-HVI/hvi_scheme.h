@@ -20,6 +20,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -80,7 +81,11 @@ class HVIScheme : protected Pointers {
 
   const HVI::Images &mirror_images() const { return images; }
   void tighten(HVI::TimeStepBounds &) const;
-  double bytes() const { return kept.bytes(); }    // records are the store's
+  std::string fastest_signal() const;    // for an error message: of which particle, and its state
+  double bytes() const
+  {
+    return kept.bytes() + has_neighbor.capacity();
+  }    // records are the store's
 
  protected:
   // of a density and an energy per mass: pressure, dp/drho at constant entropy, cube root of rho/rho0
@@ -132,10 +137,12 @@ class HVIScheme : protected Pointers {
   bool prepared = false;
   bool placed = false;    // all particles are in cells
   HVI::SphKept kept;
+  std::vector<char> has_neighbor;      // in the list, or its own image: owned and ghosts
   std::vector<int> rows;               // of the list, that are gone through
   std::vector<EosState> eos_states;    // by type: of the last particle that was asked for
   double fastest =
       0.0;    // of the last forces: 1/time in which signals pass half of what a kernel reaches
+  double alone = 0.0;                  // the same of particles without neighbors
   double narrowest = HVI::NO_BOUND;    // and the smallest h
   struct {
     double *first;
@@ -144,6 +151,7 @@ class HVIScheme : protected Pointers {
       {};    // records that are being communicated: the first numbers of each, as many as are sent
 
   void find_quiet(bool can);
+  void find_neighbors();
   void find_images();
   void find_inactive();
   void gather_records();

@@ -66,13 +66,14 @@ HVI::StableSteps HVI::stable_steps(const LAMMPS *lmp, const std::vector<TimeStep
     TRAVEL,
     MEET,
     STABLE,
+    ALONE,
     V,
     MINUS_V = V + 3,
     N = MINUS_V + 3
   };
   double here[N] = {bounds.contact, bounds.spring, bounds.approach, bounds.signal, bounds.growth,
-                    bounds.travel,  bounds.meet,   bounds.stable,   NO_BOUND,      NO_BOUND,
-                    NO_BOUND,       NO_BOUND,      NO_BOUND,        NO_BOUND};
+                    bounds.travel,  bounds.meet,   bounds.stable,   bounds.alone,  NO_BOUND,
+                    NO_BOUND,       NO_BOUND,      NO_BOUND,        NO_BOUND,      NO_BOUND};
   double sum = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
     for (int k = 0; k < 3; k++) {
@@ -99,9 +100,12 @@ HVI::StableSteps HVI::stable_steps(const LAMMPS *lmp, const std::vector<TimeStep
 
   travel = std::min(travel, lowest[MEET]);
 
-  return {factor * lowest[CONTACT], factor * lowest[SPRING],
-          std::min(factor * lowest[APPROACH], travel),
-          std::min(factor * lowest[SIGNAL], lowest[STABLE]), lowest[GROWTH]};
+  StableSteps steps = {factor * lowest[CONTACT], factor * lowest[SPRING],
+                       std::min(factor * lowest[APPROACH], travel),
+                       std::min(factor * lowest[SIGNAL], lowest[STABLE]), lowest[GROWTH]};
+  if (std::min({steps.contact, steps.spring, steps.approach, steps.signal}) >= factor * NO_BOUND)
+    steps.signal = factor * lowest[ALONE];
+  return steps;
 }
 
 /* ---------------------------------------------------------------------- */

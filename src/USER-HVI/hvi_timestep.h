@@ -9,6 +9,7 @@
 #ifndef LMP_HVI_TIMESTEP_H
 #define LMP_HVI_TIMESTEP_H
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -30,6 +31,7 @@ struct TimeStepBounds {
   double spring = NO_BOUND;      // stiffness of intact bonds
   double approach = NO_BOUND;    // stiffness where approaching pairs will turn back
   double signal = NO_BOUND;      // not of a stiffness: a length over the speed of signals
+  double alone = NO_BOUND;       // the same of what has no neighbors: counts if nothing else does
 
   // a step that is stable as it is: not in proportion to C
 
@@ -73,6 +75,10 @@ class TimeStepSource {
   virtual ~TimeStepSource() noexcept(false) {}
   virtual void tighten(TimeStepBounds &bounds) = 0;
   virtual bool at_hand() const { return false; }    // it is left over from the last forces
+
+  // for an error message: what on this rank has the fastest signals, a particle say, and its state
+
+  virtual std::string fastest_signal() const { return ""; }
 };
 
 // shortest distance over which the pair style acts, NO_BOUND without one

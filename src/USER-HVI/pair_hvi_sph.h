@@ -56,6 +56,7 @@ class PairHVISPH :
   void prepare() override { scheme->prepare(); }
   void tighten(HVI::TimeStepBounds &bounds) override { scheme->tighten(bounds); }
   bool at_hand() const override { return true; }
+  std::string fastest_signal() const override { return scheme->fastest_signal(); }
   double memory_usage() override;
 
  private:

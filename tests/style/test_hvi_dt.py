@@ -1,5 +1,7 @@
 """fix hvi/dt: C sqrt(m/k) of the stiffest pair, m its reduced mass, now or where it will turn back; what limits it."""
 
+import re
+
 import numpy as np
 import pytest
 from scenes import KAPPA, PAIR, R_EQ, State, collision, contact, cube, scene
@@ -202,6 +204,57 @@ def test_growth_is_that_of_the_sources(lmp):
     assert growth[SPH] == pytest.approx(1.01, rel=1e-9) and growth["all"] == pytest.approx(1.0005, rel=1e-9)
 
 
+TWO = """units lj
+atom_style sph
+atom_modify map array
+region box block -9 9 -9 9 -9 9
+create_box 2 box
+create_atoms 1 single 0 0 0
+create_atoms 1 single 1 0 0
+mass * 1.0
+set group all sph/rho 1.0
+pair_style hvi/sph cubic
+pair_coeff * * eos tait 1.0 1.0 7 h 1.2
+fix fluid all hvi/sph
+"""
+
+
+def faster(sound):
+    """the same two particles with another speed of sound"""
+    return f"pair_coeff * * eos tait 1.0 {sound} 7 h 1.2\n"
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_floor(lmp, nranks):
+    """a hundredth of the first step ends the run by default, another part if asked for; 0: never"""
+    step = f"fix step all hvi/dt {C} {{}}\n{SHOW.replace('fix nve all nve', '')}run 1\n"
+    for words, part in (("", 0.01), ("floor 0.2", 0.2), ("floor 0", 1e-5)):
+        row = lmp(TWO + step.format(words) + faster(0.999 / part) + "run 1\n", nranks=nranks).thermo
+        assert row["Dt"][0] == pytest.approx(C * 1.2 * part / 0.999, rel=1e-12) and row["f_step[3]"][0] == SIGNAL
+    for words, part in (("", 0.01), ("floor 0.2", 0.2)):
+        error = lmp(TWO + step.format(words) + faster(1.001 / part) + "run 1\n", nranks=nranks, expect_fail=True).error
+        dt = C * 1.2
+        assert re.search(rf"Time step {dt * part / 1.001:.5g}\d* of fix hvi/dt fell below floor {part} times the first one, {dt:g}, at step 1", error), error
+        assert "give fix hvi/dt another floor" in error
+
+
+def test_floor_is_no_matter_of_contacts(lmp):
+    """whose bounce may be a thousand times shorter than the way there: they have min"""
+    text = scene(pair(1.5, 1.0), "s.data") + f"fix step all hvi/dt {C} max 0.02 every 1\n" + SHOW + "run 0\nvelocity all ramp vx 0 -1e5 x 0 1 units box\nrun 0\n"
+    t = lmp(text).thermo
+    assert t["Dt"][0] < 1e-3 * 0.02
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_floor_after_a_restart(lmp, nranks):
+    """the first step is that of the first run"""
+    step = f"fix step all hvi/dt {C}\nrun 1\n" + faster(50.0) + "run 1\nwrite_restart r\n"
+    lmp(TWO + step, nranks=nranks)
+    again = f"read_restart r\n{faster(99.0)}fix fluid all hvi/sph\nfix step all hvi/dt {C}\nrun 1\n"
+    lmp(again, nranks=nranks)
+    assert f"the first one, {C * 1.2:g}" in lmp(again.replace("coeff * * eos tait 1.0 99.0", "coeff * * eos tait 1.0 101.0"), nranks=nranks, expect_fail=True).error
+
+
 @pytest.mark.parametrize("stiff", [1, 2])
 def test_every_contact_of_a_hybrid(lmp, stiff):
     """two hvi/contact under hybrid: whichever is stiffer limits"""
@@ -236,3 +289,72 @@ def test_one_mass_or_several(lmp, speed, why, nranks):
         rate = np.minimum((d * u).sum(axis=1) / r, 0.0)[near]
         e = np.where(rate < 0.0, 0.25 * rate**2 + contact(r[near])[0], 0.0)
         assert fast == pytest.approx(C * np.sqrt(0.5 / stiffness(turning(e.max()))), rel=1e-12)
+
+
+GAS = "pair_coeff * * eos idealgas 1.4 h 1.2\n"
+METAL = "# UNITS: lj\neos gruneisen\n  rho0 1\n  C 1\n  S1 1.4\n  g0 2\n  a 0.5\n  cp 1\n  T0 300\nstrength perfect\n  G 0.3\n  Y 0.1\n"
+CASES = {  # words of pair_style, pair_coeff, fixes, square of the speed of sound of an energy per mass
+    "monaghan": ("", GAS, "", lambda e: 0.56 * e),
+    "riemann": ("dissipation riemann", GAS, "", lambda e: 0.56 * e),
+    "variable": ("dissipation riemann h variable", GAS, "", lambda e: 0.56 * e),
+    "solid": ("", "pair_coeff * * file metal.hvi h 1.2\n", "fix solid all hvi/johnson-cook strength perfect damage no spall none thermal no\n", lambda e: 1.0 + 4.5 * e + 0.4),
+    "plain": ("gradient plain", "pair_coeff * * file metal.hvi h 1.2\n", "fix solid all hvi/johnson-cook strength perfect damage no spall none thermal no\n", lambda e: 1.0 + 4.5 * e + 0.4),
+}
+
+
+def cold_and_hot(case, cold, hot, box=40.0, words="", y="f", newton="on"):
+    """particles at rest, one of them hot, the last; the first has a neighbor at 1.0"""
+    own, coeff, fixes, _ = CASES[case]
+    text = f"units lj\nnewton {newton}\natom_style sph\natom_modify map array\nboundary f {y} f\nregion box block 0 40 0 {box} 0 40\ncreate_box 2 box\n"
+    text += "".join(f"create_atoms 1 single {x[0]} {x[1]} {x[2]}\n" for x in cold) + f"create_atoms 2 single {hot[0]} {hot[1]} {hot[2]}\nmass * 1.0\n"
+    text += f"set group all sph/rho 1.0\nset type 1 sph/e 1.0\nset type 2 sph/e 1e4\npair_style hvi/sph cubic {own} {words}\n{coeff}fix fluid all hvi/sph\n{fixes}"
+    return text + "neighbor 0.3 bin\n"
+
+
+@pytest.fixture
+def metal(tmp_path):
+    (tmp_path / "metal.hvi").write_text(METAL)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_sound_of_what_is_alone(lmp, metal, case):
+    """counts no more than what is not there: a hot particle limits the step from when others come near"""
+    pairs = [[10, 10, 10], [11, 10, 10]]
+    sound = {e: np.sqrt(CASES[case][3](e)) for e in (1.0, 1e4)}
+    step = f"fix step all hvi/dt {C}\n{SHOW.replace('fix nve all nve', '')}run 0\n"
+    beyond = 14.0 if case == "variable" else 12.8  # what lists reach: of the largest h
+    for hot, e in (((30, 10, 10), 1.0), ((10, beyond, 10), 1.0), ((10, 12.3, 10), 1e4)):
+        row = lmp(cold_and_hot(case, pairs, hot) + step).thermo
+        assert row["Dt"][0] == pytest.approx(C * 1.2 / sound[e], rel=1e-9) and row["f_step[3]"][0] == SIGNAL, hot
+
+
+@pytest.mark.parametrize("case", ["monaghan", "riemann", "solid"])
+def test_neighbors_anywhere(lmp, metal, case):
+    """on another rank, by newton on and off; across a periodic face; its own ghost, and its own image in a mirror plane"""
+    hot = C * 1.2 / np.sqrt(CASES[case][3](1e4))
+    cold = C * 1.2 / np.sqrt(CASES[case][3](1.0))
+    step = f"fix step all hvi/dt {C}\n{SHOW.replace('fix nve all nve', '')}run 0\n"
+    pairs = [[10, 10, 10], [11, 10, 10]]
+
+    def dt(*args, nranks=1, more="", **how):
+        return lmp(cold_and_hot(case, *args, **how) + more + step, nranks=nranks).thermo["Dt"][0]
+
+    for newton in ("on", "off"):
+        for a, b in ((19.5, 20.5), (20.5, 19.5)):
+            assert dt([*pairs, [a, 20, 20]], [b, 20, 20], nranks=2, more="", newton=newton) == pytest.approx(hot, rel=1e-9), (newton, a)
+        assert dt([*pairs, [20, 0.5, 20]], [20, 39.5, 20], y="p", newton=newton) == pytest.approx(hot, rel=1e-9)
+        assert dt([[10, 1, 10], [11, 1, 10]], [30, 1, 10], box=2.0, y="p", newton=newton) == pytest.approx(hot, rel=1e-9)
+    for x, want in ((1.0, hot), (1.5, cold)):
+        assert dt([[10, 10, 10], [11, 10, 10]], [x, 30, 10], words="mirror x 0 lo") == pytest.approx(want, rel=1e-9), x
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_error_names_the_particle(lmp, nranks):
+    """with the fastest sound over its h, on whichever rank it is, and its state"""
+    text = cold_and_hot("riemann", [[10, 10, 10], [11, 10, 10], [30, 10, 10], [5, 30, 10]], [31, 10, 10])
+    text += f"set type 2 sph/e 1.0\nset atom 4 sph/e 1e9\nfix step all hvi/dt {C}\nrun 0\nset type 2 sph/e 1e6\nset type 2 sph/rho 0.5\nrun 0\n"
+    for more, says in (("", "below floor 0.01"), (f"fix step all hvi/dt {C} min 0.01\nrun 0\n", "below min 0.01")):
+        said = lmp(text.replace("rho 0.5\nrun 0\n", "rho 0.5\n" + (more or "run 0\n")), nranks=nranks, expect_fail=True).error
+        c = np.sqrt(0.56 * 1e6)
+        assert says in said and f"the fastest sound is {c:.5g}" in said
+        assert "of particle 5 (type 2) at density 0.5, energy per mass 1000000, h 1.2" in said

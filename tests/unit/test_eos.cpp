@@ -99,7 +99,7 @@ TEST(Hugoniot, CubicOfLead)
   }
 }
 
-// the form as it is printed in LS-DYNA's manual
+// the form as it is printed in LS-DYNA's manual; what pushes in expansion pushes less, of second order at rho0
 
 TEST(Hugoniot, LsDynaFormAsPrinted)
 {
@@ -113,7 +113,12 @@ TEST(Hugoniot, LsDynaFormAsPrinted)
       const double cold = rho0 * C * C * mu;
       const double p = mu > 0 ? cold * (1 + (1 - g0 / 2) * mu - a / 2 * mu * mu) / (D * D) + thermal
                               : cold + thermal;
-      EXPECT_NEAR(pressure(*law, rho0 * (1 + mu), e), p, 1e-12 * std::fabs(p) + 1.0) << mu;
+      const double here = pressure(*law, rho0 * (1 + mu), e);
+      if (mu < -1e-9 && p > 0) {
+        EXPECT_LT(here, p) << mu;
+        EXPECT_GT(here, (1 - 3 * mu * mu) * p) << mu;
+      } else
+        EXPECT_NEAR(here, p, 1e-12 * std::fabs(p) + 1.0) << mu;
     }
 }
 

@@ -9,6 +9,7 @@
 #ifndef LMP_HVI_EOS_GRUNEISEN_H
 #define LMP_HVI_EOS_GRUNEISEN_H
 
+#include "hvi_eos_expansion.h"
 #include "hvi_eos_thermal.h"
 #include "hvi_parameter.h"
 
@@ -19,7 +20,8 @@ namespace HVI {
    volume correction a of Gamma, mu = rho/rho0 - 1, E = rho0 e:
 
      p = rho0 C^2 mu [1 + (1 - g0/2) mu - a/2 mu^2]/D^2 + (g0 + a mu) E   mu > 0
-     p = rho0 C^2 mu + (g0 + a mu) E                                      mu <= 0
+     p = rho0 C^2 mu + (g0 + a mu) E                                      mu <= 0, less where p > 0:
+                                                                          hvi_eos_expansion.h
      D = 1 - (S1-1) mu - S2 mu^2/(mu+1) - S3 mu^3/(mu+1)^2
 
    LS-DYNA Keyword User's Manual, vol II, EOS 4; Steinberg, UCRL-MA-106439
@@ -47,11 +49,14 @@ struct EosGruneisen {
   };
 
   double rho0, c0, S1, g0, a, cp, S2, S3, T0, rho_max;
+  HotExpansion hot;
   ThermalTable thermal;
 
   static EosGruneisen make(const double *v)
   {
-    EosGruneisen law = {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], NO_LIMIT, {}};
+    EosGruneisen law = {
+        v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], NO_LIMIT, HotExpansion(v[3] - v[4]),
+        {}};
     law.rho_max = law.rho0 / (1.0 - law.first_eta(0.01));
     law.thermal.fill(law);
     return law;
@@ -82,7 +87,7 @@ struct EosGruneisen {
   {
     const double v = 1.0 / rho, x = rho0 * v, eta = 1.0 - x;
     const double mu = (rho - rho0) / rho0;
-    const double gamma = g0 + a * mu;
+    double gamma = g0 + a * mu;    // dp/de/rho0
     const double k = rho0 * c0 * c0;
     double slope;    // dp/dmu at constant e
     if (mu > 0.0) {
@@ -98,6 +103,7 @@ struct EosGruneisen {
     } else {
       p = k * mu + gamma * rho0 * e;
       slope = k + a * rho0 * e;
+      hot.apply(rho / rho0, 1.0, p, slope, gamma);
     }
     csq = slope / rho0 + p * v * x * gamma;
   }

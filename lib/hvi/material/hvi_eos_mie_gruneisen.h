@@ -9,6 +9,7 @@
 #ifndef LMP_HVI_EOS_MIE_GRUNEISEN_H
 #define LMP_HVI_EOS_MIE_GRUNEISEN_H
 
+#include "hvi_eos_expansion.h"
 #include "hvi_eos_thermal.h"
 #include "hvi_parameter.h"
 
@@ -23,7 +24,7 @@ namespace HVI {
 
    Esposito (2024) eqs 2.11-2.13; eq 2.14 as printed drops -g0 eta/2.  In
    expansion, where the Hugoniot says nothing, the line of LS-DYNA's form is
-   taken; it joins with the same slope.
+   taken, less where it pushes: see hvi_eos_expansion.h; it joins with the same slope.
    C/Us = 1 - S1 eta vanishes on the pole; the law ends where it is 1/100.
 ------------------------------------------------------------------------- */
 
@@ -38,11 +39,12 @@ struct EosMieGruneisen {
   };
 
   double rho0, c0, S1, g0, cp, T0, rho_max;
+  HotExpansion hot;
   ThermalTable thermal;
 
   static EosMieGruneisen make(const double *v)
   {
-    EosMieGruneisen law = {v[0], v[1], v[2], v[3], v[4], v[5], NO_LIMIT, {}};
+    EosMieGruneisen law = {v[0], v[1], v[2], v[3], v[4], v[5], NO_LIMIT, HotExpansion(v[3]), {}};
     if (law.S1 > 0.99) law.rho_max = law.rho0 / (1.0 - 0.99 / law.S1);
     law.thermal.fill(law);
     return law;
@@ -52,7 +54,7 @@ struct EosMieGruneisen {
   {
     const double v = 1.0 / rho, eta = 1.0 - rho0 * v;
     const double k = rho0 * c0 * c0;
-    double slope;    // dp/drho at constant e
+    double slope, g = g0;    // dp/drho at constant e, dp/de/rho0
     if (eta > 0.0) {
       const double d = 1.0 / (1.0 - S1 * eta);
       const double ph = k * eta * d * d;
@@ -62,8 +64,9 @@ struct EosMieGruneisen {
     } else {
       p = c0 * c0 * (rho - rho0) + rho0 * g0 * e;
       slope = c0 * c0;
+      hot.apply(rho / rho0, 1.0 / rho0, p, slope, g);
     }
-    csq = slope + p * v * v * rho0 * g0;
+    csq = slope + p * v * v * rho0 * g;
   }
 
   // in compression: pressure at e = 0, and dp/de/rho0

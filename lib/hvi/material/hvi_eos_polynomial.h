@@ -9,6 +9,7 @@
 #ifndef LMP_HVI_EOS_POLYNOMIAL_H
 #define LMP_HVI_EOS_POLYNOMIAL_H
 
+#include "hvi_eos_expansion.h"
 #include "hvi_eos_thermal.h"
 #include "hvi_parameter.h"
 
@@ -18,7 +19,8 @@ namespace HVI {
    Polynomial, mu = rho/rho0 - 1:
 
      p = A1 mu + A2 mu^2 + A3 mu^3 + (B0 + B1 mu + B2 mu^2) rho0 e   mu > 0
-     p = T1 mu + T2 mu^2 + B0 rho0 e                                 mu <= 0
+     p = T1 mu + T2 mu^2 + B0 rho0 e                                 mu <= 0, less where p > 0:
+                                                                     hvi_eos_expansion.h
 
    Esposito (2024) eq 2.15; AUTODYN Theory Manual, Polynomial Equation of
    State, where B2 = 0 and T1 = 0 stands for T1 = A1, as it does here;
@@ -43,12 +45,14 @@ struct EosPolynomial {
   };
 
   double rho0, A1, A2, A3, B0, B1, B2, T1, T2, cp, T0, c0, rho_max;
+  HotExpansion hot;
   ThermalTable thermal;
 
   static EosPolynomial make(const double *v)
   {
     EosPolynomial law = {v[0], v[1], v[2], v[3],  v[4], v[5],     v[6],
-                         v[7], v[8], v[9], v[10], 0.0,  NO_LIMIT, {}};
+                         v[7], v[8], v[9], v[10], 0.0,  NO_LIMIT, HotExpansion(v[4]),
+                         {}};
     if (law.T1 == 0.0) law.T1 = law.A1;
     law.c0 = std::sqrt(law.A1 / law.rho0);
     law.thermal.fill(law);
@@ -67,6 +71,7 @@ struct EosPolynomial {
       gamma = B0;
       p = mu * (T1 + mu * T2) + gamma * rho0 * e;
       slope = T1 + 2.0 * mu * T2;
+      hot.apply(rho / rho0, 1.0, p, slope, gamma);
     }
     csq = slope / rho0 + p / (rho * rho) * rho0 * gamma;
   }
