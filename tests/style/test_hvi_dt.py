@@ -298,7 +298,6 @@ CASES = {  # words of pair_style, pair_coeff, fixes, square of the speed of soun
     "riemann": ("dissipation riemann", GAS, "", lambda e: 0.56 * e),
     "variable": ("dissipation riemann h variable", GAS, "", lambda e: 0.56 * e),
     "solid": ("", "pair_coeff * * file metal.hvi h 1.2\n", "fix solid all hvi/johnson-cook strength perfect damage no spall none thermal no\n", lambda e: 1.0 + 4.5 * e + 0.4),
-    "plain": ("gradient plain", "pair_coeff * * file metal.hvi h 1.2\n", "fix solid all hvi/johnson-cook strength perfect damage no spall none thermal no\n", lambda e: 1.0 + 4.5 * e + 0.4),
 }
 
 
