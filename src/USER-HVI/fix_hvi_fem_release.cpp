@@ -278,7 +278,8 @@ void FixHVIFEM::let_go(const std::vector<char> &freed)
 }
 
 /* ----------------------------------------------------------------------
-   Nodes that no element needs any more are taken out when particles are exchanged
+   Nodes that no element needs any more are taken out when particles are exchanged; as fix evaporate does, with
+   ghosts forgotten and a new map: fix balance may migrate particles before LAMMPS does so itself
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::pre_exchange()
@@ -293,6 +294,9 @@ void FixHVIFEM::pre_exchange()
     atom->nlocal--;
   }
   atom->natoms -= all;
+  atom->nghost = 0;
+  atom->map_init();
+  atom->map_set();
 }
 
 /* ---------------------------------------------------------------------- */
