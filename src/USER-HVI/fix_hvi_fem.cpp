@@ -23,6 +23,7 @@
 #include "force.h"
 #include "group.h"
 #include "hvi_compat.h"
+#include "hvi_interface.h"
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -115,6 +116,7 @@ void FixHVIFEM::init()
   if (total < 0) total = all;
   expected = -1;
   make_groups();
+  others = find_others();
 }
 
 /* ----------------------------------------------------------------------
@@ -192,6 +194,7 @@ void FixHVIFEM::setup(int /*vflag*/)
   if (every > 0) list_elements();
   going_on = false;    // from now on forces are made anew
   check_drag();
+  check_fixes();
 }
 
 /* ----------------------------------------------------------------------
@@ -211,6 +214,58 @@ void FixHVIFEM::check_drag()
         "Fix hvi/fem hourglass/viscous {} with a timestep of {:.3g} times the stable one of the "
         "elements: their product must be at most {}, or the drag may be unstable",
         options.viscous, update->dt / stable, MOST_DRAG);
+}
+
+/* ----------------------------------------------------------------------
+   Forces of fixes come after those of elements have gone to nodes.  What acts on nodes, of a body as gravity
+   say, is all that there is; what acts on particles in them only would be lost.
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::check_fixes()
+{
+  std::vector<int> of_nodes(nodes.size()), of_particles(inside.size());
+  const auto pack = [this](int i, double *b) {
+    b[0] = atom->mask[i];
+  };
+  nodes.gather(1, pack, [&](int k, const double *b) {
+    of_nodes[k] = b[0];
+  });
+  particles.gather(1, pack, [&](int k, const double *b) {
+    of_particles[k] = b[0];
+  });
+  for (const Fix *const fix : modify->get_fix_list()) {
+    if (!(modify->fmask[modify->find_fix(fix->id)] & POST_FORCE)) continue;
+    bigint lost = 0, everywhere;
+    for (std::size_t k = 0; k < inside.size(); k++) {
+      int on_nodes = 0;
+      for (int a = 0; a < CORNERS; a++) on_nodes |= of_nodes[corner[CORNERS * inside[k].e + a]];
+      lost += (of_particles[k] & fix->groupbit) && !(on_nodes & fix->groupbit);
+    }
+    MPI_Allreduce(&lost, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    if (everywhere)
+      error->all(
+          FLERR,
+          "Fix hvi/fem: what fix {} ({}) does to {} particles in elements would be lost: fixes "
+          "act on elements by their nodes, which its group {} must have, too",
+          fix->id, fix->style, everywhere, group->names[fix->igroup]);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   whether particles in elements have forces or energy of pairs of other styles, or of bonds
+------------------------------------------------------------------------- */
+
+bool FixHVIFEM::find_others() const
+{
+  if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
+    return true;
+  for (Pair *const pair : HVI::pair_styles(force)) {
+    if (pair == force->pair_match("^hvi/sph$", 0)) continue;
+    for (int itype = 1; itype <= atom->ntypes; itype++)
+      for (int jtype = 1; jtype <= atom->ntypes; jtype++)
+        if (inner[itype] && HVI::acts(force, pair, itype, jtype)) return true;
+  }
+  return false;
 }
 
 // tables of nodes are others when particles have been exchanged

@@ -182,7 +182,13 @@ class FixHVIFEM :
   };
   std::vector<double> node, push;    // of nodes: the above; forces
   std::vector<double> rows;          // of particles
-  std::vector<Now> now;              // by element
+  struct Beside {
+    double f[3], power;
+  };
+  std::vector<Beside>
+      beside;     // of owned and ghost particles: what other styles do to those in elements
+  bool others;    // there may be such
+  std::vector<Now> now;                                                   // by element
   std::vector<std::vector<std::array<double, HVI::CORNERS>>> subcells;    // by n
   double dt_last;     // of the step of the last forces
   double shortest;    // stable step
@@ -226,6 +232,9 @@ class FixHVIFEM :
   bool waits(std::size_t first, int n) const;
   void make_forces(double dt);
   void gather_forces();
+  bool find_others() const;
+  void gather_beside();
+  void check_fixes();
   void element_forces(std::size_t first, int n, double dt);
   void bring_forces();
   int shared(std::size_t) const;

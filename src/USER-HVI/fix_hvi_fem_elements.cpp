@@ -16,12 +16,14 @@
 #include "fix_hvi_fem.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_ledger.h"
 #include "fix_hvi_sph.h"
 #include "fix_hvi_store.h"
+#include "force.h"
 #include "hvi_compat.h"
 #include "update.h"
 
@@ -338,7 +340,7 @@ void FixHVIFEM::pre_reverse(int, int)
 void FixHVIFEM::make_forces(double dt)
 {
   for (std::size_t e = 0; e < elements.size(); e++) {
-    if (!active[e]) continue;
+    if (!active[e] && !others) continue;
     elements[e].power = 0.0;
     std::fill_n(elements[e].pair_force, 3 * CORNERS, 0.0);
   }
@@ -360,6 +362,7 @@ void FixHVIFEM::make_forces(double dt)
         now[e].work += one.pair_force[3 * a + k] * at(e, a)[V + k];
       }
   }
+  if (others) gather_beside();
   bring_forces();
 }
 
@@ -407,6 +410,43 @@ void FixHVIFEM::gather_forces()
         for (int a = 0; a < CORNERS; a++)
           for (int d = 0; d < 3; d++) one.pair_force[3 * a + d] += N[a] * b[FORCE + d];
       });
+}
+
+/* ----------------------------------------------------------------------
+   What other styles did to particles: all of their forces but those of pair hvi/sph, to nodes with the weights N_a, so they
+   work on particles and nodes alike, and their energy is where these styles have it; and heat, to elements.
+   Sums over ghosts are done here, as the forces of nodes must be complete before other fixes see them.
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::gather_beside()
+{
+  const HVI::SphFields &fields = store->fields;
+  beside.assign(atom->nlocal + atom->nghost, Beside());
+  for (std::size_t i = 0; i < beside.size(); i++)
+    if (fields.embedded[i])
+      beside[i] = {{atom->f[i][0], atom->f[i][1], atom->f[i][2]}, atom->desph[i]};
+  if (force->newton) comm->reverse_comm(this, sizeof(Beside) / sizeof(double));
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!fields.embedded[i] || fields.is_idle(i)) continue;
+    const HVI::SphRates &rates = fields.view().rates[i];
+    beside[i].f[0] -= rates.fx;
+    beside[i].f[1] -= rates.fy;
+    beside[i].f[2] -= rates.fz;
+    if (fields.settings.energy) beside[i].power -= rates.de;
+  }
+  particles.gather(
+      sizeof(Beside) / sizeof(double),
+      [this](int i, double *b) {
+        memcpy(b, &beside[i], sizeof(Beside));
+      },
+      [this](int k, const double *b) {
+        const Member &m = inside[k];
+        const auto &N = subcells[elements[m.e].n][m.p];
+        elements[m.e].power += b[3];
+        for (int a = 0; a < CORNERS; a++)
+          for (int d = 0; d < 3; d++) push[3 * corner[CORNERS * m.e + a] + d] += N[a] * b[d];
+      });
+  beside.clear();
 }
 
 /* ----------------------------------------------------------------------

@@ -30,7 +30,7 @@ FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), announced(-1), id_before(0), probed(-1), every(0), total(-1), held(0),
     store(nullptr), integrator(nullptr), strength(nullptr), ledger(nullptr), head(nullptr),
     users(nullptr), nodes(lmp), particles(lmp), near(lmp), dt_last(0.0), shortest(HVI::NO_BOUND),
-    smallest(0.0), going_on(false), wraps(false), nearby(0.0), count()
+    smallest(0.0), others(false), going_on(false), wraps(false), nearby(0.0), count()
 {
   if (igroup != 0)
     error->all(FLERR,
@@ -65,7 +65,8 @@ FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
   create_attribute = 1;
   force_reneighbor = 1;
   next_reneighbor = -1;
-  comm_forward = comm_reverse = 1;
+  comm_forward = 1;
+  comm_reverse = sizeof(Beside) / sizeof(double);
   maxexchange_dynamic = 1;
   maxexchange = 2 + 8 * Element::SIZE;
   wd_header = 1;

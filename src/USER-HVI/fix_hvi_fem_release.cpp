@@ -314,6 +314,10 @@ void FixHVIFEM::unpack_forward_comm(int n, int first, double *buf)
 
 int FixHVIFEM::pack_reverse_comm(int n, int first, double *buf)
 {
+  if (!beside.empty()) {
+    memcpy(buf, &beside[first], n * sizeof(Beside));
+    return n * sizeof(Beside) / sizeof(double);
+  }
   for (int k = 0; k < n; k++) buf[k] = flags[first + k];
   return n;
 }
@@ -321,5 +325,9 @@ int FixHVIFEM::pack_reverse_comm(int n, int first, double *buf)
 void FixHVIFEM::unpack_reverse_comm(int n, int *list, double *buf)
 {
   for (int k = 0; k < n; k++)
-    if (buf[k] != 0.0) flags[list[k]] = 1;
+    if (!beside.empty()) {
+      for (int d = 0; d < 3; d++) beside[list[k]].f[d] += buf[4 * k + d];
+      beside[list[k]].power += buf[4 * k + 3];
+    } else if (buf[k] != 0.0)
+      flags[list[k]] = 1;
 }
