@@ -17,38 +17,142 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
-#include "fix_hvi_ledger.h"
 #include "fix_hvi_sph.h"
 #include "fix_hvi_store.h"
 #include "force.h"
 #include "group.h"
-#include "hvi_compat.h"
 #include "memory.h"
 #include "modify.h"
-#include "neighbor.h"
 #include "output.h"
 #include "update.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
+#include <map>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
 using HVI::CORNERS;
+using HVI::LANES;
 
 /* ---------------------------------------------------------------------- */
 
+FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
+    FixHVIFEMMesh(lmp, narg, arg), coupling(lmp, *this)
+{
+  if (igroup != 0)
+    error->all(FLERR,
+               "Fix hvi/fem must be of group all, not {}: elements say which particles are "
+               "theirs",
+               group->names[igroup]);
+  read_options(narg, arg);
+  if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
+    error->all(FLERR, "Fix hvi/fem needs atom_style sph");
+  if (atom->map_style == Atom::MAP_NONE)
+    error->all(FLERR, "Fix hvi/fem needs a map of particles by ID: use atom_modify map yes");
+
+  scalar_flag = vector_flag = 1;
+  size_vector = NCOUNT + 2;
+  extscalar = 0;    // a number, never per particle
+  extvector = 0;
+  global_freq = 1;
+  if (!probes.empty()) {
+    array_flag = 1;
+    size_array_rows = probes.size();
+    size_array_cols = Probe::NVALUE;
+    extarray = 0;
+  }
+  if (every > 0) {
+    local_flag = 1;
+    local_freq = every;
+    size_local_rows = 0;
+    size_local_cols = NCOLUMN;
+  }
+  restart_global = 1;
+  force_reneighbor = 1;
+  next_reneighbor = -1;
+  nevery = 1;
+  begin();
+}
+
 FixHVIFEM::~FixHVIFEM()
 {
-  if (copymode || !head) return;
-  atom->delete_callback(id, Atom::GROW);
-  atom->delete_callback(id, Atom::RESTART);
-  memory->destroy(head);
-  memory->destroy(users);
   memory->destroy(array_local);
-  unmark_particles();
-  if (FixHVIStore *const now = FixHVIStore::find(lmp)) now->embedded = 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixHVIFEM::read_options(int narg, char **arg)
+{
+  Mechanics::Options &options = mechanics.options;
+  node_types.assign(atom->ntypes + 1, 0);
+  const std::map<std::string, std::pair<double *, double>> numbers = {
+      {"hourglass/viscous", {&options.viscous, 1.0}},
+      {"hourglass/stiffness", {&options.stiffness, 1.0}},
+      {"courant", {&courant, 1.0}},
+      {"strain", {&options.strain, 100.0}},
+      {"jacobian", {&options.jacobian, 1.0}},
+      {"edges", {&options.edges, 1000.0}},
+      {"step", {&options.shrink, 1.0}}};
+  const std::map<std::string, bool *> switches = {
+      {"convert", &converts}, {"damage", &options.damage}, {"spall", &options.spall}};
+  int iarg = 3;
+  const auto needs = [&](int n) {
+    if (iarg + n >= narg)
+      utils::missing_cmd_args(FLERR, std::string("fix hvi/fem ") + arg[iarg], error);
+  };
+  while (iarg < narg) {
+    const std::string key = arg[iarg];
+    if (key == "nodes") {
+      needs(1);
+      int lo, hi;
+      utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, lo, hi, error);
+      std::fill(node_types.begin() + lo, node_types.begin() + hi + 1, 1);
+      iarg += 2;
+    } else if (key == "probe") {
+      needs(3);
+      Probe probe = {};
+      for (int k = 0; k < 3; k++) probe.x[k] = utils::numeric(FLERR, arg[iarg + 1 + k], false, lmp);
+      probes.push_back(probe);
+      iarg += 4;
+    } else if (key == "local") {
+      needs(1);
+      every = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+      if (every < 1) error->all(FLERR, "Fix hvi/fem local must be above 0, not {}", every);
+      iarg += 2;
+    } else if (key == "viscosity") {
+      needs(2);
+      options.q1 = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+      options.q2 = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+      if (!(options.q1 >= 0.0) || !(options.q2 >= 0.0))
+        error->all(FLERR, "Fix hvi/fem viscosity must not be negative: {} {}", options.q1,
+                   options.q2);
+      iarg += 3;
+    } else if (switches.count(key)) {
+      needs(1);
+      *switches.at(key) = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      iarg += 2;
+    } else if (numbers.count(key)) {
+      needs(1);
+      const auto &number = numbers.at(key);
+      *number.first = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+      const double least = key == "edges" ? 1.0 : 0.0;
+      if (!(*number.first >= least && *number.first <= number.second))
+        error->all(FLERR, "Fix hvi/fem {} must be from {} to {}, not {}", key, least, number.second,
+                   arg[iarg + 1]);
+      iarg += 2;
+    } else
+      error->all(FLERR, "Unknown fix hvi/fem keyword: {}", key);
+  }
+  if (std::count(node_types.begin(), node_types.end(), 1) == 0)
+    error->all(FLERR, "Fix hvi/fem needs the types of its nodes: nodes TYPE");
+  if (!(courant > 0.0)) error->all(FLERR, "Fix hvi/fem courant must be above 0");
+
+  if (options.viscous * courant > MOST_DRAG)    // why: check_drag()
+    error->all(FLERR,
+               "Fix hvi/fem hourglass/viscous times courant must be at most {}, or the drag may be "
+               "unstable, not {} times {}",
+               MOST_DRAG, options.viscous, courant);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -65,21 +169,20 @@ void FixHVIFEM::init()
 {
   if (modify->get_fix_by_style("^hvi/fem$").size() > 1)
     error->all(FLERR, "More than one fix hvi/fem: one has all elements");
-  store = FixHVIStore::find(lmp);
-  integrator = nullptr;
+  coupling.store = FixHVIStore::find(lmp);
+  coupling.integrator = nullptr;
   for (Fix *const fix : modify->get_fix_list()) {
-    if (fix == this && !integrator)
+    if (fix == this && !coupling.integrator)
       error->all(FLERR, "Fix hvi/fem must come after fix hvi/sph, which moves its nodes");
-    if (strcmp(fix->style, "hvi/sph") == 0) integrator = dynamic_cast<FixHVISPH *>(fix);
+    if (strcmp(fix->style, "hvi/sph") == 0) coupling.integrator = dynamic_cast<FixHVISPH *>(fix);
   }
-  strength = FixHVIJohnsonCook::find(lmp);
-  if (!store || !force->pair_match("^hvi/sph$", 0) || !strength)
+  coupling.strength = FixHVIJohnsonCook::find(lmp);
+  if (!coupling.store || !force->pair_match("^hvi/sph$", 0) || !coupling.strength)
     error->all(FLERR,
                "Fix hvi/fem needs pair style hvi/sph, for materials, and fix hvi/johnson-cook, for "
                "the laws of solids");
-  if (!store->fields.settings.solid)
-    error->all(FLERR, "Fix hvi/fem needs pair style hvi/sph with gradient corrected");
-  if (domain->dimension != 3 || store->fields.settings.laws.dim != 3)
+  const HVI::SphSettings &set = coupling.store->fields.settings;
+  if (domain->dimension != 3 || set.laws.dim != 3)
     error->all(
         FLERR,
         "Fix hvi/fem needs three dimensions: plane strain is three layers of elements or more "
@@ -88,57 +191,12 @@ void FixHVIFEM::init()
     error->all(FLERR,
                "Fix hvi/fem needs masses of particles, for those of nodes change: use fix ID all "
                "property/atom rmass ghost yes before read_data");
-  ledger = FixHVILedger::instance(lmp);
-  store->embedded = held;
-  wraps = false;
-  nearby = HUGE_VAL;
-  for (int k = 0; k < 3; k++)
-    if (domain->periodicity[k]) {
-      wraps = true;
-      nearby = std::min(nearby, 0.25 * domain->prd[k]);
-    }
-
-  const bigint here = std::count_if(elements.begin(), elements.end(), [](const Element &one) {
-    return one.type > 0;    // others went with their nodes when these were read
-  });
-  bigint all;
-  MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all == 0 && total < 0)
-    error->all(FLERR, "Fix hvi/fem has no elements: use read_data FILE fix {} elements Elements",
-               id);
-  if (total < 0 && expected >= 0 && all != expected)
-    error->all(
-        FLERR,
-        "Fix hvi/fem: {} of {} elements have a first node that is not there: the section Elements "
-        "must come after Atoms, with IDs of nodes as there",
-        expected - all, expected);
-  if (total < 0) total = all;
-  expected = -1;
-  make_groups();
+  FixHVIFEMMesh::init();
+  coupling.init();
 }
 
 /* ----------------------------------------------------------------------
-   Lists leave out pairs of particles that are both inside of elements of one body
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::make_groups()
-{
-  std::vector<int> here(atom->ntypes + 1, 0), used(atom->ntypes + 1);
-  for (const Element &one : elements)
-    if (one.n > 0) here[one.type] = 1;
-  MPI_Allreduce(here.data(), used.data(), used.size(), MPI_INT, MPI_MAX, world);
-  inner.resize(atom->ntypes + 1, 0);
-  for (int itype = 1; itype <= atom->ntypes; itype++) {
-    if (!used[itype] || inner[itype]) continue;
-    const std::string name = fmt::format("{}_inner_{}", id, itype);
-    inner[itype] = group->bitmask[group->find_or_create(name.c_str())];
-    neighbor->modify_params(fmt::format("exclude group {} {}", name, name));
-  }
-}
-
-/* ----------------------------------------------------------------------
-   Of a run that begins: masses that nobody has given, and which particles are in elements, before
-   particles go to other ranks
+   A run begins: masses that nobody has given, and which particles are embedded, before particles go to other ranks
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::setup_pre_exchange()
@@ -146,137 +204,227 @@ void FixHVIFEM::setup_pre_exchange()
   atom->nghost = 0;
   atom->map_init();
   atom->map_set();
-  mark_particles();
+  connect();
+  coupling.mark();
+  find_laws();
+  gather_nodes(0.0, true);
   start_elements();
-  gather_start();
+  gather_nodes(0.0, true);    // with the places and masses of new ones
   check_state();
-  if (!going_on) place_particles({});
+  if (!goes_on) coupling.place();
 }
 
 void FixHVIFEM::setup_pre_neighbor()
 {
   keep_on_planes();
   connect();
-  gather_start();
+  gather_nodes(0.0, true);
   comm->forward_comm();
 }
 
-// there is no other velocity yet
-
-void FixHVIFEM::gather_start()
-{
-  gather_nodes();
-  for (std::size_t k = 0; k < node.size(); k += NODE) std::copy_n(&node[k + V], 3, &node[k + W]);
-}
-
-/* ----------------------------------------------------------------------
-   after fix hvi/sph, which has seen who was changed by others
-------------------------------------------------------------------------- */
+// after fix hvi/sph, which has seen what was changed by others
 
 void FixHVIFEM::setup_pre_force(int /*vflag*/)
 {
-  if (!going_on) place_particles({});
-  show_states(true);
+  if (!goes_on) coupling.place();
+  coupling.show_all();
   comm->forward_comm();
-}
-
-void FixHVIFEM::setup_pre_reverse(int, int)
-{
-  make_forces(0.0);
 }
 
 void FixHVIFEM::setup(int /*vflag*/)
 {
+  at_end = true;
   find_probes();
   show_particles();
   if (every > 0) list_elements();
-  going_on = false;    // from now on forces are made anew
+  goes_on = false;    // from now on forces are made anew
   check_drag();
+  coupling.check_fixes();
 }
 
 /* ----------------------------------------------------------------------
-   The drag takes 16 eps c dt/l of an hourglass's speed in a step, in cubes 9 eps times the step in
-   units of the stable one: with 2, less half the square of its frequency times dt, it grows.  A tenth
-   leaves room for distorted elements.  Where the step is chosen, courant bounds it: read_options().
+   Fix hvi/sph has moved the nodes.  What forces have worked, failures, and particles to their places
 ------------------------------------------------------------------------- */
 
-void FixHVIFEM::check_drag()
+void FixHVIFEM::post_integrate()
 {
-  if (!modify->get_fix_by_style("^(hvi/dt|dt/reset)$").empty()) return;
-  double stable;
-  MPI_Allreduce(&shortest, &stable, 1, MPI_DOUBLE, MPI_MIN, world);
-  if (options.viscous * update->dt > MOST_DRAG * stable)
-    error->all(
-        FLERR,
-        "Fix hvi/fem hourglass/viscous {} with a timestep of {:.3g} times the stable one of the "
-        "elements: their product must be at most {}, or the drag may be unstable",
-        options.viscous, update->dt / stable, MOST_DRAG);
+  at_end = false;
+  gather_middle();
+  for (std::size_t e = 0; e < elements.size(); e++)
+    mechanics.first_half(elements[e], nodes_of(e), update->dt);
+  if (converts) release();
+  coupling.place();
 }
 
-// tables of nodes are others when particles have been exchanged
+/* ----------------------------------------------------------------------
+   In the middle of a step, with the state of its begin: an element that has failed leaves its particles to
+   themselves.  Nodes lose its part of their mass, particles have as much, and the same momentum; kinetic
+   energy of what nodes did against each other is heat.
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::release()
+{
+  enum { FREED, STATES, N };
+  int here[N] = {0, 0}, all[N];
+  std::vector<std::size_t> freed;
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    Element &one = elements[e];
+    if (one.n == 0) continue;
+    HVI::Corners x;
+    places(e, x);
+    const HVI::ElementNodes corners = nodes_of(e);
+    const Mechanics::Failure why = mechanics.failure(one, corners, x);
+    if (why == Mechanics::NONE) continue;
+    freed.push_back(e);
+    here[FREED]++;
+    if (!steps[e].paired) here[STATES] = 1;
+    const double heat = mechanics.let_go(one, corners, cells(e));
+    counts[why] += 1.0;
+    counts[HEAT] += one.mass * heat;
+    counts[HOURGLASS] += one.hourglass;
+  }
+  MPI_Allreduce(here, all, N, MPI_INT, MPI_SUM, world);
+  if (!all[FREED]) return;
+  total -= all[FREED];
+  next_reneighbor = update->ntimestep;
+  if (all[STATES]) coupling.show_all();    // pairs have not seen them before
+  for (const std::size_t e : freed) elements[e].type = 0;
+  coupling.take_masses();
+}
+
+/* ----------------------------------------------------------------------
+   Particles have been exchanged
+------------------------------------------------------------------------- */
 
 void FixHVIFEM::pre_neighbor()
 {
   keep_on_planes();
   connect();
-  gather_nodes();
+  gather_middle();
+}
+
+// kicks as far as a step differs from the one before
+
+void FixHVIFEM::gather_middle()
+{
+  gather_nodes(update->dt * update->dt - dt_last * dt_last);
 }
 
 /* ----------------------------------------------------------------------
-   fix hvi/sph has moved the nodes.  What forces have worked, failures, and particles to their places
+   Between the sweeps of pair hvi/sph: elements to the end of the step.  Those that pairs do not act on have their
+   forces at once, while all of their numbers are at hand.
 ------------------------------------------------------------------------- */
 
-void FixHVIFEM::post_integrate()
+void FixHVIFEM::advance()
 {
-  gather_nodes();
-  half_energy(update->dt);
-  std::vector<char> freed;
-  if (options.fails) release(freed);
-  place_particles(freed);
-}
-
-/* ----------------------------------------------------------------------
-   Half of a step's energy.  Forces on nodes work on the velocity v of the middle of the step, in both
-   halves: that is what kinetic energy changes by, but for dt^2/8 f^2/m, which cancels between a
-   step and the next if they are as long; what is left is given back, and at output all of it, see
-   internal_energy().  Of pairs
-   particles have gained de, and forces worked f.w on them at the velocity that pairs have seen; on v
-   it is another work.
-------------------------------------------------------------------------- */
-
-void FixHVIFEM::half_energy(double dt)
-{
-  for (std::size_t e = 0; e < elements.size(); e++) {
-    if (!alive(e)) continue;
-    Element &one = elements[e];
-    double work = 0.0, kick = 0.0;
-    for (int a = 0; a < CORNERS; a++) {
-      const double *const n = at(e, a);
-      for (int k = 0; k < 3; k++)
-        work += (one.force[3 * a + k] + one.pair_force[3 * a + k]) * n[V + k];
-      kick += n[KICK];
+  const bool due = coupling.integrator->is_due();
+  dt_forces = due ? coupling.integrator->step() : 0.0;
+  coupling.gather_sums();
+  shortest = HVI::NO_BOUND;
+  for (std::size_t e = 0; e < elements.size(); e += LANES) {
+    HVI::ElementBatch batch = load(e);
+    if (goes_on)
+      mechanics.resume(batch);
+    else
+      advance_batch(batch, due);
+    for (int lane = 0; lane < batch.n; lane++) {
+      Element &one = batch.element[lane];
+      one.kick = 0.0;
+      if (!(one.stable >= shortest)) shortest = one.stable;
+      if (goes_on || one.stable_at_start > 0.0) continue;
+      one.stable_at_start = one.stable;
+      one.shared = HVI::shared_corners(nodes_of(e + lane));
     }
-    one.change = 0.5 * dt * (one.power - work) / one.mass;
-    one.e += one.change + kick / CORNERS;
-    one.ahead = one.e + one.change;
+    if (!paired(e) && !goes_on) mechanics.forces(batch, dt_forces);
   }
+  coupling.show();
 }
 
-// the second half: forces have worked on velocities that have not changed since they were made
+void FixHVIFEM::advance_batch(HVI::ElementBatch &batch, bool due) const
+{
+  int lane;
+  const Mechanics::Trouble trouble = mechanics.advance(batch, dt_forces, due, lane);
+  if (trouble == Mechanics::NO_TROUBLE) return;
+  const Element &one = batch.element[lane];
+  if (trouble == Mechanics::NOT_A_NUMBER)
+    error->one(FLERR, "Fix hvi/fem: stress of element {} is not a number", one.id);
+  error->one(
+      FLERR,
+      "Fix hvi/fem: element {} (type {}) has turned inside out or collapsed at step {}: volume "
+      "{}, density {}, energy per mass {}; elements that are crushed need particles and "
+      "convert yes, or a smaller courant",
+      one.id, one.type, update->ntimestep, one.V, one.rho, one.ahead);
+}
+
+/* ----------------------------------------------------------------------
+   When pairs have acted: forces of elements, in place of pre_force() of others, for ghosts have not
+   yet sent what happened to them, but sums of what pairs did to embedded particles are at their owners
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::pre_reverse(int, int)
+{
+  coupling.gather_forces();
+  for (std::size_t e = 0; e < elements.size() && !goes_on; e += LANES) {
+    if (!paired(e)) continue;
+    HVI::ElementBatch batch = load(e);
+    mechanics.forces(batch, dt_forces);
+  }
+
+  // in the order of elements, whichever pairs act on: so sums are the same to the last bit when a run goes on with new lists
+
+  node_forces.assign(nodes.size(), {0.0, 0.0, 0.0});
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    const Element &one = elements[e];
+    double work = steps[e].work;
+    for (int a = 0; a < CORNERS; a++) {
+      std::array<double, 3> &f = node_forces[number(e, a)];
+      for (int k = 0; k < 3; k++) {
+        f[k] += one.force[a][k] + one.pair_force[a][k];
+        work += one.pair_force[a][k] * nodes[number(e, a)].v[k];
+      }
+    }
+    steps[e].work = work;
+  }
+  coupling.take_forces(node_forces);
+  bring_forces();
+}
+
+/* ----------------------------------------------------------------------
+   To nodes.  One on a mirror plane stays there: its image does the same on the other side, and what they have
+   in common is half of each.
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::bring_forces()
+{
+  HVI::SphFields &fields = coupling.store->fields;
+  const HVI::MirrorPlanes &mirror = fields.settings.mirror;
+  of_nodes.scatter(node_forces, [&](int i, const std::array<double, 3> &f) {
+    for (int k = 0; k < 3; k++) {
+      if (mirror.has(k) && mirror.depth(k, atom->x[i]) < 0.0)
+        error->one(FLERR,
+                   "Fix hvi/fem: node {} has gone through the mirror plane {} at step {}: walls "
+                   "of elements do not bounce off mirror planes",
+                   atom->tag[i], "xyz"[k], update -> ntimestep);
+      if (mirror.has(k) && atom->x[i][k] == mirror.at[k])
+        fields.plane_force[k] -= f[k];
+      else
+        atom->f[i][k] += f[k];
+    }
+  });
+}
+
+/* ---------------------------------------------------------------------- */
 
 void FixHVIFEM::final_integrate()
 {
+  at_end = true;
   dt_last = update->dt;
-  for (std::size_t e = 0; e < elements.size(); e++) {
-    if (!alive(e)) continue;
-    Element &one = elements[e];
-    one.change = 0.5 * dt_last * (one.power - now[e].work) / one.mass;
-    one.e += one.change;
-  }
+  for (std::size_t e = 0; e < elements.size(); e++)
+    mechanics.second_half(elements[e], steps[e], dt_last);
 }
 
 /* ----------------------------------------------------------------------
-   what output sees of particles in elements: velocity of the end of the step, and all of their state
+   what output sees of embedded particles: velocity of the end of the step, and all of their state
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::end_of_step()
@@ -299,72 +447,21 @@ void FixHVIFEM::post_run()
 void FixHVIFEM::show_particles()
 {
   shown = update->ntimestep;
-  nodes.gather(
-      4,
-      [this](int i, double *b) {
-        std::copy_n(atom->v[i], 3, b);
-        b[3] = half_kick(i);
-      },
-      [this](int k, const double *b) {
-        std::copy_n(b, 3, &node[NODE * k + W]);
-        node[NODE * k + KICK] = dt_last * dt_last * b[3];
-      });
+  gather_nodes(dt_last * dt_last, true);
   for (std::size_t e = 0; e < elements.size(); e++) {
-    if (!alive(e)) continue;
-    elements[e].mark = fingerprint(e);
-    elements[e].step = dt_last;
-    std::copy_n(now[e].L, 9, elements[e].L);
-    elements[e].kick = 0.0;
-    for (int a = 0; a < CORNERS; a++) elements[e].kick += at(e, a)[KICK] / CORNERS;
+    Element &one = elements[e];
+    one.fingerprint = fingerprint(e);
+    one.step = dt_last;
+    std::copy_n(steps[e].L, 9, one.L);
+    one.kick = 0.0;
+    for (const HVI::Node *const node : nodes_of(e)) one.kick += node->kick / CORNERS;
   }
-  particles.scatter(
-      3,
-      [this](int k, double *b) {
-        const Member &m = inside[k];
-        std::fill_n(b, 3, 0.0);
-        if (!alive(m.e)) {
-          b[0] = NAN;
-          return;
-        }
-        const auto &N = subcells[elements[m.e].n][m.p];
-        for (int a = 0; a < CORNERS; a++)
-          for (int d = 0; d < 3; d++) b[d] += N[a] * at(m.e, a)[W + d];
-      },
-      [this](int i, const double *b) {
-        if (!std::isnan(b[0])) std::copy_n(b, 3, atom->v[i]);
-      });
-  show_states(true);
+  coupling.show_velocities();
+  coupling.show_all();
   read_probes();
 }
 
-// dt^2/8 f^2/m per mass, over dt^2: half kicks give that beyond the work on the velocity of the middle of a step
-
-double FixHVIFEM::half_kick(int i) const
-{
-  const double *const f = atom->f[i], m = atom->rmass[i];
-  return 0.125 * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) / (m * m);
-}
-
-// of its nodes: an element that goes on has forces of its own at the start of a run
-
-double FixHVIFEM::fingerprint(std::size_t e) const
-{
-  std::uint64_t mark = 0x9E3779B97F4A7C15ull;
-  for (int a = 0; a < CORNERS; a++)
-    for (int k = 0; k < 3; k++) {
-      std::uint64_t bits;
-      memcpy(&bits, at(e, a) + W + k, sizeof(bits));
-      mark = (mark ^ bits) * 0xFF51AFD7ED558CCDull;
-      mark ^= mark >> 32;
-    }
-  return (double) (mark >> 12) + 1.0;    // with all digits in data files
-}
-
-/* ---------------------------------------------------------------------- */
-
 void FixHVIFEM::tighten(HVI::TimeStepBounds &bounds)
 {
-  if (!(options.courant * shortest >= bounds.stable)) bounds.stable = options.courant * shortest;
+  if (!(courant * shortest >= bounds.stable)) bounds.stable = courant * shortest;
 }
-
-/* ---------------------------------------------------------------------- */

@@ -10,12 +10,13 @@
    Contributing authors: the lammps-hvi developers
 ------------------------------------------------------------------------- */
 
-// what output and the books see of elements; the rest of the class is in fix_hvi_fem.cpp
+// what output, files and the books see of elements
 
 #include "fix_hvi_fem.h"
 
 #include "atom.h"
 #include "comm.h"
+#include "error.h"
 #include "memory.h"
 #include "update.h"
 
@@ -24,73 +25,67 @@
 
 using namespace LAMMPS_NS;
 using HVI::CORNERS;
+using HVI::ELEMENT_SIZE;
 
-/* ---------------------------------------------------------------------- */
-
-// with what the last half kick gave, as known at output, so that the sum with kinetic energy is exact
+/* ----------------------------------------------------------------------
+   of the elements of a particle; internal energy with what the last half kick gave, as known at output, so that the sum with
+   kinetic energy is exact
+------------------------------------------------------------------------- */
 
 double FixHVIFEM::internal_energy(int i) const
 {
   double sum = 0.0;
-  for (int e = head[i]; e >= 0; e = next[e])
-    if (alive(e)) sum += elements[e].mass * (elements[e].e - elements[e].kick);
+  each_of(i, [&](const Element &one) {
+    sum += one.mass * (one.e - one.kick);
+  });
   return sum;
 }
 
 double FixHVIFEM::plastic_work(int i) const
 {
   double sum = 0.0;
-  for (int e = head[i]; e >= 0; e = next[e])
-    if (alive(e)) sum += elements[e].mass * elements[e].s.heat;
+  each_of(i, [&](const Element &one) {
+    sum += one.mass * one.solid.heat;
+  });
   return sum;
 }
 
 double FixHVIFEM::void_work(int i) const
 {
   double sum = 0.0;
-  for (int e = head[i]; e >= 0; e = next[e])
-    if (alive(e)) sum += elements[e].mass * elements[e].s.voids.work;
+  each_of(i, [&](const Element &one) {
+    sum += one.mass * one.solid.voids.work;
+  });
   return sum;
 }
 
 /* ----------------------------------------------------------------------
-   Elements that are left; then sums over ranks: the numbers of those that have become particles, and why;
-   heat of that, hourglass energy of all, elements without particles that have failed, internal
-   energy, smallest step
+   Sums over ranks: the numbers of elements that have become particles, and why; heat of that, hourglass energy of all,
+   elements without particles that have failed, internal energy, smallest step
 ------------------------------------------------------------------------- */
-
-double FixHVIFEM::compute_scalar()
-{
-  return total;
-}
 
 double FixHVIFEM::compute_vector(int k)
 {
-  double here = 0.0, sum;
-  if (k < NCOUNT) {
-    here = count[k];
-    if (k == HOURGLASS)
-      for (const Element &one : elements)
-        if (one.type > 0) here += one.hourglass;
-    if (k == PLAIN)
-      for (const Element &one : elements)
-        if (one.type > 0 && one.n == 0 && one.s.failed()) here += 1.0;
-  } else if (k == NCOUNT) {
-    for (const Element &one : elements)
-      if (one.type > 0) here += one.mass * (one.e - one.kick);
-  } else {
+  double here = k < NCOUNT ? counts[k] : 0.0, sum;
+  if (k > NCOUNT) {
     MPI_Allreduce(&shortest, &sum, 1, MPI_DOUBLE, MPI_MIN, world);
-    return options.courant * sum;
+    return courant * sum;
+  }
+  for (const Element &one : elements) {
+    if (!one.alive()) continue;
+    if (k == HOURGLASS) here += one.hourglass;
+    if (k == PLAIN && one.n == 0 && one.solid.failed()) here += 1.0;
+    if (k == NCOUNT) here += one.mass * (one.e - one.kick);
   }
   MPI_Allreduce(&here, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
   return sum;
 }
 
-// all ranks ask for it; what a run has left is of its last step
+// all ranks ask for it; in the middle of a step, and after a run, it is what was known last
 
 double FixHVIFEM::compute_array(int i, int k)
 {
-  if (update->whichflag && probed != update->ntimestep) read_probes();
+  if (update->whichflag && at_end && probed != update->ntimestep) read_probes();
   return probes[i].value[k];
 }
 
@@ -98,6 +93,22 @@ double FixHVIFEM::compute_array(int i, int k)
    Probes: the element whose center was nearest at the start of the first run: pressure, stress, von Mises
    stress, velocity and center; when it has become particles, 0
 ------------------------------------------------------------------------- */
+
+static void center(const HVI::Corners &x, double c[3])
+{
+  for (int k = 0; k < 3; k++) {
+    c[k] = 0.0;
+    for (int a = 0; a < CORNERS; a++) c[k] += x[a][k] / CORNERS;
+  }
+}
+
+// pressure, stress and von Mises stress
+
+static std::array<double, 8> stress(const HVI::SolidState &solid, double p)
+{
+  const HVI::Deviator &S = solid.S;
+  return {p, S.xx - p, S.yy - p, S.zz - p, S.xy, S.xz, S.yz, HVI::von_mises(S)};
+}
 
 void FixHVIFEM::find_probes()
 {
@@ -109,13 +120,11 @@ void FixHVIFEM::find_probes()
     } here = {HUGE_VAL, comm->me}, nearest;
     std::int64_t id_here = 0;
     for (std::size_t e = 0; e < elements.size(); e++) {
-      double x[CORNERS][3], square = 0.0;
-      corners(e, X, x);
-      for (int k = 0; k < 3; k++) {
-        double center = 0.0;
-        for (const auto &corner_x : x) center += corner_x[k] / CORNERS;
-        square += (center - probe.x[k]) * (center - probe.x[k]);
-      }
+      HVI::Corners x;
+      double c[3], square = 0.0;
+      places(e, x);
+      center(x, c);
+      for (int k = 0; k < 3; k++) square += (c[k] - probe.x[k]) * (c[k] - probe.x[k]);
       if (square >= here.distance) continue;
       here.distance = square;
       id_here = elements[e].id;
@@ -128,38 +137,23 @@ void FixHVIFEM::find_probes()
 
 void FixHVIFEM::read_probes()
 {
-  if (probes.empty() || now.size() != elements.size()) return;
+  if (probes.empty()) return;
   probed = update->ntimestep;
-  std::vector<double> v(3 * nodes.size());    // that of the table is extrapolated until output
-  nodes.gather(
-      3,
-      [this](int i, double *b) {
-        std::copy_n(atom->v[i], 3, b);
-      },
-      [&v](int k, const double *b) {
-        std::copy_n(b, 3, &v[3 * k]);
-      });
+  gather_nodes(0.0, true);
   std::vector<double> here(Probe::NVALUE * probes.size(), 0.0), all(here.size());
-  for (std::size_t e = 0; e < elements.size(); e++) {
-    if (!alive(e)) continue;
+  for (std::size_t e = 0; e < elements.size(); e++)
     for (std::size_t n = 0; n < probes.size(); n++) {
       const Element &one = elements[e];
       if (probes[n].id != one.id) continue;
       double *const value = &here[Probe::NVALUE * n];
-      const HVI::Deviator &S = one.s.S;
-      const double p = now[e].p;
-      const double stress[7] = {p, S.xx - p, S.yy - p, S.zz - p, S.xy, S.xz, S.yz};
-      std::copy_n(stress, 7, value);
-      value[7] = HVI::von_mises(S);
-      double x[CORNERS][3];
-      corners(e, X, x);
-      for (int a = 0; a < CORNERS; a++)
-        for (int k = 0; k < 3; k++) {
-          value[8 + k] += v[3 * corner[CORNERS * e + a] + k] / CORNERS;
-          value[11 + k] += x[a][k] / CORNERS;
-        }
+      const std::array<double, 8> s = stress(one.solid, steps[e].p);
+      std::copy(s.begin(), s.end(), value);
+      for (const HVI::Node *const node : nodes_of(e))
+        for (int k = 0; k < 3; k++) value[8 + k] += node->v[k] / CORNERS;
+      HVI::Corners x;
+      places(e, x);
+      center(x, value + 11);
     }
-  }
   MPI_Allreduce(here.data(), all.data(), here.size(), MPI_DOUBLE, MPI_SUM, world);
   for (std::size_t n = 0; n < probes.size(); n++)
     std::copy_n(&all[Probe::NVALUE * n], +Probe::NVALUE, probes[n].value);
@@ -172,25 +166,56 @@ void FixHVIFEM::read_probes()
 
 void FixHVIFEM::list_elements()
 {
-  size_local_rows = std::count_if(elements.begin(), elements.end(), [](const Element &one) {
-    return one.type > 0;
-  });
+  size_local_rows = elements.size();
   memory->destroy(array_local);
   memory->create(array_local, size_local_rows, NCOLUMN, "hvi/fem:local");
-  int row = 0;
-  for (std::size_t e = 0; e < elements.size(); e++) {
-    if (!alive(e)) continue;
+  for (int e = 0; e < size_local_rows; e++) {
     const Element &one = elements[e];
-    const HVI::Deviator &S = one.s.S;
-    double x[CORNERS][3], center[3] = {};
-    corners(e, X, x);
-    for (const auto &corner_x : x)
-      for (int k = 0; k < 3; k++) center[k] += corner_x[k] / CORNERS;
-    const double p = now[e].p;
-    const double list[NCOLUMN] = {
-        (double) one.id,   (double) one.type, center[0],    center[1], center[2],     p,
-        S.xx - p,          S.yy - p,          S.zz - p,     S.xy,      S.xz,          S.yz,
-        HVI::von_mises(S), one.s.eps,         one.s.damage, one.e,     (double) one.n};
-    std::copy_n(list, +NCOLUMN, array_local[row++]);
+    HVI::Corners x;
+    places(e, x);
+    const std::array<double, 8> s = stress(one.solid, steps[e].p);
+    const double last[] = {one.solid.eps, one.solid.damage, one.e, (double) one.n};
+    double *row = array_local[e];
+    *row++ = one.id;
+    *row++ = one.type;
+    center(x, row);
+    std::copy_n(last, 4, std::copy(s.begin(), s.end(), row + 3));
   }
+}
+
+/* ----------------------------------------------------------------------
+   Restart files: what is of all elements: the last step, their number and what has become of others, and which of them
+   probes have, for the nearest now may be another
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::write_restart(FILE *fp)
+{
+  double sum[NCOUNT];
+  MPI_Reduce(counts, sum, NCOUNT, MPI_DOUBLE, MPI_SUM, 0, world);
+  if (comm->me) return;
+  std::vector<double> list = {(double) ELEMENT_SIZE, dt_last, (double) total};
+  list.insert(list.end(), sum, sum + NCOUNT);
+  list.push_back(probes.size());
+  for (const Probe &probe : probes) {
+    list.insert(list.end(), probe.x, probe.x + 3);
+    list.push_back(probe.id);
+  }
+  const int size = list.size() * sizeof(double);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(list.data(), size, 1, fp);
+}
+
+void FixHVIFEM::restart(char *buf)
+{
+  const double *list = (const double *) buf;
+  if (list[0] != ELEMENT_SIZE)
+    error->all(FLERR, "Fix hvi/fem: the restart file is of another version");
+  dt_last = list[1];
+  total = list[2];
+  if (comm->me == 0) std::copy_n(list + 3, +NCOUNT, counts);
+  list += 3 + NCOUNT;
+  const double *const end = list + 1 + 4 * (int) list[0];
+  for (++list; list < end; list += 4)
+    for (Probe &probe : probes)
+      if (std::equal(probe.x, probe.x + 3, list)) probe.id = list[3];
 }

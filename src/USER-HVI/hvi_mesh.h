@@ -26,7 +26,7 @@ class Mesh {
   // between the two sweeps, when all have the sums of the first: elements are brought to the end of the
   // step, and with them state, density and pressure of the particles they hold
 
-  virtual void settle() = 0;
+  virtual void advance() = 0;
 };
 
 // what has elements; null: there are none

@@ -289,7 +289,7 @@ void HVISchemeSolid::advance()
     if (!integrator->freeze(i)) no_answer(i, T.rho);
     T = {};
   }
-  if (mesh) mesh->settle();
+  if (mesh) mesh->advance();
   if (integrator->is_due()) strength->advance(integrator->step());
   integrator->advanced();
 }

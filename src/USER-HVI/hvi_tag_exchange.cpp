@@ -57,9 +57,12 @@ int HVITagExchange::local(tagint id) const
    what they look for.
 ------------------------------------------------------------------------- */
 
-tagint HVITagExchange::connect(const std::vector<tagint> &wanted,
-                               const std::function<bool(int)> &may_be)
+tagint HVITagExchange::connect(const std::vector<tagint> &wanted, const std::vector<char> &types,
+                               bool that)
 {
+  const auto may_be = [&](int i) {
+    return (types[atom->type[i]] != 0) == that;
+  };
   const int nprocs = comm->nprocs, nlocal = atom->nlocal;
   owned = slots = Side();
   nslots = wanted.size();
@@ -118,19 +121,47 @@ tagint HVITagExchange::connect(const std::vector<tagint> &wanted,
   if (anywhere) return anywhere;
 
   const std::vector<tagint> mine = alltoall(out, from);
-  const auto add = [](Side &side, int rank, int number) {
-    if (!number) return;
-    side.ranks.push_back(rank);
-    if (side.begin.empty()) side.begin.push_back(0);
-    side.begin.push_back(side.begin.back() + number);
-  };
   for (int p = 0; p < nprocs; p++) {
-    add(slots, p, slots_of[p].size());
     slots.there.insert(slots.there.end(), slots_of[p].begin(), slots_of[p].end());
-    add(owned, p, from[p + 1] - from[p]);
+    slots.close(p);
     for (int k = from[p]; k < from[p + 1]; k++) owned.there.push_back(atom->map(mine[k]));
+    owned.close(p);
   }
   return 0;
+}
+
+void HVITagExchange::Side::close(int rank)
+{
+  if (begin.back() == (int) there.size()) return;
+  ranks.push_back(rank);
+  begin.push_back(there.size());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void HVITagExchange::select(const HVITagExchange &all, const std::vector<double> &kept)
+{
+  owned = slots = Side();
+  nslots = all.nslots;
+  for (std::size_t k = 0; k < all.slots.here.size(); k++) {
+    if (kept[all.slots.here[k]] == 0.0) continue;
+    owned.here.push_back(all.owned.here[k]);
+    slots.here.push_back(all.slots.here[k]);
+  }
+  sent.clear();
+  for (const int k : all.slots.there) sent.push_back(kept[k]);
+  received.resize(all.owned.there.size());
+  start(1, all.slots, all.owned);
+  finish();
+  const auto take = [](const Side &from, const std::vector<double> &flags, Side &side) {
+    for (std::size_t p = 0; p < from.ranks.size(); p++) {
+      for (int k = from.begin[p]; k < from.begin[p + 1]; k++)
+        if (flags[k] != 0.0) side.there.push_back(from.there[k]);
+      side.close(from.ranks[p]);
+    }
+  };
+  take(all.slots, sent, slots);
+  take(all.owned, received, owned);
 }
 
 /* ---------------------------------------------------------------------- */

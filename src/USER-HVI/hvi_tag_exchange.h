@@ -11,31 +11,37 @@
 
 #include "pointers.h"
 
-#include <functional>
+#include <cstring>
+#include <type_traits>
 #include <vector>
 
 namespace LAMMPS_NS {
 
 /* ----------------------------------------------------------------------
-   Numbers of particles brought to ranks that ask for them by ID, wherever their owners are, and back:
+   Rows of numbers of particles, brought to ranks that ask for them by ID, wherever their owners are, and back:
    nodes to elements, forces to nodes.  No ghosts are needed, so no cutoff need reach across an element.
 
      connect()   after each exchange of particles: who owns what this rank wants
      gather()    from owners to the slots, in the order of the IDs wanted; one particle may have several
      scatter()   from slots to owners
 
-   pack(n, buf) and unpack(n, buf) get the index of an owned particle on the owner's side, that of a slot on
-   the other; all of them are called in the same order in every run on the same ranks.
+   A row is what pack(n) returns: plain data, of numbers of eight bytes.  pack(n) and unpack(n, row) get the index of
+   an owned particle on the owner's side, that of a slot on the other; all of them are called in the same order in
+   every run on the same ranks.
 ------------------------------------------------------------------------- */
 
 class HVITagExchange : protected Pointers {
  public:
   HVITagExchange(class LAMMPS *lmp) : Pointers(lmp) {}
 
-  // collective; may_be: whether an owned particle may be wanted by somebody.  Returns an ID that nobody
-  // has, the same on all ranks; 0: all are there
+  // collective; of particles of those types of which types says that.  Returns an ID that none of
+  // these has, the same on all ranks; 0: all are there
 
-  tagint connect(const std::vector<tagint> &wanted, const std::function<bool(int)> &may_be);
+  tagint connect(const std::vector<tagint> &wanted, const std::vector<char> &types, bool that);
+
+  // collective: slots of another exchange that are kept (not 0), with their numbers there
+
+  void select(const HVITagExchange &all, const std::vector<double> &kept);
 
   int size() const { return nslots; }
 
@@ -43,54 +49,73 @@ class HVITagExchange : protected Pointers {
 
   int local(tagint id) const;
 
-  template <class Pack, class Unpack> void gather(int width, const Pack &pack, const Unpack &unpack)
+  template <class Pack, class Unpack> void gather(const Pack &pack, const Unpack &unpack)
   {
-    run(width, owned, slots, pack, unpack);
+    run(owned, slots, pack, unpack);
   }
-  template <class Pack, class Unpack>
-  void scatter(int width, const Pack &pack, const Unpack &unpack)
+  template <class Pack> auto gather(const Pack &pack)
   {
-    run(width, slots, owned, pack, unpack);
+    std::vector<std::decay_t<decltype(pack(0))>> rows(nslots);
+    gather(pack, [&rows](int k, const auto &row) {
+      rows[k] = row;
+    });
+    return rows;
+  }
+  template <class Pack, class Unpack> void scatter(const Pack &pack, const Unpack &unpack)
+  {
+    run(slots, owned, pack, unpack);
+  }
+  template <class Row, class Unpack>
+  void scatter(const std::vector<Row> &rows, const Unpack &unpack)
+  {
+    run(
+        slots, owned,
+        [&rows](int k) {
+          return rows[k];
+        },
+        unpack);
   }
   double memory_usage() const;
 
  private:
-  // who takes part, by rank; here: on this rank itself, paired
+  // particles or slots that take part: here, on this rank itself, paired; there, by rank, from begin[k] on those
+  // of ranks[k]
 
   struct Side {
-    std::vector<int> here, ranks, begin, there;    // there: from begin[k] on those of ranks[k]
+    std::vector<int> here, there, ranks, begin = {0};
+    void close(int rank);    // all since the last one are of this rank
   };
   Side owned, slots;
   int nslots = 0;
   std::vector<double> sent, received;
+  std::vector<MPI_Request> requests;
 
   std::vector<tagint> alltoall(const std::vector<std::vector<tagint>> &out, std::vector<int> &from);
   void start(int width, const Side &from, const Side &to);
   void finish();
-  std::vector<MPI_Request> requests;
 
   template <class Pack, class Unpack>
-  void run(int width, const Side &from, const Side &to, const Pack &pack, const Unpack &unpack)
+  void run(const Side &from, const Side &to, const Pack &pack, const Unpack &unpack)
   {
-    if (!from.there.empty() || !to.there.empty()) {
-      sent.resize(from.there.size() * width);
-      received.resize(to.there.size() * width);
-      for (std::size_t k = 0; k < from.there.size(); k++) pack(from.there[k], &sent[k * width]);
-      start(width, from, to);
+    using Row = std::decay_t<decltype(pack(0))>;
+    static constexpr int WIDTH = sizeof(Row) / sizeof(double);
+    static_assert(std::is_trivially_copyable<Row>::value && WIDTH * sizeof(double) == sizeof(Row),
+                  "a row is plain data of numbers of eight bytes");
+    sent.resize(from.there.size() * WIDTH);
+    received.resize(to.there.size() * WIDTH);
+    for (std::size_t k = 0; k < from.there.size(); k++) {
+      const Row row = pack(from.there[k]);
+      memcpy(&sent[k * WIDTH], &row, sizeof(Row));
     }
-    double buf[MAXWIDTH];
-    for (std::size_t k = 0; k < from.here.size(); k++) {
-      pack(from.here[k], buf);
-      unpack(to.here[k], buf);
-    }
-    if (!from.there.empty() || !to.there.empty()) {
-      finish();
-      for (std::size_t k = 0; k < to.there.size(); k++) unpack(to.there[k], &received[k * width]);
+    start(WIDTH, from, to);
+    for (std::size_t k = 0; k < from.here.size(); k++) unpack(to.here[k], pack(from.here[k]));
+    finish();
+    for (std::size_t k = 0; k < to.there.size(); k++) {
+      Row row;
+      memcpy(&row, &received[k * WIDTH], sizeof(Row));
+      unpack(to.there[k], row);
     }
   }
-
- public:
-  static constexpr int MAXWIDTH = 64;
 };
 
 }    // namespace LAMMPS_NS

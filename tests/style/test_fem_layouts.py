@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from hvi.mesh import block
 from fem_scenes import DX, EDGE, J, MASS, OPEN, P, STATE, TOTAL, VOIDS, laws, plate, read_state, start, strike, strike_plate
 
 FAILS = "strain 0.1"  # the first elements become particles at step 27
@@ -76,6 +77,25 @@ def again(newton="on", comm="brick", sort="sort 0 0", **_):
     head = "\n".join(line for line in text[:first].split("\n") if line.split(" ")[0] in ("newton", "processors")) + "\nread_restart middle\n"
     head += f"comm_style {comm}\natom_modify {sort}\nfix prop all property/atom rmass ghost yes\n"
     return head + "\n".join(line for line in text[rest:].split("\n") if not line.startswith("read_data"))
+
+
+@pytest.mark.parametrize("order", ["before", "after"])
+def test_nodes_go_when_ranks_change(lmp, order):
+    """Elements fail in the step in which fix balance hands half of the other rank to theirs: the map of particles by ID knows nothing of what was there.
+    Rank 1 has one column of elements of six, all of which fail, and gets a half across, with an element that reaches beyond its ghosts"""
+    mesh = block(6, 8, 1, map=lambda x: (x - [3, 4, 1]) * [-EDGE, -EDGE, EDGE], n=4, type=2, node_type=3)
+    center = mesh.corners.mean(axis=1)
+    last = np.argsort(np.abs(center[:, :2] - [1.5 * EDGE, -0.5 * EDGE]).sum(axis=1) < 0.1 * EDGE, kind="stable")
+    mesh.elements, mesh.type, mesh.n = mesh.elements[last], mesh.type[last], mesh.n[last]
+    box = f"{-5.1 * EDGE} {9.1 * EDGE} {-8 * EDGE} {8 * EDGE} {-6 * EDGE} {6 * EDGE}"  # the ranks meet at x = 2 EDGE
+    text = start(mesh, box=box, boundary="f f f", comm="tiled", fem="strain 0.02").replace(f"h {1.2 * DX}", f"h {0.3 * EDGE}").replace("processors * * *", "processors * 1 1")
+    balance = f"variable w atom 1+4*(x>{2 * EDGE})*(step<2)\nfix even all balance 2 1.3 rcb weight var w\n"
+    text = text.replace("fix wall all", balance + "fix wall all") if order == "before" else text.replace("neighbor", balance + "neighbor")
+    text += f"group nodes type 3\nregion tip block {2.1 * EDGE} INF INF INF INF INF units box\ngroup tip region tip\ngroup tip intersect nodes tip\n"
+    text += "variable vz atom 3e6*z\nvelocity tip set NULL NULL v_vz\nrun 4\n"
+    one, two = (lmp(text + STATE.format(f"{n}.dump"), nranks=n).thermo for n in (1, 2))
+    assert list(one["f_wall"]) == list(two["f_wall"]) == [48, 40]
+    assert difference(read_state("1.dump"), read_state("2.dump")) < 1e-11
 
 
 def test_nothing_is_lost(lmp):

@@ -23,34 +23,44 @@ namespace HVI {
 ------------------------------------------------------------------------- */
 
 struct Element {
-  static constexpr int IDS = 12;    // of the first numbers, in data files
+  static constexpr int IDS =
+      12;    // numbers in the section Elements of data files: those down to first
 
-  std::int64_t id, type;         // of its material
-  std::int64_t node[CORNERS];    // IDs
-  std::int64_t n, first;         // n^3 particles with IDs from first on; 0: none
-  double mark;                   // fingerprint of its nodes at the end of the last run; 0: none
-  double mass;                   // 0: not known yet
-  double V0, V, rho;             // volume of the start and now; density
-  double e, ahead, change;    // energy per mass; of the end of a step, and half of the change in it
-  double q;                   // bulk viscosity
-  double hourglass;           // energy that has gone into hourglass forces
-  double shared;              // corners that others had, too, at the start
-  double kick;    // what half kicks gave to nodes beyond e, per mass, as known at output
-  double stable, at_start;    // step that it bears, now and at the start
-  double power;    // of pairs of its particles: what they gain and what forces on them work
-  double pair_force[3 * CORNERS];    // of those, on nodes
-  double force[3 * CORNERS];         // its own, on nodes
-  double Q[12];                      // hourglass stiffness, see hex_hourglass()
-  double step, L[9];                 // step that has led to those forces, velocity gradient in it
-  SolidState s;
+  std::int64_t id;
+  std::int64_t type;             // of its material; 0: it is no more
+  std::int64_t node[CORNERS];    // IDs of its nodes
+  std::int64_t n;                // embedded particles along an edge; 0: none
+  std::int64_t first;            // ID of the first of its n^3 embedded particles; the others follow
 
-  static constexpr int SIZE =
-      IDS + 1 + 14 + 6 * CORNERS + 12 + 10 + sizeof(SolidState) / sizeof(double);
+  double fingerprint;        // of its nodes at the end of the last run; 0: none
+  double mass;               // 0: not known yet
+  double V0;                 // volume at the start
+  double V;                  // volume
+  double rho;                // density
+  double e;                  // energy per mass, of the time of its nodes' velocities
+  double ahead;              // energy per mass at the end of the step
+  double change;             // of e in the last half of a step
+  double q;                  // pressure of bulk viscosity
+  double hourglass;          // energy that has gone into hourglass forces
+  double shared;             // corners that others had, too, at the start
+  double kick;               // what half kicks gave to nodes beyond e, per mass; 0 but at output
+  double stable;             // longest stable step
+  double stable_at_start;    // that at the start; 0: not known yet
+  double pair_power;         // of pairs of its particles: what they gain and forces on them work
+  double pair_force[CORNERS][3];    // on nodes, of pairs of its particles
+  double force[CORNERS][3];         // on nodes, of its stress, viscosity and hourglasses
+  double Q[12];                     // hourglass stiffness, see hex_hourglass()
+  double step;                      // that has led to those forces
+  double L[9];                      // velocity gradient in that step
+  SolidState solid;                 // stress, strain, damage
+
+  bool alive() const { return type > 0; }
   int particles() const { return n * n * n; }
 };
 
-static_assert(sizeof(Element) == Element::SIZE * sizeof(double) &&
-                  std::is_trivially_copyable<Element>::value,
+static constexpr int ELEMENT_SIZE = sizeof(Element) / sizeof(double);
+
+static_assert(sizeof(Element) % sizeof(double) == 0 && std::is_trivially_copyable<Element>::value,
               "elements are sent as numbers of eight bytes");
 
 }    // namespace HVI

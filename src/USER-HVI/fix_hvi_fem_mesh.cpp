@@ -1,0 +1,302 @@
+/* ----------------------------------------------------------------------
+   lammps-hvi, package USER-HVI: hypervelocity impact for LAMMPS
+
+   Copyright (2026) the lammps-hvi developers.  This software is
+   distributed under the GNU General Public License, version 2.
+   See the LICENSE file in the top-level directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
+#include "fix_hvi_fem_mesh.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "domain.h"
+#include "error.h"
+#include "hvi_compat.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using HVI::CORNERS;
+using HVI::LANES;
+
+/* ----------------------------------------------------------------------
+   A run begins: periodic faces, and whether all elements of data files and restart files are there
+------------------------------------------------------------------------- */
+
+void FixHVIFEMMesh::init()
+{
+  wraps = domain->xperiodic || domain->yperiodic || domain->zperiodic;
+  const bigint all = count();
+  if (all == 0 && total < 0)
+    error->all(FLERR, "Fix hvi/fem has no elements: use read_data FILE fix {} elements Elements",
+               id);
+  if (total < 0 && expected >= 0 && all != expected)
+    error->all(
+        FLERR,
+        "Fix hvi/fem: {} of {} elements have a first node that is not there: the section Elements "
+        "must come after Atoms, with IDs of nodes as there",
+        expected - all, expected);
+  if (total < 0) total = all;
+  expected = -1;
+}
+
+// those that have gone with their nodes when data files were read are not alive here
+
+bigint FixHVIFEMMesh::count() const
+{
+  bigint here = 0, all;
+  for (const Element &one : elements) here += one.alive();
+  MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   After particles have been exchanged: which elements are here, and who owns their nodes and embedded particles
+------------------------------------------------------------------------- */
+
+void FixHVIFEMMesh::connect()
+{
+  link();
+  steps.assign(elements.size(), HVI::ElementStep());
+  embedded.clear();
+  std::vector<tagint> nodes_wanted, embedded_wanted;
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    const Element &one = elements[e];
+    nodes_wanted.insert(nodes_wanted.end(), one.node, one.node + CORNERS);
+    for (int p = 0; p < one.particles(); p++) {
+      embedded.push_back({(int) e, p});
+      embedded_wanted.push_back(one.first + p);
+    }
+    if (one.n >= (int) subcells.size()) subcells.resize(one.n + 1);
+    if (one.n > 0 && subcells[one.n].empty()) subcells[one.n] = HVI::hex_subcells(one.n);
+  }
+
+  std::vector<tagint> unique = nodes_wanted;
+  std::sort(unique.begin(), unique.end());
+  unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
+  nodes.resize(unique.size());
+  corner.resize(nodes_wanted.size());
+  for (std::size_t k = 0; k < corner.size(); k++)
+    corner[k] = std::lower_bound(unique.begin(), unique.end(), nodes_wanted[k]) - unique.begin();
+
+  const bigint all = count();
+  const tagint lost_node = of_nodes.connect(unique, node_types, true);
+  const tagint lost = of_embedded.connect(embedded_wanted, node_types, false);
+  if (lost_node || lost || all != total)
+    error->all(FLERR,
+               "Fix hvi/fem: {} is not there at step {}: elements, their nodes and particles must "
+               "not leave the box, nor be deleted, and nodes are of types that the fix names, "
+               "particles of others",
+               lost_node ? fmt::format("node {}", lost_node)
+                         : (lost ? fmt::format("particle {}", lost) : "an element"),
+               update->ntimestep);
+
+  std::vector<double> uses(unique.size(), 0.0);
+  for (const int k : corner) uses[k] += 1.0;
+  std::fill_n(valence.begin(), atom->nlocal, 0);
+  of_nodes.scatter(uses, [this](int i, double n) {
+    valence[i] += n;
+  });
+}
+
+/* ----------------------------------------------------------------------
+   elements by their first nodes, without those that are no more
+------------------------------------------------------------------------- */
+
+void FixHVIFEMMesh::link()
+{
+  // chains hang on particles, whatever their IDs are
+
+  for (int i = 0; i < atom->nlocal; i++)
+    each_of(i, [&](const Element &one) {
+      if (one.node[0] != atom->tag[i]) ids_have_changed(atom->tag[i]);
+    });
+
+  elements.erase(std::remove_if(elements.begin(), elements.end(),
+                                [](const Element &one) {
+                                  return !one.alive();
+                                }),
+                 elements.end());
+
+  // in an order that does not depend on how they came here: sums are the same after a restart
+
+  std::sort(elements.begin(), elements.end(), [](const Element &one, const Element &two) {
+    return one.id < two.id;
+  });
+  const auto twice = std::adjacent_find(elements.begin(), elements.end(),
+                                        [](const Element &one, const Element &two) {
+                                          return one.id == two.id;
+                                        });
+  if (twice != elements.end())
+    error->one(FLERR, "Fix hvi/fem: two elements have the ID {}", twice->id);
+  next.assign(elements.size(), -1);
+  read_head.clear();
+  std::fill_n(head.begin(), atom->nlocal, -1);
+  std::vector<int> number(atom->nlocal, 0);
+  int most = 1, most_of_all;
+  for (int e = elements.size() - 1; e >= 0; e--) {
+    const int i = of_nodes.local(elements[e].node[0]);
+    if (i < 0 || i >= atom->nlocal)
+      error->one(FLERR,
+                 "Fix hvi/fem: node {} of element {} is not there at step {}: elements must not "
+                 "leave the box",
+                 elements[e].node[0], elements[e].id, update->ntimestep);
+    next[e] = head[i];
+    head[i] = e;
+    most = std::max(most, ++number[i]);
+  }
+
+  // the same on all ranks: one hands on what it has just got
+
+  MPI_Allreduce(&most, &most_of_all, 1, MPI_INT, MPI_MAX, world);
+  maxexchange = 2 + most_of_all * HVI::ELEMENT_SIZE;
+}
+
+void FixHVIFEMMesh::ids_have_changed(tagint tag) const
+{
+  error->one(FLERR,
+             "Fix hvi/fem: particle {} had another ID, or was in another group, in the last run: "
+             "elements know nodes and particles by ID: use delete_atoms ... compress no, not "
+             "reset_atoms id, and leave group {}_embedded alone",
+             tag, id);
+}
+
+/* ----------------------------------------------------------------------
+   Half kicks give dt^2/8 f^2/m beyond the work on the velocity of the middle of a step
+------------------------------------------------------------------------- */
+
+void FixHVIFEMMesh::gather_nodes(double factor, bool at_end)
+{
+  moved = -1;
+  of_nodes.gather(
+      [&](int i) {
+        const double *const x = atom->x[i], *const v = atom->v[i], *const f = atom->f[i];
+        const double *const w = at_end ? v : atom->vest[i], m = atom->rmass[i];
+        const double kick = 0.125 * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) / (m * m);
+        return HVI::Node{{{x[0], x[1], x[2]}, {v[0], v[1], v[2]}, {w[0], w[1], w[2]}},
+                         factor * kick,
+                         (double) valence[i]};
+      },
+      [this](int k, const HVI::Node &node) {
+        nodes[k] = node;
+      });
+}
+
+void FixHVIFEMMesh::places(std::size_t e, HVI::Corners &x) const
+{
+  for (int a = 0; a < CORNERS; a++) std::copy_n(nodes[number(e, a)].x, 3, x[a]);
+  if (!wraps) return;
+  for (int a = 1; a < CORNERS; a++) {
+    const double d[3] = {x[a][0] - x[0][0], x[a][1] - x[0][1], x[a][2] - x[0][2]};
+    double image[3] = {d[0], d[1], d[2]};
+    HVI::minimum_image(domain, image[0], image[1], image[2]);
+    for (int k = 0; k < 3; k++)
+      if (image[k] != d[k]) x[a][k] = x[0][k] + image[k];
+  }
+}
+
+HVI::Motion FixHVIFEMMesh::motion(int k)
+{
+  const std::size_t e = embedded[k].element;
+  if (e != moved) {
+    HVI::Corners x;
+    places(e, x);
+    for (int a = 0; a < CORNERS; a++) {
+      corner_motion[a] = nodes[number(e, a)];
+      std::copy_n(x[a], 3, corner_motion[a].x);
+    }
+    moved = e;
+  }
+  const HVI::Weights &N = weights(k);
+  HVI::Motion sum = {};
+  for (int a = 0; a < CORNERS; a++)
+    for (int d = 0; d < 3; d++) {
+      sum.x[d] += N[a] * corner_motion[a].x[d];
+      sum.v[d] += N[a] * corner_motion[a].v[d];
+      sum.predicted[d] += N[a] * corner_motion[a].predicted[d];
+    }
+  return sum;
+}
+
+HVI::ElementBatch FixHVIFEMMesh::load(std::size_t first)
+{
+  HVI::ElementBatch batch;
+  batch.n = std::min<std::size_t>(LANES, elements.size() - first);
+  batch.element = &elements[first];
+  batch.step = &steps[first];
+  for (int lane = 0; lane < LANES; lane++) {
+    const std::size_t e = first + std::min(lane, batch.n - 1);
+    HVI::Corners x;
+    places(e, x);
+    for (int a = 0; a < CORNERS; a++)
+      for (int k = 0; k < 3; k++) {
+        batch.x[k][a][lane] = x[a][k];
+        batch.v[k][a][lane] = nodes[number(e, a)].v[k];
+      }
+  }
+  batch.V = HVI::hex_gradient(batch.x, batch.B);
+  return batch;
+}
+
+bool FixHVIFEMMesh::paired(std::size_t first) const
+{
+  bool any = false;
+  for (std::size_t e = first; e < first + LANES && e < steps.size(); e++) any |= steps[e].paired;
+  return any;
+}
+
+/* ----------------------------------------------------------------------
+   As fix evaporate does, with ghosts forgotten and a new map: fix balance may migrate particles before LAMMPS
+   does so itself
+------------------------------------------------------------------------- */
+
+void FixHVIFEMMesh::remove_nodes()
+{
+  bigint here = 0, all;
+  for (int i = 0; i < atom->nlocal; i++) here += nodal(i) && valence[i] == 0;
+  MPI_Allreduce(&here, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (!all) return;
+  for (int i = atom->nlocal - 1; i >= 0; i--) {
+    if (!nodal(i) || valence[i] > 0) continue;
+    atom->avec->copy(atom->nlocal - 1, i, 1);
+    atom->nlocal--;
+  }
+  atom->natoms -= all;
+  atom->nghost = 0;
+  atom->map_init();
+  atom->map_set();
+}
+
+/* ----------------------------------------------------------------------
+   rows to ghosts, or added up at owners
+------------------------------------------------------------------------- */
+
+int FixHVIFEMMesh::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+{
+  for (int k = 0; k < n; k++) std::copy_n(&halo[width * list[k]], width, buf + width * k);
+  return n * width;
+}
+
+void FixHVIFEMMesh::unpack_forward_comm(int n, int first, double *buf)
+{
+  std::copy_n(buf, n * width, &halo[width * first]);
+}
+
+int FixHVIFEMMesh::pack_reverse_comm(int n, int first, double *buf)
+{
+  std::copy_n(&halo[width * first], n * width, buf);
+  return n * width;
+}
+
+void FixHVIFEMMesh::unpack_reverse_comm(int n, int *list, double *buf)
+{
+  for (int k = 0; k < n; k++)
+    for (int d = 0; d < width; d++) halo[width * list[k] + d] += buf[width * k + d];
+}
