@@ -13,25 +13,26 @@ On the command line: python3 -m hvi --help
 
 import importlib
 
-from . import debris
-from .cloud import beyond, measure, series
-from .distribution import cumulative, fit
-from .dump import Dump
-from .errors import HVIError, HVIWarning
-from .fragments import find
-from .frame import Frame
 from .version import version
 
 __version__ = version()
-__all__ = ["Dump", "Frame", "HVIError", "HVIWarning", "beyond", "cumulative", "debris", "figures", "find", "fit", "hole", "maps", "measure",
-           "open", "series", "universe"]
-
-_LATER = ("figures", "hole", "maps", "universe")  # matplotlib, scipy.ndimage, MDAnalysis
+# what is given out, and where it is: imported when it is asked for, as NumPy, SciPy, matplotlib and MDAnalysis take their time
+_PLACES = {"Dump": "io.dump", "Frame": "io.frame", "HVIError": "errors", "HVIWarning": "errors", "beyond": "analysis.cloud", "cumulative": "analysis.distribution",
+           "find": "analysis.fragments", "fit": "analysis.distribution", "measure": "analysis.cloud", "series": "analysis.cloud"}
+_MODULES = {"cloud": "analysis.cloud", "debris": "analysis.debris", "distribution": "analysis.distribution", "figures": "figures", "fragments": "analysis.fragments",
+            "hole": "analysis.hole", "maps": "analysis.maps", "universe": "io.universe"}
+__all__ = [*_PLACES, *_MODULES, "open"]
 
 
 def __getattr__(name):
     if name == "open":
-        return importlib.import_module(".universe", __name__).open_universe
-    if name in _LATER:
-        return importlib.import_module("." + name, __name__)
+        return importlib.import_module(".io.universe", __name__).open_universe
+    if name in _MODULES:
+        return importlib.import_module("." + _MODULES[name], __name__)
+    if name in _PLACES:
+        return getattr(importlib.import_module("." + _PLACES[name], __name__), name)
     raise AttributeError(f"module {__name__} has no attribute {name}")
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})

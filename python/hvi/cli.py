@@ -10,10 +10,10 @@ import sys
 import textwrap
 import warnings
 
-from . import commands
-from .debris import COLUMN
+from .analysis.debris import COLUMN
+from .analysis.fragments import FAILED
+from .commands import dumps as commands
 from .errors import HVIError, HVIWarning
-from .fragments import FAILED
 from .units import MVV2E
 from .version import version
 
@@ -225,7 +225,8 @@ def _range(parser):
 
 def _keys():
     """what a case may say"""
-    from . import case, tables
+    from . import tables
+    from .shield import case
 
     rows = [(name, default, line) for name, default, text in case.rows_of_keys() for name, default, line in _wrapped(name, default, text)]
     return "keys of CASE.yaml:\n" + tables.text(("key", "default", "what it is"), rows, left=True)
@@ -248,9 +249,13 @@ def _speeds(text):
     return first, last, number
 
 
+MODULES = {"judge": "commands.judge", "limit": "shield.limit", "curve": "commands.curve", "ble": "commands.ble", "sweep": "jobs.sweep", "report": "report.report", "movie": "commands.movie",
+           "export": "commands.export", "shots": "shield.shots", "shield": "shield.decision", "measure": "jobs.measures"}
+
+
 def _main_of(name, args):
     """main() of the module of that name, which needs PyYAML"""
-    return importlib.import_module("." + name, __package__).main(args)
+    return importlib.import_module("." + MODULES[name], __package__).main(args)
 
 
 def options():
@@ -296,7 +301,6 @@ def options():
     sub.add_argument("--speeds", type=_speeds, default=(1.0, 15.0, 15), metavar="A:B:N", help="first, last, number of speeds, km/s (default: 1:15:15)")
     sub.add_argument("--equation", action="append", metavar="NAME", help="only this equation; repeat (default: all)")
     _output(sub, "critical diameter over speed, dashed where beyond ranges of validity, and the case")
-    sub.set_defaults(run=functools.partial(_main_of, "ble_command"))
 
     sub = command("sweep", "a LAMMPS input for many values of its variables, as study files say, with a table of all results")
     sub.add_argument("study", nargs="+", metavar="STUDY.yaml", help="input, variables, and the grid of what varies")
@@ -467,7 +471,6 @@ def options():
 
     sub = command("measure", "what a run of an example has recorded, such as the free surface of in.spall, is measured and put into its result.yaml")
     sub.add_argument("folders", nargs="+", metavar="DIR", help="folder of a run, with result.yaml; what is measured is told by its files: surface.dat")
-    sub.set_defaults(run=functools.partial(_main_of, "measures"))
 
     sub = command("compare", "two runs side by side: result.yaml (or its folder), or the same measures of two dumps")
     for name in "AB":

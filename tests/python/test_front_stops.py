@@ -12,7 +12,9 @@ import time
 import pytest
 import yaml
 from front_runs import CASE, case_folder, change, front, tries, wait_for  # noqa: F401
-from hvi import cli, runs, shield_input
+from hvi import cli
+from hvi.jobs import engine
+from hvi.shield import script
 
 COMMAND = [sys.executable, "-m", "hvi", "shield", "emi.yaml", "--mpirun", "./mpirun", "--jobs", "2"]
 
@@ -108,14 +110,14 @@ def test_last_lines(folder, lines, seen, unseen):
     (folder / "in.main").write_text("")
     (folder / "a").mkdir()
     (folder / "a/output.txt").write_text("\n".join(lines))
-    said = "\n".join(runs.Job(runs.Input(folder / "in.main"), "a", {}, folder / "a").last_lines())
+    said = "\n".join(engine.Job(engine.Input(folder / "in.main"), "a", {}, folder / "a").last_lines())
     assert seen in said and unseen not in said
 
 
 @pytest.mark.parametrize("status, words", [(1, "exit status 1"), (139, "exit status 139 (SIGSEGV)"), (-9, "exit status -9 (SIGKILL: out of memory?)"),
                                            (137, "exit status 137 (SIGKILL: out of memory?)"), (255, "exit status 255")])
 def test_status_in_words(status, words):
-    assert runs.said_of(status) == words
+    assert engine.said_of(status) == words
 
 
 def test_what_cannot_be(folder, capsys, monkeypatch):
@@ -125,14 +127,14 @@ def test_what_cannot_be(folder, capsys, monkeypatch):
     assert front("shield", "--lmp", "emi.yaml") == 1 and "emi.yaml cannot be executed: run make first, or give --lmp FILE" in capsys.readouterr().err
     assert cli.main(["shield", "emi.yaml", "--mpirun", "./none"]) == 1 and "./none is not there: install MPI" in capsys.readouterr().err
     monkeypatch.setenv("FAKE_FAIL", "dx-0.2_shift-0.0")
-    monkeypatch.setattr(runs, "FULL", float("inf"))
+    monkeypatch.setattr(engine, "FULL", float("inf"))
     assert front("shield") == 1 and "dx-0.2_shift-0.0  FAILED: exit status 1; the disk is full" in capsys.readouterr().out
 
     def full(*_):
         raise OSError(28, "No space left on device")
-    monkeypatch.setattr(runs, "write_table", full)
+    monkeypatch.setattr(engine, "write_table", full)
     assert front("shield", "--runs", "r") == 1 and "r/emi/runs.csv: No space left on device\n" in capsys.readouterr().err
-    monkeypatch.setattr(shield_input.Shield, "copy_to", full)
+    monkeypatch.setattr(script.Shield, "copy_to", full)
     assert front("shield") == 1
     said = capsys.readouterr().err
     assert "hvi: cannot run in " in said and "dx-0.2_shift-0.0: No space left on device; put that right and call again to go on\n" in said
@@ -147,7 +149,7 @@ def test_two_calls_at_once(folder, capsys):
     (folder / "emi.yaml").write_text(change("speed_km_s: 7.1", "speed_km_s: 7"))
     first = subprocess.Popen(COMMAND, cwd=folder, env={**os.environ, "FAKE_SLEEP": "2"}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     last = folder / "runs/emi/dx-0.2_shift-0.5"
-    wait_for(lambda: (runs.read_yaml(last / "job.yaml") or {}).get("variables", {}).get("v0") == 7000 and not (last / "result.yaml").exists())  # those of 0.4 mm are done
+    wait_for(lambda: (engine.read_yaml(last / "job.yaml") or {}).get("variables", {}).get("v0") == 7000 and not (last / "result.yaml").exists())  # those of 0.4 mm are done
     (folder / "emi.yaml").write_text(change("speed_km_s: 7.1", "speed_km_s: 6"))
     assert front("shield", "--jobs", "4") == 3
     assert "its result is gone or of another case" in first.communicate(timeout=60)[1] and first.returncode == 1

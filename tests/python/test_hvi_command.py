@@ -10,7 +10,8 @@ import sys
 import hvi
 import numpy as np
 import pytest
-from hvi import cli, compare
+from hvi import cli
+from hvi.jobs import compare
 
 CLOUD = ["--axis", "z", "--plane", "-1e-3"]
 MASS = ["--mass", "1=5e-7", "--mass", "2=5e-7"]

@@ -3,8 +3,11 @@
 import hvi
 import numpy as np
 import pytest
-from hvi import cli, maps, mirror, plates
-from hvi.data import DataFile
+from hvi import cli
+from hvi.analysis import maps
+from hvi.io import mirror
+from hvi.io.data import DataFile
+from hvi.model import plates
 from scipy.spatial import cKDTree
 
 

@@ -1,0 +1,95 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""python3 -m hvi curve: the limit of a shield over a list of speeds, as a table, CSV and a picture, with ballistic-limit equations beside.
+
+At each speed a search of hvi limit; all of them share the runs at a time. What was run is not run again.
+"""
+
+import dataclasses
+import math
+
+from .. import figures
+from .. import tables
+from ..errors import HVIError
+from ..jobs import engine
+from ..shield import ble, decision
+from ..shield import case as cases
+from ..shield.limit import Limit
+from .ble import curve, evenly
+
+
+def limits_of(case, speeds, folder, args):
+    """{speed: Limit}"""
+    return {speed: Limit(dataclasses.replace(case, speed_km_s=speed), folder, args.on, args.from_, args.to_, args.step_, name=f"v-{speed:g}_") for speed in speeds}
+
+
+def row(speed, limit):
+    """numbers of a speed: the limit, between which values it is, what is wrong with it"""
+    answer = limit.answer()
+    between = answer.get("undecided", [math.nan, math.nan])
+    return {"speed_km_s": speed, "limit": math.nan if answer["limit"] is None else answer["limit"], "low": between[0], "high": between[1],
+            "runs": sum(len(search.said) for search in limit.searches.values()), "why_not": "; ".join(answer.get("reasons", []))}
+
+
+def equations(case_at, speeds):
+    """{equation: [(critical diameter in mm, is it within its ranges), ...]} over speeds, or why there are none"""
+    def curves():
+        of = ble.from_case(case_at(speeds[0]))
+        return {name: [(d, not beyond) for d, beyond in curve(of, name, speeds, case_at(speeds[0]).angle_deg)] for name in ble.equations(of)}
+
+    return ble.beside(curves)
+
+
+def main(args):
+    case = cases.read(args.case)
+    speeds = evenly(*args.speeds)
+    folder = args.runs.resolve() / case.name / f"curve-{args.on}"
+    limits = limits_of(case, speeds, folder, args)
+    runner = engine.Runner(args)
+    first = [(limit, job) for limit in limits.values() for job in limit.first()]
+    print(f"{case.name}: {args.on} over {len(speeds)} speeds, {len(first)} runs to begin with", flush=True)
+    if args.dry_run:
+        for _, job in first:
+            print(" ".join(runner.command(job)))
+        return 0
+    owner = {f"v-{speed:g}_": limit for speed, limit in limits.items()}
+
+    def more(job):
+        return next(limit for name, limit in owner.items() if job.name.startswith(name)).more(job)
+
+    def every():
+        return [job for limit in limits.values() for _, _, job in limit.jobs.values()]
+
+    with engine.table_of(every, folder / "runs.csv"):
+        failed = runner.run([job for _, job in first], f"{case.name} curve", more)
+    if failed:
+        raise HVIError(f"no curve: {len(failed)} runs failed: {', '.join(job.name for job in failed)}")
+    return report(case, args.on, limits, folder, every())
+
+
+def report(case, on, limits, folder, jobs):
+    """table, curve.csv, curve.yaml, curve.png; exit status"""
+    rows = [row(speed, limit) for speed, limit in limits.items()]
+    unit = next(iter(limits.values())).unit
+    fine = evenly(min(limits), max(limits), 60) if len(limits) > 1 else [*limits]
+    known = equations(lambda speed: dataclasses.replace(case, speed_km_s=speed), [*limits]) if on == "D" else f"none: the equations are for a diameter, not for {on}"
+    names = [] if isinstance(known, str) else list(known)
+    columns = ("speed_km_s", f"limit_{unit}", "low", "high", "runs", *names)
+    cells = [(line["speed_km_s"], *(line[key] for key in ("limit", "low", "high", "runs")), *(known[name][k][0] for name in names)) for k, line in enumerate(rows)]
+    shown = [[value if value == value else "-" for value in line] for line in cells]
+    print(tables.text(columns, shown))
+    for line in rows:
+        if line["why_not"]:
+            print(f"no limit at {line['speed_km_s']:g} km/s: {line['why_not']}")
+    if isinstance(known, str):
+        print(f"equations: {known}")
+    print(f"low to high: up to there all runs hold, from there all fail; cost: {len(jobs)} runs, {sum(job.result().get('core_s', 0) for job in jobs):g} core-seconds")
+    tables.write_csv(folder / "curve.csv", columns, cells)
+    decision.save(folder / "curve.yaml", {"on": on, "unit": unit, "points": [{key: value for key, value in line.items() if value == value} for line in rows]})
+    points = [(line["speed_km_s"], line["limit"], line["low"], line["high"]) for line in rows if math.isfinite(line["limit"])]
+    curves = {} if isinstance(known, str) else equations(lambda speed: dataclasses.replace(case, speed_km_s=speed), fine)
+    what = "critical diameter" if on == "D" else f"limit on {on}"
+    title = f"{case.name}: {case.projectile.shape} on " + " + ".join(f"{wall.thickness_mm:g}" for wall in case.walls) + f" mm, {case.angle_deg:g} degrees, {min(case.spacings_mm):g} mm between particles"
+    for path in figures.save(figures.limit_curve(fine, curves, points, title, f"{what} ({unit})"), str(folder / "curve.png")):
+        print(f"figure: {path}")
+    print(f"table: {folder / 'curve.csv'}")
+    return 0 if len(points) == len(rows) else decision.STATUS["undecided"]

@@ -1,0 +1,52 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""python3 -m hvi movie: all frames of a run of hvi shield from the side, as an animated GIF."""
+
+import io
+import pathlib
+
+from .. import progress
+from ..errors import HVIError
+from ..report import pictures
+from ..shield.run import Scene, runs_of
+
+DPI = 110
+STAY = 6  # as many times as the others the last frame stays
+
+
+def frames(run, color="body", progress=progress.silent):
+    """Pillow images of all frames: one frame and scale, the time of each above."""
+    from PIL import Image
+
+    dump = run.frames()
+    if len(dump) < 3:
+        raise HVIError(f"{run.folder} has {len(dump)} frame{'s' * (len(dump) > 1)}, too few for a movie: give the case settings: {{film: 1}}, us between frames")
+    window, found = pictures.side_window(run), []
+    with progress(len(dump), "frames") as bar:
+        for frame in dump:
+            scene = Scene(frame, run)
+            figure = pictures.velocities(run, scene, window) if color == "speed" else pictures.side(run, scene, window)
+            figure.axes[0].text(0.02, 0.98, f"{scene.time:.1f} us", transform=figure.axes[0].transAxes, va="top", fontsize=11, zorder=5)
+            stream = io.BytesIO()
+            figure.savefig(stream, format="png", dpi=DPI)
+            found.append(Image.open(stream).convert("RGB"))
+            bar.update()
+    return found
+
+
+def main(args):
+    try:
+        import PIL  # noqa: F401
+    except ImportError:
+        raise HVIError("a movie needs Pillow: Debian's python3-pil, or pip install pillow") from None
+    run = runs_of(args.folder)[1][0]
+    images = frames(run, args.color, progress.bar)
+    colors = images[len(images) // 2].quantize(256)  # the same of all frames: else they flicker
+    images = [image.quantize(palette=colors) for image in images]
+    out = pathlib.Path(args.out or pathlib.Path(args.folder) / "movie.gif")
+    pause = int(1000.0 / args.rate)
+    try:
+        images[0].save(out, format="GIF", save_all=True, append_images=images[1:], duration=[pause] * (len(images) - 1) + [STAY * pause], loop=0, optimize=False)
+    except OSError as problem:
+        raise HVIError(f"cannot write {out}: {problem.strerror or problem}") from None
+    print(f"movie: {out} ({len(images)} frames, {run.name}; the half behind y = 0, spacing {run.dx:g} mm)")
+    return 0
