@@ -12,8 +12,8 @@ import yaml
 from fem_mechanics_scenes import collision
 from hard import BOOKS, Case, Stopped
 from hard_stock import stock
-from hvi.model import bodies, mesh_plate
 from hvi.jobs import engine
+from hvi.model import bodies, mesh_plate
 from solid_runs import material
 from tensile_scenes import nearest
 

@@ -1,6 +1,6 @@
 """The directive ".. materials::" is the table of all material files of the folder potentials/: what each has, lacks and assumes.
 
-The files are read by python/hvi/material/files.py, as `python3 -m hvi material` does; neither needs NumPy.
+The files are read by python/hvi/material/library.py, as `python3 -m hvi material` does; neither needs NumPy.
 """
 
 import pathlib
@@ -13,9 +13,9 @@ COLUMNS = {"file": 15, "eos": 14, "strength": 12, "damage": 10, "spall": 9, "lac
 def rows(folder):
     """a {column: text} per file"""
     sys.path.insert(0, str(ROOT / "python"))
-    from hvi.material import files
+    from hvi.material import library
 
-    return files.everything(folder)
+    return library.everything(folder)
 
 
 def escaped(text):

@@ -24,8 +24,8 @@ from hvi import cli
 from hvi.errors import HVIError
 from hvi.figures import sketch
 from hvi.io.data import DataFile
-from hvi.material import laws
 from hvi.jobs import engine
+from hvi.material import laws
 from hvi.shield import chain, decision, record
 from hvi.shield import case as cases
 

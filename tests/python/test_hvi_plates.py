@@ -7,6 +7,7 @@ from hvi import cli
 from hvi.analysis import maps
 from hvi.io import mirror
 from hvi.io.data import DataFile
+from hvi.material import library
 from hvi.model import plates
 from scipy.spatial import cKDTree
 
@@ -110,12 +111,12 @@ print "mass $(mass(wall)) $(count(wall)) $(bound(wall,zmin)) $(bound(wall,zmax))
 
 
 def test_density_of_material_files(root, tmp_path):
-    assert plates.density_of(root / "potentials" / "Cu-OFHC.hvi") == (8930.0, "si")
+    assert library.density_of(root / "potentials" / "Cu-OFHC.hvi") == (8930.0, "si")
     for path in (root / "potentials").glob("*.hvi"):
-        assert plates.density_of(path)[0] > 0, path
+        assert library.density_of(path)[0] > 0, path
     (tmp_path / "no.hvi").write_text("# UNITS: si\nstrength perfect\n  rho0 3\n")
     with pytest.raises(hvi.HVIError, match="no.hvi: no rho0"):
-        plates.density_of(tmp_path / "no.hvi")
+        library.density_of(tmp_path / "no.hvi")
 
 
 def cloud(planes=()):

@@ -9,7 +9,7 @@ import sys
 import pytest
 from conftest import ROOT
 
-from hvi.material import files
+from hvi.material import library
 
 FOLDER = ROOT / "examples" / "single-plate"
 
@@ -58,7 +58,7 @@ def test_constants(tmp_path):
     assert len(made) == 8
     for path in made:
         metal, key, factor = re.fullmatch(r"(.*-T\d)-(sigma|m|phi_c)-(.*)\.hvi", path.name).groups()
-        one, other = files.read(ROOT / "potentials" / f"{metal}.hvi"), files.read(path)
+        one, other = library.read(ROOT / "potentials" / f"{metal}.hvi"), library.read(path)
         for section, values in one.sections.items():
             want = dict(values)
             if section == ("spall", "voids"):

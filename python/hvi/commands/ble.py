@@ -5,8 +5,22 @@ from .. import tables
 from ..errors import HVIError
 from ..shield import ble
 from ..shield import case as cases
+from . import running
+from .shared import add_output, save
+
+EXAMPLES = """  python3 -m hvi ble emi.yaml --figure limit
+  python3 -m hvi ble emi.yaml --speeds 3:9:13 --equation JSC --equation Reimerdes --out limit.csv
+  python3 -m hvi ble --shots examples/whipple-shield/shots/shots.csv"""
 
 CURVE = 400  # speeds of a curve in the figure
+
+
+def add_arguments(parser):
+    parser.add_argument("case", metavar="CASE.yaml", nargs="?", help="as of hvi shield; spacings_mm are not needed")
+    parser.add_argument("--shots", metavar="FILE.csv", help="instead of a case: a list of double-wall shots, as of hvi shots; how often each equation is right")
+    running.add_speeds(parser, (1.0, 15.0, 15))
+    parser.add_argument("--equation", action="append", metavar="NAME", help="only this equation; repeat (default: all)")
+    add_output(parser, "critical diameter over speed, dashed where beyond ranges of validity, and the case")
 
 
 def chosen(names, wanted):
@@ -15,15 +29,6 @@ def chosen(names, wanted):
         if name not in names:
             raise HVIError(f"no equation {name} for this; there are: {', '.join(names)}")
     return [name for name in names if name in wanted] if wanted else names
-
-
-def curve(shield, name, speeds, angle):
-    """[(d_c in mm, what is beyond its range)] over speeds"""
-    found = []
-    for speed in speeds:
-        d, _ = ble.critical_diameter(name, shield, speed, angle)
-        found.append((10 * d, ble.beyond(name, shield, d, speed, angle)))
-    return found
 
 
 def where_beyond(speeds, points):
@@ -40,16 +45,12 @@ def where_beyond(speeds, points):
     return found
 
 
-def evenly(first, last, n):
-    return [first + (last - first) * k / (n - 1) for k in range(n)] if n > 1 else [first]
-
-
 def of_case(args):
     case = cases.read(args.case, model=False)
     shield = ble.from_case(case)
     names = chosen(ble.equations(shield), args.equation)
-    speeds = evenly(*args.speeds)
-    points = {name: curve(shield, name, speeds, case.angle_deg) for name in names}
+    speeds = running.evenly(*args.speeds)
+    points = {name: ble.curve(shield, name, speeds, case.angle_deg) for name in names}
     print(title(case, shield))
     print("critical diameter in mm; *: beyond a range of validity")
     rows = [(f"{speed:.4g}", *(f"{points[name][k][0]:.3f}" + ("*" if points[name][k][1] else " ") for name in names)) for k, speed in enumerate(speeds)]
@@ -68,11 +69,10 @@ def of_case(args):
     if args.figure:
         from .. import figures
 
-        fine = evenly(args.speeds[0], args.speeds[1], CURVE)
-        curves = {name: [(d, not beyond) for d, beyond in curve(shield, name, fine, case.angle_deg)] for name in names}
+        fine = running.evenly(args.speeds[0], args.speeds[1], CURVE)
+        curves = {name: [(d, not beyond) for d, beyond in ble.curve(shield, name, fine, case.angle_deg)] for name in names}
         drawn = figures.ballistic_limit(fine, curves, title(case, shield), (case.speed_km_s, case.diameter_mm))
-        for path in figures.save(drawn, args.figure):
-            print(f"figure: {path}")
+        save(drawn, args.figure)
 
 
 def title(case, shield):

@@ -7,14 +7,24 @@ At each speed a search of hvi limit; all of them share the runs at a time. What 
 import dataclasses
 import math
 
-from .. import figures
 from .. import tables
 from ..errors import HVIError
 from ..jobs import engine
 from ..shield import ble, decision
 from ..shield import case as cases
 from ..shield.limit import Limit
-from .ble import curve, evenly
+from . import running
+from .shared import save
+
+EXAMPLES = "  python3 -m hvi curve emi.yaml --speeds 3:9:4 --from 2 --to 8 --step 0.5 --jobs 2 --ranks 1"
+
+
+def add_arguments(parser):
+    running.add_case(parser)
+    running.add_speeds(parser, (3.0, 9.0, 7))
+    parser.add_argument("--on", default="D", metavar="WHAT", help="D, or thickness1, thickness2, ... (default: D)")
+    running.add_range(parser)
+    running.add_runs(parser)
 
 
 def limits_of(case, speeds, folder, args):
@@ -34,22 +44,21 @@ def equations(case_at, speeds):
     """{equation: [(critical diameter in mm, is it within its ranges), ...]} over speeds, or why there are none"""
     def curves():
         of = ble.from_case(case_at(speeds[0]))
-        return {name: [(d, not beyond) for d, beyond in curve(of, name, speeds, case_at(speeds[0]).angle_deg)] for name in ble.equations(of)}
+        return {name: [(d, not beyond) for d, beyond in ble.curve(of, name, speeds, case_at(speeds[0]).angle_deg)] for name in ble.equations(of)}
 
     return ble.beside(curves)
 
 
 def main(args):
     case = cases.read(args.case)
-    speeds = evenly(*args.speeds)
+    speeds = running.evenly(*args.speeds)
     folder = args.runs.resolve() / case.name / f"curve-{args.on}"
     limits = limits_of(case, speeds, folder, args)
     runner = engine.Runner(args)
     first = [(limit, job) for limit in limits.values() for job in limit.first()]
     print(f"{case.name}: {args.on} over {len(speeds)} speeds, {len(first)} runs to begin with", flush=True)
     if args.dry_run:
-        for _, job in first:
-            print(" ".join(runner.command(job)))
+        runner.show(job for _, job in first)
         return 0
     owner = {f"v-{speed:g}_": limit for speed, limit in limits.items()}
 
@@ -68,9 +77,11 @@ def main(args):
 
 def report(case, on, limits, folder, jobs):
     """table, curve.csv, curve.yaml, curve.png; exit status"""
+    from .. import figures
+
     rows = [row(speed, limit) for speed, limit in limits.items()]
     unit = next(iter(limits.values())).unit
-    fine = evenly(min(limits), max(limits), 60) if len(limits) > 1 else [*limits]
+    fine = running.evenly(min(limits), max(limits), 60) if len(limits) > 1 else [*limits]
     known = equations(lambda speed: dataclasses.replace(case, speed_km_s=speed), [*limits]) if on == "D" else f"none: the equations are for a diameter, not for {on}"
     names = [] if isinstance(known, str) else list(known)
     columns = ("speed_km_s", f"limit_{unit}", "low", "high", "runs", *names)
@@ -84,12 +95,11 @@ def report(case, on, limits, folder, jobs):
         print(f"equations: {known}")
     print(f"low to high: up to there all runs hold, from there all fail; cost: {len(jobs)} runs, {sum(job.result().get('core_s', 0) for job in jobs):g} core-seconds")
     tables.write_csv(folder / "curve.csv", columns, cells)
-    decision.save(folder / "curve.yaml", {"on": on, "unit": unit, "points": [{key: value for key, value in line.items() if value == value} for line in rows]})
+    running.save(folder / "curve.yaml", {"on": on, "unit": unit, "points": [{key: value for key, value in line.items() if value == value} for line in rows]})
     points = [(line["speed_km_s"], line["limit"], line["low"], line["high"]) for line in rows if math.isfinite(line["limit"])]
     curves = {} if isinstance(known, str) else equations(lambda speed: dataclasses.replace(case, speed_km_s=speed), fine)
     what = "critical diameter" if on == "D" else f"limit on {on}"
     title = f"{case.name}: {case.projectile.shape} on " + " + ".join(f"{wall.thickness_mm:g}" for wall in case.walls) + f" mm, {case.angle_deg:g} degrees, {min(case.spacings_mm):g} mm between particles"
-    for path in figures.save(figures.limit_curve(fine, curves, points, title, f"{what} ({unit})"), str(folder / "curve.png")):
-        print(f"figure: {path}")
+    save(figures.limit_curve(fine, curves, points, title, f"{what} ({unit})"), str(folder / "curve.png"))
     print(f"table: {folder / 'curve.csv'}")
     return 0 if len(points) == len(rows) else decision.STATUS["undecided"]

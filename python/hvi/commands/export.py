@@ -6,14 +6,25 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from .. import progress, units as unit_systems
+from .. import progress
+from .. import units as unit_systems
 from ..errors import HVIError
-from ..io.dump import Dump
 from ..shield.run import runs_of
+from . import dumps
+
+EXAMPLES = """  python3 -m hvi export runs/emi/dx-0.2_shift-0.0
+  python3 -m hvi export debris.dump --data debris.data --out debris"""
 
 PRESSURES, SPECIFIC = {"p", "vm"}, {"e"}  # columns of compute hvi/atom in in.shield, as in SI
 LEFT_OUT = {"x", "y", "z", "xu", "yu", "zu", "xs", "ys", "zs", "xsu", "ysu", "zsu", "ix", "iy", "iz", "vx", "vy", "vz"}
 QUANTITY = {"mass": "mass", "fragsize": "distance", "h": "distance"}
+
+
+def add_arguments(parser):
+    parser.add_argument("files", nargs="+", metavar="DUMP|DIR", help="dump files of one run, or a folder as of hvi report")
+    parser.add_argument("--out", metavar="NAME", help="NAME.pvd, and NAME.0000.vtu ... beside it (default: the name of the dump; in a folder: shield)")
+    parser.add_argument("--part", action="store_true", help="of a half or quarter model only the part that was computed, not the whole")
+    dumps.add_reading(parser)
 
 
 def name_of(column, units):
@@ -51,14 +62,13 @@ def write(path, frame):
 
 def sources(args):
     """(Dump, default name) of the options"""
-    how = {"data": args.data, "masses": dict(args.mass or ()), "units": args.units, "mirror": args.mirror, "dt": args.dt, "interval": args.interval}
     first = pathlib.Path(args.files[0])
     if not first.is_dir():
-        return Dump(args.files, progress=progress.bar, **how), first.name.removesuffix(".gz").removesuffix(".dump")
+        return dumps.opened(args, args.files), first.name.removesuffix(".gz").removesuffix(".dump")
     if len(args.files) > 1:
         raise HVIError("give one folder, or the dumps of one run")
     run = runs_of(first)[1][0]
-    return Dump(run.frames().paths, progress=progress.bar, **how), str(first / "shield")
+    return dumps.opened(args, run.frames().paths), str(first / "shield")
 
 
 def main(args):

@@ -3,9 +3,15 @@
 
 from ..shield import chain, decision
 
+EXAMPLES = "  python3 -m hvi judge emi/dx-0.267_shift-0.0"
+
+
+def add_arguments(parser):
+    parser.add_argument("folder", metavar="DIR", help="with walls.dat, pieces.dat, history.dat and logs of the run")
+
 
 def main(args):
     result = chain.judge(args.folder)
     print(f"verdict: {result['verdict']}")
-    print("\n".join([*(f"  - {text}" for text in result["reasons"]), *(["notes:"] if result.get("notes") else []), *(f"  - {text}" for text in result.get("notes", ()))]))
+    print("\n".join(decision.lines(result["reasons"], result.get("notes", ()))))
     return decision.STATUS[result["verdict"]]

@@ -5,17 +5,28 @@ import io
 import pathlib
 
 from .. import progress
-from ..errors import HVIError
-from ..report import pictures
+from ..errors import HVIError, writing
 from ..shield.run import Scene, runs_of
+from .shared import positive
+
+EXAMPLES = "  python3 -m hvi movie runs/emi --color speed"
 
 DPI = 110
 STAY = 6  # as many times as the others the last frame stays
 
 
+def add_arguments(parser):
+    parser.add_argument("folder", metavar="DIR", help="as of hvi report: of several runs the finest")
+    parser.add_argument("--out", metavar="FILE.gif", help="default: movie.gif in DIR")
+    parser.add_argument("--color", choices=("body", "speed"), default="body", help="of the particles (default: body)")
+    parser.add_argument("--rate", type=positive, default=5.0, metavar="N", help="frames per second (default: 5)")
+
+
 def frames(run, color="body", progress=progress.silent):
     """Pillow images of all frames: one frame and scale, the time of each above."""
     from PIL import Image
+
+    from ..report import pictures
 
     dump = run.frames()
     if len(dump) < 3:
@@ -44,9 +55,7 @@ def main(args):
     images = [image.quantize(palette=colors) for image in images]
     out = pathlib.Path(args.out or pathlib.Path(args.folder) / "movie.gif")
     pause = int(1000.0 / args.rate)
-    try:
+    with writing(out):
         images[0].save(out, format="GIF", save_all=True, append_images=images[1:], duration=[pause] * (len(images) - 1) + [STAY * pause], loop=0, optimize=False)
-    except OSError as problem:
-        raise HVIError(f"cannot write {out}: {problem.strerror or problem}") from None
     print(f"movie: {out} ({len(images)} frames, {run.name}; the half behind y = 0, spacing {run.dx:g} mm)")
     return 0

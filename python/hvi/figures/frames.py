@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from scipy import ndimage
 
 from .. import units as unit_systems
-from ..errors import HVIError
+from ..errors import HVIError, writing
 from ..io.frame import as_frame, axis_number, whole
 
 WIDTH = 6.4  # inches
@@ -26,10 +26,8 @@ def save(figure, name):
     stem, end = os.path.splitext(str(name))
     paths = [str(name)] if end in (".png", ".pdf") else [f"{name}.png", f"{name}.pdf"]
     for path in paths:
-        try:
+        with writing(path):
             figure.savefig(path, dpi=200, metadata={"CreationDate": None} if path.endswith(".pdf") else None)
-        except OSError as error:
-            raise HVIError(f"cannot write {path}: {error.strerror or error}") from None
     return paths
 
 

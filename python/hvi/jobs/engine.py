@@ -22,8 +22,8 @@ import time
 import yaml
 
 from .. import progress, tables
-from ..errors import HVIError
-from ..material.files import potentials
+from ..errors import HVIError, writing
+from ..material.library import potentials
 from ..version import ROOT
 
 LAST = "package_version"  # the last key of result.yaml: it is there if the file is complete
@@ -38,6 +38,17 @@ def read_yaml(path):
     except (OSError, yaml.YAMLError, UnicodeDecodeError):
         return None
     return data if isinstance(data, dict) else None
+
+
+def yaml_of(mapping):
+    return yaml.safe_dump(mapping, sort_keys=False, width=1000)
+
+
+def write_yaml(path, mapping):
+    """a YAML file, whole or not at all"""
+    new = path.with_name(path.name + ".new")
+    new.write_text(yaml_of(mapping))
+    os.replace(new, path)
 
 
 def frames(folder, pattern):
@@ -321,6 +332,11 @@ class Runner:
         env = ROOT / "cmake" / "env.sh"  # lets mpirun run as root, in containers, with more ranks than cores
         return [str(env), *command] if env.is_file() else command
 
+    def show(self, jobs):
+        """what would be run"""
+        for job in jobs:
+            print(" ".join(self.command(job)))
+
     def run(self, jobs, what, more=lambda job: []):
         """Runs those that are not done, some at a time; returns those that failed.
 
@@ -416,10 +432,8 @@ def table_of(jobs, path):
         with contextlib.suppress(OSError):
             write_table(jobs(), path)
         raise
-    try:
+    with writing(path):
         write_table(jobs(), path)
-    except OSError as problem:
-        raise HVIError(f"cannot write {path}: {problem.strerror}") from None
 
 
 def overview(jobs, keys):

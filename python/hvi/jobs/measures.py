@@ -1,10 +1,7 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""python3 -m hvi measure: what runs of the examples have recorded is measured and put into their result.yaml."""
+"""What runs of the examples have recorded, measured and put into their result.yaml."""
 
-import os
 import pathlib
-
-import yaml
 
 from ..errors import HVIError
 from . import engine, pullback
@@ -33,26 +30,5 @@ def measure(folder):
     for function in functions:
         added = function(folder, result)
         result = {**{key: value for key, value in result.items() if key not in added and key != engine.LAST}, **added, engine.LAST: result[engine.LAST]}
-    new = folder / "result.yaml.new"
-    new.write_text(text(result))
-    os.replace(new, path)
+    engine.write_yaml(path, result)
     return result
-
-
-def text(result):
-    return yaml.safe_dump(result, sort_keys=False, width=1000)
-
-
-def main(args):
-    problems = []
-    for folder in args.folders:
-        try:
-            result = measure(folder)
-        except HVIError as problem:
-            problems.append(str(problem))
-            continue
-        if len(args.folders) > 1:
-            print(f"# {folder}")
-        print(text(result), end="")
-    if problems:
-        raise HVIError("; ".join(problems))

@@ -1,8 +1,7 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""python3 -m hvi sweep: a LAMMPS input for many values of its variables, as a study file says."""
+"""A LAMMPS input for many values of its variables, as a study file says."""
 
 import itertools
-import pathlib
 
 import yaml
 
@@ -10,7 +9,6 @@ from ..errors import HVIError
 from . import engine, measures
 
 KEYS = {"input", "variables", "grid", "ranks", "timeout", "restart", "continue", "remove", "full"}
-SHOWN = ("verdict", "perforated", "particles", "steps", "time_us", "core_s")
 
 
 class Job(engine.Job):
@@ -94,32 +92,3 @@ class Study:
     def jobs(self, folder):
         return [Job(self.input, name, {**self.fixed, **case}, folder / self.name / name, self.restart, self.remove, goes_on=self.goes_on)
                 for case, name in ((case, engine.job_name(case)) for case in self.cases)]
-
-
-def one(path, args):
-    """one study; returns True if all its jobs are done"""
-    study = Study(pathlib.Path(path), args.full)
-    runner = engine.Runner(args, study.ranks, study.timeout)
-    folder = args.runs.resolve()
-    jobs = study.jobs(folder)
-    todo = [job for job in jobs if job.result() is None]
-    print(f"{study.name}: {len(jobs)} jobs, {len(jobs) - len(todo)} done before, {len(todo)} to run", flush=True)
-    if args.dry_run:
-        for job in todo:
-            print(" ".join(runner.command(job)))
-        return True
-    table = folder / f"{study.name}.csv"
-    try:
-        with engine.table_of(lambda: jobs, table):
-            failed = runner.run(todo, study.name)
-            print(engine.overview(jobs, SHOWN))
-    finally:
-        done = sum(job.result() is not None for job in jobs)
-        print(f"{study.name}: {done} of {len(jobs)} jobs are done, table: {table}", flush=True)
-    if failed:
-        print(f"{study.name}: {len(failed)} failed: {', '.join(job.name for job in failed)}", flush=True)
-    return not failed
-
-
-def main(args):
-    return 0 if all([one(path, args) for path in args.study]) else 1

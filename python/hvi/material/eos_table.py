@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from ..errors import HVIError
+from ..errors import HVIError, writing
 
 UNITS = ("si", "cgs", "micro", "lj")
 
@@ -56,8 +56,6 @@ def write_eos_table(path, rho, e, pressure, temperature=None, *, rho0=None, unit
     text += f"density {density}\ninterpolation {interpolation}\n\n" + _block("pressure", rho, e, pressure)
     if temperature is not None:
         text += "\n" + _block("temperature", rho, e, temperature)
-    try:
+    with writing(path):
         with open(path, "w", encoding="ascii") as stream:
             stream.write(text)
-    except OSError as error:
-        raise HVIError(f"cannot write {path}: {error.strerror or error}") from None

@@ -6,14 +6,14 @@ import pathlib
 import re
 
 from ..errors import HVIError
-from . import files
+from . import library
 
 SOLID = "damage no spall voids"  # words of fix hvi/johnson-cook that shields take
 
 
 def path_of(name):
     """of a material file by its name or path, None if there is none"""
-    return next((path for path in (pathlib.Path(name), *(folder / name for folder in files.potentials())) if path.is_file()), None)
+    return next((path for path in (pathlib.Path(name), *(folder / name for folder in library.potentials())) if path.is_file()), None)
 
 
 def strengths(path):
@@ -27,7 +27,7 @@ def strengths(path):
 def find(reader, node, key):
     """Reads the name of a material: a file beside that of the reader, or one of the package, without .hvi; it must have a section strength"""
     name = reader.text(node, key)
-    known = {path.stem: path for folder in reversed(files.potentials()) for path in sorted(folder.glob("*.hvi"))}
+    known = {path.stem: path for folder in reversed(library.potentials()) for path in sorted(folder.glob("*.hvi"))}
     solid = sorted(stem for stem, path in known.items() if strengths(path))
     own = next((path for path in (reader.path.parent / name, reader.path.parent / f"{name}.hvi") if path.is_file()), None)
     path = own or known.get(name.removesuffix(".hvi"))

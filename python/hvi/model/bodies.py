@@ -4,9 +4,8 @@
 import dataclasses
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from ..errors import HVIError
+from ..errors import HVIError, writing
 from . import glass
 
 SMOOTH = 0.15  # depth of the outermost particle of a glass, spacings, at least; half is usual
@@ -292,6 +291,8 @@ def measure(body, h=1.6):
     default): inside, where the kernel is whole, and of the outermost layer (there it is cut off: only its spread says something) away from edges;
     depth of that layer. What a body is too small for is missing.
     """
+    from scipy.spatial import cKDTree
+
     unit, reach = body.spacing, 2 * h * body.spacing
     n, shape = len(body.x), body.shape
     mirrors = shape.images_near(body.x, reach, [p for p in shape.parts if not p.surface])
@@ -327,7 +328,7 @@ def write(path, body, density, title=""):
 def write_data(path, x, kind, masses, density, low, high, planes, title):
     """planes: columns with a mirror plane at 0, all particles being above it"""
     mirror = " ".join(f"mirror {'xyz'[k]} 0 lo" for k in planes) or "mirror none"
-    try:
+    with writing(path):
         with open(path, "w", encoding="ascii", errors="replace") as out:
             out.write(f"LAMMPS data file: {title}, {mirror}\n\n{len(x)} atoms\n{len(masses)} atom types\n\n")
             out.writelines(f"{low[k]:.10g} {high[k]:.10g} {c}lo {c}hi\n" for k, c in enumerate("xyz"))
@@ -336,5 +337,3 @@ def write_data(path, x, kind, masses, density, low, high, planes, title):
             out.write("\nAtoms # sph\n\n")
             table = np.column_stack([np.arange(1, len(x) + 1), kind, np.full(len(x), density), np.zeros((len(x), 2)), x])
             np.savetxt(out, table, fmt="%d %d %.10g %d %d %.15g %.15g %.15g")
-    except OSError as error:
-        raise HVIError(f"cannot write {path}: {error.strerror or error}") from None

@@ -2,7 +2,6 @@
 """Places of particles like those of atoms in a glass: even, without rows."""
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 SKIN = 0.4  # of the list of neighbors, spacings
 FAR = 0.2  # longest way of a step
@@ -19,6 +18,8 @@ def relax(shape, n, seed=1):
 
     Images behind the faces, as dense as the particles, keep them half a spacing from it: the surface is a layer, and flat where the face is.
     """
+    from scipy.spatial import cKDTree
+
     unit = np.cbrt(shape.volume / n)
     x = _start(shape, n, unit, np.random.default_rng(seed))
     for steps, far, reach, push in STAGES:

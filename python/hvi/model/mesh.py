@@ -5,7 +5,7 @@ import dataclasses
 
 import numpy as np
 
-from ..errors import HVIError
+from ..errors import HVIError, writing
 
 # nodes of a hexahedron in the order of VTK and of Abaqus's C3D8, and its faces seen from outside: -x +x -y +y -z +z
 CORNERS = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
@@ -129,7 +129,7 @@ class Mesh:
         kind = np.concatenate([np.full(len(nodes), self.node_type), np.repeat(self.type[self.n > 0], count), self.free_type])
         rho = np.where(kind == self.node_type, 0.0, density)
         first = np.where(self.n > 0, len(nodes) + 1 + count * (np.cumsum(self.n > 0) - 1), 0)
-        try:
+        with writing(path):
             with open(path, "w", encoding="ascii") as out:
                 out.write(f"LAMMPS data file: mesh {title}, mirror {self.mirror}\n\n{len(x)} atoms\n{len(masses)} atom types\n"
                           + (f"{len(self.elements)} elements\n\n" if len(self.elements) else "\n"))
@@ -143,8 +143,6 @@ class Mesh:
                     out.write("\nElements\n\n")
                     table = np.column_stack([np.arange(1, len(self.elements) + 1), self.type, self.elements + 1, self.n, first])
                     np.savetxt(out, table, fmt="%d")
-        except OSError as error:
-            raise HVIError(f"cannot write {path}: {error.strerror or error}") from None
 
     def _box(self):
         """Around all, with an element's width to spare; nothing beyond mirrors"""

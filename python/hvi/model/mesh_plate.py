@@ -2,7 +2,6 @@
 """Plates of hexahedra across z: squares and circles, with free particles in the middle and elements that grow outward."""
 
 import numpy as np
-from scipy.spatial import Voronoi
 
 from ..errors import HVIError
 from . import mesh
@@ -71,6 +70,8 @@ def _disk(radius, sectors, spacing):
     A square lattice that relaxes near the rim: there each particle goes to the center of its Voronoi cell (Lloyd), with images
     beyond the rim. Cut at the rim the lattice would have gaps up to its spacing, or particles of many masses.
     """
+    from scipy.spatial import Voronoi
+
     area = sectors / 8 * radius**2 * np.sin(2 * np.pi / sectors)
     grid = spacing * (np.arange(int(radius / spacing) + 4) + 0.5)
     x = np.stack(np.meshgrid(grid, grid), axis=-1).reshape(-1, 2)

@@ -2,7 +2,6 @@
 """Plates for SPH: square lattices in layers, each turned by its own angle, coarser outward; written as LAMMPS data files."""
 
 import dataclasses
-import re
 
 import numpy as np
 
@@ -99,21 +98,6 @@ def _layer(turn, radius, wide, zones, quarter):
     if quarter:
         inside &= (x > 0.0).all(axis=1)
     return x[inside], kind[inside]
-
-
-def density_of(path):
-    """(rho0, units) of a material file"""
-    try:
-        with open(path, encoding="utf-8", errors="replace") as stream:
-            text = stream.read()
-    except OSError as error:
-        raise HVIError(f"cannot read {path}: {error.strerror or error}") from None
-    found = re.search(r"^eos\b[^\n]*\n(?:(?![a-z]).*\n)*?\s+rho0\s+(\S+)", text, re.M)
-    units = re.search(r"UNITS: *(\w+)", text.split("\n")[0])
-    try:
-        return float(found[1]), units[1]
-    except (TypeError, ValueError):
-        raise HVIError(f"{path}: no rho0 in a section eos, or no UNITS in the first line: is it a material file?") from None
 
 
 def write(path, plate, density, title=""):

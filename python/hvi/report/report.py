@@ -1,5 +1,5 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""python3 -m hvi report: one HTML file, with all pictures in it, of what a shield did, why, and how far that is known."""
+"""One HTML file, with all pictures in it, of what a shield did, why, and how far that is known."""
 
 import dataclasses
 import datetime
@@ -12,10 +12,10 @@ import shlex
 import matplotlib
 import numpy as np
 
-from .. import progress, tables
+from .. import tables
 from ..errors import HVIError
 from ..jobs import engine
-from ..material import files
+from ..material import library
 from ..shield import ble, decision
 from ..shield.run import runs_of, texts
 from ..shield.script import BEGIN
@@ -178,7 +178,7 @@ class Report:
     def materials(self):
         parts, rows = [], []
         for name in dict.fromkeys(self.run.materials):
-            path = next((p for p in (pathlib.Path(name), self.run.folder / name, *(folder / name for folder in files.potentials())) if p.is_file()), None)
+            path = next((p for p in (pathlib.Path(name), self.run.folder / name, *(folder / name for folder in library.potentials())) if p.is_file()), None)
             used = ", ".join(pictures.body_name(k) for k, material in enumerate(self.run.materials) if material == name)
             if path is None:
                 rows.append((stem(name), used, "the file is not there any more"))
@@ -277,16 +277,3 @@ class Report:
         sections = [self.summary(hero), *drawn, self.margins(), self.equations(), self.numerics(), self.materials(), self.settings(), self.repeat(),
                     tag("footer", f"Made {datetime.date.today().isoformat()} by python3 -m hvi report, lammps-hvi {version()}. No part of this page is loaded from elsewhere.")]
         return pages.page(f"{self.name}: {self.verdict}", self.verdict, self.head(), sections)
-
-
-def main(args):
-    report = Report(args.folder)
-    out = pathlib.Path(args.out or pathlib.Path(args.folder) / "report.html")
-    with progress.bar(None, "pictures") as bar:
-        text = report.html(bar)
-    try:
-        out.write_text(text, encoding="utf-8")
-    except OSError as problem:
-        raise HVIError(f"cannot write {out}: {problem.strerror}") from None
-    print(f"report: {out} ({len(text) / 1e6:.1f} MB)")
-    return 0

@@ -22,8 +22,7 @@ import typing
 
 from .. import tables
 from ..errors import HVIError
-from ..material import files
-from ..model import plates
+from ..material import library
 
 CAP = 65.0  # degrees: beyond, fragments of the bumper decide; d_c is that of 65 degrees [C09] (4-26)
 HIGH = 7.0  # km/s, normal component, from which on the projectile melts [C09]
@@ -294,6 +293,15 @@ def critical_diameter(name, shield, velocity_km_s, angle_deg=0.0):
     return d, [what if value is None else f"{what} {value:.3g} is {limit}" for what, value, limit in beyond(name, shield, d, velocity_km_s, angle_deg)]
 
 
+def curve(shield, name, speeds, angle):
+    """[(d_c in mm, what is beyond its range)] over speeds"""
+    found = []
+    for speed in speeds:
+        d, _ = critical_diameter(name, shield, speed, angle)
+        found.append((10 * d, beyond(name, shield, d, speed, angle)))
+    return found
+
+
 def properties(stem):
     """(density, yield strength in ksi, speed of sound in km/s, Brinell hardness) of a material by its name, None where not known"""
     found = [key for key in PROPERTIES if re.match(re.escape(key) + r"(?![0-9A-Za-z])", stem)]
@@ -303,8 +311,8 @@ def properties(stem):
 @functools.lru_cache
 def _density(name):
     """g/cm^3 of a material file"""
-    path = next((p for p in (pathlib.Path(name), *(folder / name for folder in files.potentials())) if p.is_file()), name)
-    value, units = plates.density_of(path)
+    path = next((p for p in (pathlib.Path(name), *(folder / name for folder in library.potentials())) if p.is_file()), name)
+    value, units = library.density_of(path)
     if units != "si":
         raise HVIError(f"{path}: units must be si, not {units}")
     return 1e-3 * value

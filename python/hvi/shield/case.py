@@ -5,7 +5,6 @@ KEYS, WALL and SETTINGS are the tables of all keys: reader, messages, the docume
 """
 
 import dataclasses
-import math
 import pathlib
 import warnings
 from typing import Any, Callable, NamedTuple

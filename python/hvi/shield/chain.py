@@ -12,7 +12,6 @@ import os
 import pathlib
 
 import numpy as np
-import yaml
 
 from ..errors import HVIError
 from ..jobs import engine
@@ -117,11 +116,10 @@ class Job(engine.Job):
         leg = self.chain()["leg"]
         steps, history = record.rows_of(self.folder / "history.dat")
         if history[-1, 0] >= self.until(leg) and leg + 1 < self.legs:
-            file, new = f"shield.restart.{'ab'[leg % 2]}", self.folder / (CHAIN + ".new")
+            file = f"shield.restart.{'ab'[leg % 2]}"
             if not (self.folder / file).is_file():
                 raise HVIError(f"{self.folder}: the run has written no {file}, from which it would go on")
-            new.write_text(yaml.safe_dump({"leg": leg + 1, "file": file, "step": int(steps[-1]), "time_us": float(history[-1, 0])}))
-            os.replace(new, self.folder / CHAIN)
+            engine.write_yaml(self.folder / CHAIN, {"leg": leg + 1, "file": file, "step": int(steps[-1]), "time_us": float(history[-1, 0])})
             return False
         write_result(self.shield, self.folder)
         for path in (self.folder / CHAIN, *self.folder.glob("shield.restart.*")):
@@ -142,7 +140,7 @@ class Job(engine.Job):
 
 
 def write_plan(shield, folder):
-    (pathlib.Path(folder) / "plan.yaml").write_text(yaml.safe_dump(plan_of(shield), sort_keys=False, width=1000))
+    engine.write_yaml(pathlib.Path(folder) / "plan.yaml", plan_of(shield))
 
 
 def size_of(shield):
@@ -174,10 +172,7 @@ def write_result(shield, folder):
     """result.yaml, verdict first; frames before the next wall is struck as cloudK.dump"""
     found = record.measure(shield, folder)
     said = verdict.of_run(shield, found)
-    text = yaml.safe_dump(record.rounded({**said, **found}), sort_keys=False, width=1000, allow_unicode=False)
-    new = pathlib.Path(folder) / "result.yaml.new"
-    new.write_text(text)
-    os.replace(new, pathlib.Path(folder) / "result.yaml")
+    engine.write_yaml(pathlib.Path(folder) / "result.yaml", record.rounded({**said, **found}))
     clouds(found, pathlib.Path(folder))
     return found
 

@@ -5,8 +5,7 @@ import math
 import pathlib
 
 from ..errors import HVIError
-from ..material import laws
-from ..model import plates
+from ..material import library, laws
 from . import geometry
 
 CORE = 1.6  # radii of the projectile: free particles under its impact
@@ -76,4 +75,4 @@ def write(path, material, **words):
     file = laws.path_of(material)
     if file is None:
         raise HVIError(f"no material file {material}")
-    mesh_plate.plate(**words).write(path, plates.density_of(file)[0], pathlib.Path(path).name)
+    mesh_plate.plate(**words).write(path, library.density_of(file)[0], pathlib.Path(path).name)

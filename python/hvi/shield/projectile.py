@@ -10,8 +10,8 @@ import yaml
 
 from ..errors import HVIError
 from ..io.data import DataFile
-from ..material import laws
-from ..model import bodies, plates, stl
+from ..material import library, laws
+from ..model import bodies, stl
 from . import reader
 
 # shape: keys that it needs, keys that it may have
@@ -130,7 +130,7 @@ def read(of, node, key):
         of.wrong(f"{key}: thickness_mm", f"must be below the radius, {0.5 * found['diameter_mm']:g} mm")
     files = tuple(str((of.path.parent / name).resolve()) for name in names)
     try:
-        density = plates.density_of(laws.path_of(found["material"]))[0] if files else None
+        density = library.density_of(laws.path_of(found["material"]))[0] if files else None
         return Projectile(**found, files=files, of_files=tuple(measured(path, density) for path in files))
     except HVIError as problem:
         of.wrong(f"{key}: file", str(problem))

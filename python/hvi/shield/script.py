@@ -13,8 +13,7 @@ import shutil
 import yaml
 
 from ..errors import HVIError
-from ..material import laws
-from ..model import plates
+from ..material import library, laws
 from . import elements, geometry, projectile
 
 BEGIN, CONTINUE, CASE = "in.shield", "in.continue", "case.yaml"
@@ -107,7 +106,7 @@ class Shield:
     @functools.cached_property
     def rho(self):
         """kg/m^3 of the projectile and of the walls, from their material files"""
-        return [plates.density_of(material_file(name))[0] for name in (self.case.material, *(wall.material for wall in self.case.walls))]
+        return [library.density_of(material_file(name))[0] for name in (self.case.material, *(wall.material for wall in self.case.walls))]
 
     @property
     def energy(self):

@@ -329,3 +329,18 @@ def everything(folder):
     """rows of all files of a folder"""
     names = sorted(p for p in os.listdir(folder) if p.endswith(".hvi"))
     return [row(read(pathlib.Path(folder, name))) for name in names]
+
+
+def density_of(path):
+    """(rho0, units) of a material file"""
+    try:
+        with open(path, encoding="utf-8", errors="replace") as stream:
+            text = stream.read()
+    except OSError as error:
+        raise HVIError(f"cannot read {path}: {error.strerror or error}") from None
+    found = re.search(r"^eos\b[^\n]*\n(?:(?![a-z]).*\n)*?\s+rho0\s+(\S+)", text, re.M)
+    units = re.search(r"UNITS: *(\w+)", text.split("\n")[0])
+    try:
+        return float(found[1]), units[1]
+    except (TypeError, ValueError):
+        raise HVIError(f"{path}: no rho0 in a section eos, or no UNITS in the first line: is it a material file?") from None
