@@ -2,6 +2,7 @@
 """What goes wrong is said in one line: what, where, and what would help."""
 
 import contextlib
+import importlib
 
 
 class HVIError(Exception):
@@ -13,9 +14,26 @@ class HVIWarning(UserWarning):
 
 
 @contextlib.contextmanager
-def writing(path):
-    """a file that cannot be written is an HVIError that names it"""
+def _said(what, problems):
     try:
         yield
-    except OSError as problem:
-        raise HVIError(f"cannot write {path}: {problem.strerror or problem}") from None
+    except problems as problem:
+        raise HVIError(f"cannot {what}: {getattr(problem, 'strerror', None) or problem}") from None
+
+
+def reading(path):
+    """in its context what cannot be read is an HVIError that names the file"""
+    return _said(f"read {path}", (OSError, EOFError, UnicodeDecodeError))
+
+
+def writing(path):
+    return _said(f"write {path}", OSError)
+
+
+def needed(module, what):
+    """A module of a library that not everybody has; what needs it"""
+    try:
+        return importlib.import_module(module)
+    except ImportError:
+        name, debian = {"PIL": ("Pillow", "pil")}.get(module.partition(".")[0], (module, module))
+        raise HVIError(f"{what} {name}: Debian's python3-{debian}, or pip install {name.lower()}") from None

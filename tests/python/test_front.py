@@ -26,11 +26,11 @@ from hvi.figures import sketch
 from hvi.io.data import DataFile
 from hvi.jobs import engine
 from hvi.material import laws
-from hvi.shield import chain, decision, record
+from hvi.shield import ble, chain, decision, projectile, record
 from hvi.shield import case as cases
 
 
-MINE = "# DATE: 2026 UNITS: si\neos linear\n  rho0 2700\nstrength johnson-cook"
+MINE = "# DATE: 2026 UNITS: si\neos linear\n  rho0 2700\n  K 7e10\nstrength johnson-cook\n  G 27e9\n  A 3e8\n  B 1e8\n  n 0.4\n  C 0\n  m 1\n  Tref 300\n  Tm 900"
 
 
 # ---------------------------------------------------------------------- cases
@@ -46,6 +46,20 @@ def test_case_as_variables(folder, root):
     found = cases.read("emi.yaml").variables(0, 0.0)
     assert found["spacings"] == [0.4, 0.5] and found["radius"] == [0, 40.0] and found["angle"] == 30.0
     assert found["material"] == [str(folder / "mine.hvi"), "Al6061-T6.hvi"] and found["tstop"] == 40 and found["layers"] == [2, 3]
+
+
+def test_material_in_other_units(folder):
+    """masses are those of the density, whatever the units of the file"""
+    cgs = MINE.replace("UNITS: si", "UNITS: cgs")
+    for old, new in (("rho0 2700", "rho0 2.7"), ("K 7e10", "K 7e11"), ("G 27e9", "G 27e10"), ("A 3e8", "A 3e9"), ("B 1e8", "B 1e9")):
+        cgs = cgs.replace(old, new)
+    (folder / "emi.yaml").write_text(CASE.replace("material: Al2024-T3", "material: mine").replace("material: Al6061-T6", "material: mine"))
+    plans = []
+    for text in (MINE, cgs):
+        (folder / "mine.hvi").write_text(text)
+        shield = chain.shield_of(cases.read("emi.yaml"), 0, 0.0)
+        plans.append((shield.mass(), *shield.rho, chain.plan_of(shield)["areal_density_kg_m2"], ble.from_case(shield.case).wall_density))
+    assert plans[1] == pytest.approx(plans[0], rel=1e-12) and plans[0][1:] == (2700, 2700, 2700, pytest.approx(5.4), pytest.approx(2.7))
 
 
 def test_the_case_of_one_run(folder):
@@ -66,6 +80,7 @@ def test_tables_of_keys(capsys):
     for table, name in ((cases.KEYS, cases.Case), (cases.WALL, cases.Wall)):
         fields = {field.name for field in dataclasses.fields(name)} - {"name"} | ({"method"} if name is cases.Case else set())
         assert set(table) == fields
+    assert set(projectile.KEYS) - {"file"} | {"files", "of_files"} == {field.name for field in dataclasses.fields(projectile.Projectile)}
     for key, _, text in cases.rows_of_keys():
         assert f"\n{key} " in shown and (text or key.endswith("thickness_mm"))
     page = pathlib.Path(cases.__file__).parents[3] / "doc/src/case_keys.txt"

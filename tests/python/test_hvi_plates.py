@@ -114,9 +114,13 @@ def test_density_of_material_files(root, tmp_path):
     assert library.density_of(root / "potentials" / "Cu-OFHC.hvi") == (8930.0, "si")
     for path in (root / "potentials").glob("*.hvi"):
         assert library.density_of(path)[0] > 0, path
-    (tmp_path / "no.hvi").write_text("# UNITS: si\nstrength perfect\n  rho0 3\n")
-    with pytest.raises(hvi.HVIError, match="no.hvi: no rho0"):
-        library.density_of(tmp_path / "no.hvi")
+    (tmp_path / "no.hvi").write_text("# UNITS: cgs\neos tait\n  rho0 2.7\n  c0 5e5\n")
+    assert library.density_of(tmp_path / "no.hvi") == (2.7, "cgs") and library.density_of(tmp_path / "no.hvi", si=True) == (pytest.approx(2700), "si")
+    for text, si, said in (("si\nstrength perfect\n  rho0 3\n", False, "strength perfect: unknown key rho0"), ("si\neos idealgas\n  gamma 1.4\n", False, "no rho0"),
+                           ("lj\neos linear\n  rho0 1\n  K 1\n", True, "no rho0 .* SI")):
+        (tmp_path / "no.hvi").write_text(f"# UNITS: {text}")
+        with pytest.raises(hvi.HVIError, match=f"no.hvi.*: {said}"):
+            library.density_of(tmp_path / "no.hvi", si)
 
 
 def cloud(planes=()):

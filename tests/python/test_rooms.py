@@ -10,7 +10,7 @@ from hvi import cli
 from test_includes import circles
 
 GROUND = "errors progress tables units version"  # modules beside the rooms that all of them may import
-BELOW = {"io": "", "material": "", "analysis": "io", "model": "", "jobs": "material", "shield": "io material model jobs", "figures": "io material analysis shield",
+BELOW = {"io": "", "material": "", "analysis": "io", "model": "io", "jobs": "material", "shield": "io material model jobs", "figures": "io material analysis shield",
          "report": "material analysis jobs shield figures", "commands": "io material analysis model jobs shield figures report"}
 HEAVY = "MDAnalysis PIL matplotlib meshio numpy pandas scipy tqdm yaml".split()
 

@@ -3,6 +3,7 @@
 
 from .. import tables
 from ..errors import HVIError
+from ..material.library import stem
 from ..shield import ble
 from ..shield import case as cases
 from . import running
@@ -77,13 +78,10 @@ def of_case(args):
 
 def title(case, shield):
     """a case in a line"""
-    def named(material):
-        return material.rsplit("/", 1)[-1].removesuffix(".hvi")
-
-    walls = ", ".join((f"gap {wall.gap_mm:g} mm, " if wall.gap_mm else "") + f"{wall.thickness_mm:g} mm {named(wall.material)}" for wall in case.walls)
+    walls = ", ".join((f"gap {wall.gap_mm:g} mm, " if wall.gap_mm else "") + f"{wall.thickness_mm:g} mm {stem(wall.material)}" for wall in case.walls)
     strength = f" ({shield.wall_yield_ksi:g} ksi)" if shield.walls == 2 else ""
     capped = f" (beyond {ble.CAP:g}: critical diameters are those of {ble.CAP:g})" if shield.walls == 2 and case.angle_deg > ble.CAP else ""
-    return f"{case.name}: {named(case.material)} on {walls}{strength}, {case.angle_deg:g} degrees{capped}"
+    return f"{case.name}: {stem(case.material)} on {walls}{strength}, {case.angle_deg:g} degrees{capped}"
 
 
 # ---------------------------------------------------------------------- published shots

@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import progress
 from .. import units as unit_systems
-from ..errors import HVIError
+from ..errors import HVIError, needed
 from ..shield.run import runs_of
 from . import dumps
 
@@ -51,10 +51,7 @@ def fields(frame):
 
 def write(path, frame):
     """A frame as points of a VTU file"""
-    try:
-        import meshio
-    except ImportError:
-        raise HVIError("VTU files need meshio: Debian's python3-meshio, or pip install meshio") from None
+    meshio = needed("meshio", "VTU files need")
     data = {name: np.ascontiguousarray(values) for name, values in fields(frame).items()}
     cells = [("vertex", np.arange(len(frame))[:, None])]
     meshio.Mesh(np.ascontiguousarray(frame.x), cells, point_data=data).write(path, file_format="vtu")

@@ -5,7 +5,7 @@ import io
 import pathlib
 
 from .. import progress
-from ..errors import HVIError, writing
+from ..errors import HVIError, needed, writing
 from ..shield.run import Scene, runs_of
 from .shared import positive
 
@@ -24,10 +24,9 @@ def add_arguments(parser):
 
 def frames(run, color="body", progress=progress.silent):
     """Pillow images of all frames: one frame and scale, the time of each above."""
-    from PIL import Image
-
     from ..report import pictures
 
+    image = needed("PIL.Image", "a movie needs")
     dump = run.frames()
     if len(dump) < 3:
         raise HVIError(f"{run.folder} has {len(dump)} frame{'s' * (len(dump) > 1)}, too few for a movie: give the case settings: {{film: 1}}, us between frames")
@@ -39,16 +38,12 @@ def frames(run, color="body", progress=progress.silent):
             figure.axes[0].text(0.02, 0.98, f"{scene.time:.1f} us", transform=figure.axes[0].transAxes, va="top", fontsize=11, zorder=5)
             stream = io.BytesIO()
             figure.savefig(stream, format="png", dpi=DPI)
-            found.append(Image.open(stream).convert("RGB"))
+            found.append(image.open(stream).convert("RGB"))
             bar.update()
     return found
 
 
 def main(args):
-    try:
-        import PIL  # noqa: F401
-    except ImportError:
-        raise HVIError("a movie needs Pillow: Debian's python3-pil, or pip install pillow") from None
     run = runs_of(args.folder)[1][0]
     images = frames(run, args.color, progress.bar)
     colors = images[len(images) // 2].quantize(256)  # the same of all frames: else they flicker

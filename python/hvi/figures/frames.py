@@ -1,89 +1,14 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""Figures: side views, velocity maps, N(>m), the cloud over time. Each returns a matplotlib Figure; save() writes it."""
-
-import os
+"""Side views, velocity maps, N(>m), the cloud over time. Each returns a matplotlib Figure."""
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import ListedColormap, LogNorm
-from matplotlib.figure import Figure
 from scipy import ndimage
 
 from .. import units as unit_systems
-from ..errors import HVIError, writing
+from ..errors import HVIError
 from ..io.frame import as_frame, axis_number, whole
-
-WIDTH = 6.4  # inches
-BODIES = ("#c8373a", "#2f62a8", "#5a9a57", "#8a5aa3", "#d8892f", "#6b6b6b")  # types 1, 2, ...
-STYLE = {"size": 9, "line": 1.4}
-SINGLE = "#c9c9c9"
-MASS, VELOCITY = "Greys", "viridis"
-BESIDE = {"pad": 0.01, "fraction": 0.035, "aspect": 25}  # where a color bar stands
-
-
-def save(figure, name):
-    """Writes name.png and name.pdf, or only the one that name says. Returns the paths."""
-    stem, end = os.path.splitext(str(name))
-    paths = [str(name)] if end in (".png", ".pdf") else [f"{name}.png", f"{name}.pdf"]
-    for path in paths:
-        with writing(path):
-            figure.savefig(path, dpi=200, metadata={"CreationDate": None} if path.endswith(".pdf") else None)
-    return paths
-
-
-def _figure(height, columns=1, rows=1, **how):
-    figure = Figure(figsize=(WIDTH, height), constrained_layout=True)
-    FigureCanvasAgg(figure)
-    axes = figure.subplots(rows, columns, squeeze=False, **how)
-    for ax in axes.flat:
-        _plain(ax)
-    return figure, axes
-
-
-def _equal_axes(x, y, bar):
-    """A figure with one pair of axes of equal scales that just holds the ranges x and y (lowest, highest).
-
-    Returns figure, axes, axes for a color bar (None without), points (1/72 inch) per unit of length.
-    """
-    left, right, below, above = 0.65, 0.95 if bar else 0.15, 0.55, 0.35  # inches around the axes
-    wide, high = np.ptp(x), np.ptp(y)
-    scale = min((WIDTH - left - right) / wide, 7.0 / high)
-    w, h = max(wide * scale, 2.0), max(high * scale, 0.8)
-    total = left + w + right, below + h + above
-    figure = Figure(figsize=total)
-    FigureCanvasAgg(figure)
-    ax = figure.add_axes((left / total[0], below / total[1], w / total[0], h / total[1]))
-    ax.set(xlim=x, ylim=y)
-    ax.set_aspect("equal", anchor="W")
-    beside = None
-    if bar:
-        beside = figure.add_axes(((left + w + 0.1) / total[0], below / total[1], 0.12 / total[0], h / total[1]))
-    _plain(ax)
-    return figure, ax, beside, 72.0 * scale
-
-
-def _plain(ax):
-    ax.spines[["top", "right"]].set_visible(False)
-    ax.tick_params(labelsize=STYLE["size"])
-
-
-def _label(ax, x=None, y=None):
-    if x is not None:
-        ax.set_xlabel(x, fontsize=STYLE["size"])
-    if y is not None:
-        ax.set_ylabel(y, fontsize=STYLE["size"])
-
-
-def _bar(figure, artist, text, extend="neither", **where):
-    bar = figure.colorbar(artist, extend=extend, **where)
-    bar.set_label(text, fontsize=STYLE["size"])
-    bar.ax.tick_params(labelsize=STYLE["size"])
-    bar.outline.set_visible(False)
-    return bar
-
-
-def _legend_of_lines(ax):
-    ax.legend(fontsize=STYLE["size"] - 1, frameon=False)
+from .style import BESIDE, BODIES, MASS, SINGLE, STYLE, VELOCITY, color_bar, equal_axes, label_axes, legend, new_figure
 
 
 def _moment(frame):
@@ -144,21 +69,21 @@ def side(source, axis="z", up=None, color="type", thickness=None, fragments=None
     x, d = x / factor, d / factor
 
     margin = 0.5 * d or 0.01 * np.ptp(x) or 1.0
-    figure, ax, beside, per_unit = _equal_axes(*((k.min() - margin, k.max() + margin) for k in x.T), bar=kind != "types")
+    figure, ax, beside, per_unit = equal_axes(*((k.min() - margin, k.max() + margin) for k in x.T), bar=kind != "types")
     how, extend = _color_map(kind, values)
     size = max(d * per_unit, 0.3) ** 2  # square of the diameter in points
     ax.scatter(*x[single].T, s=size, color=SINGLE, linewidths=0, rasterized=True)
     dots = ax.scatter(*x[~single].T, s=size, c=values[~single], linewidths=0, rasterized=True, **how)
     if kind == "types":
-        _legend(ax, text, how)
+        _legend_of_types(ax, text, how)
     else:
-        bar = _bar(figure, dots, text, extend, cax=beside)
+        bar = color_bar(figure, dots, text, extend, cax=beside)
         if kind == "pieces":
             ticks = np.outer(10.0 ** np.arange(9), (1, 2, 5)).ravel()
             ticks = [t for t in ticks if dots.norm.vmin <= t <= dots.norm.vmax]
             bar.set_ticks(ticks, labels=[f"{t:.0f}" for t in ticks], minor=False)
             bar.minorticks_off()
-    _label(ax, unit_systems.label(axis, unit), unit_systems.label(up, unit))
+    label_axes(ax, unit_systems.label(axis, unit), unit_systems.label(up, unit))
     cut = "" if thickness is None else f", slice of {thickness / factor:.3g} {unit}"
     ax.set_title(_moment(frame) + cut, fontsize=STYLE["size"], loc="left")
     return figure
@@ -196,13 +121,12 @@ def _color_map(kind, values):
     return {"cmap": VELOCITY, "vmin": low, "vmax": high if high > low else low + 1.0}, extend
 
 
-def _legend(ax, names, how):
+def _legend_of_types(ax, names, how):
     from matplotlib.lines import Line2D
 
     marks = [Line2D([], [], marker="o", linestyle="", markersize=5, color=how["cmap"](t - 1), label=name)
              for t, name in names.items()]
-    ax.legend(handles=marks, fontsize=STYLE["size"], frameon=False, loc="lower right", bbox_to_anchor=(1.0, 1.0),
-              ncol=len(names), borderpad=0.0, handletextpad=0.2)
+    legend(ax, 0, handles=marks, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=len(names), borderpad=0.0, handletextpad=0.2)
 
 
 # ---------------------------------------------------------------------- velocity maps
@@ -215,14 +139,14 @@ def phase(source, axis, plane=None, bins=(200, 120)):
     fx, ux = unit_systems.scale("distance", found.x, frame.units)
     fy, uy = unit_systems.scale("velocity", found.y, frame.units)
     fm, um = unit_systems.scale("mass", found.values, frame.units)
-    figure, ((ax,),) = _figure(4.0)
+    figure, ((ax,),) = new_figure(4.0)
     values = np.where(found.values > 0.0, found.values, np.nan) / fm
     mesh = ax.pcolormesh(found.x / fx, found.y / fy, values.T, cmap=MASS, rasterized=True,
                          norm=LogNorm(np.nanmin(values) / 3.0, np.nanmax(values)))
     ax.plot(0.5 * (found.x[1:] + found.x[:-1]) / fx, found.line / fy, color=BODIES[0], lw=STYLE["line"], label="mean")
-    ax.legend(fontsize=STYLE["size"], frameon=False, loc="lower right")
-    _bar(figure, mesh, unit_systems.label("mass per bin", um), ax=ax, **BESIDE)
-    _label(ax, unit_systems.label(axis, ux), unit_systems.label(f"v{axis}", uy))
+    legend(ax, 0, loc="lower right")
+    color_bar(figure, mesh, unit_systems.label("mass per bin", um), ax=ax, **BESIDE)
+    label_axes(ax, unit_systems.label(axis, ux), unit_systems.label(f"v{axis}", uy))
     ax.set_title(_moment(frame), fontsize=STYLE["size"], loc="left")
     return figure
 
@@ -236,10 +160,10 @@ def field(source, axis, plane=None, bins=(200, 100)):
     factor, unit = unit_systems.scale("distance", np.append(found.x, found.y), frame.units)
     fv, uv = unit_systems.scale("velocity", found.values, frame.units)
     ends = ((edges[0] / factor, edges[-1] / factor) for edges in (found.x, found.y))
-    figure, ax, beside, _ = _equal_axes(*ends, bar=True)
+    figure, ax, beside, _ = equal_axes(*ends, bar=True)
     mesh = ax.pcolormesh(found.x / factor, found.y / factor, found.values.T / fv, cmap=VELOCITY, rasterized=True)
-    _bar(figure, mesh, unit_systems.label(f"mean v{axis}", uv), cax=beside)
-    _label(ax, unit_systems.label(axis, unit), unit_systems.label("distance from the axis", unit))
+    color_bar(figure, mesh, unit_systems.label(f"mean v{axis}", uv), cax=beside)
+    label_axes(ax, unit_systems.label(axis, unit), unit_systems.label("distance from the axis", unit))
     ax.set_title(_moment(frame), fontsize=STYLE["size"], loc="left")
     return figure
 
@@ -250,15 +174,15 @@ def impacts(source, found, axis="z"):
     frame = as_frame(source)
     factor, unit = unit_systems.scale("distance", found.x, frame.units)
     names = [name for name in "xyz" if name != axis]
-    figure, ((left, right),) = _figure(3.2, 2)
+    figure, ((left, right),) = new_figure(3.2, 2)
     for ax, values, quantity in ((left, found.momentum, "momentum"), (right, found.energy, "energy")):
         shown = np.where(values > 0.0, values, np.nan)
         top = np.nanmax(shown)
         mesh = ax.pcolormesh(found.x / factor, found.x / factor, shown.T, cmap="inferno", norm=LogNorm(1e-4 * top, top), rasterized=True)
         text = f"{unit_systems.name(quantity, frame.units)}/{unit_systems.name('distance', frame.units)}^2"
-        _bar(figure, mesh, f"{quantity} per area ({text})", "min", ax=ax, orientation="horizontal", pad=0.02, fraction=0.05)
+        color_bar(figure, mesh, f"{quantity} per area ({text})", "min", ax=ax, orientation="horizontal", pad=0.02, fraction=0.05)
         ax.set_aspect("equal")
-        _label(ax, unit_systems.label(names[0], unit), unit_systems.label(names[1], unit))
+        label_axes(ax, unit_systems.label(names[0], unit), unit_systems.label(names[1], unit))
     left.set_title(f"{_moment(frame)}, bins of {(found.x[1] - found.x[0]) / factor:.3g} {unit}", fontsize=STYLE["size"], loc="left")
     return figure
 
@@ -270,7 +194,7 @@ def hole(frame, found, axis="z"):
     names = [name for name in "xyz" if name != axis]
     factor, unit = unit_systems.scale("distance", np.concatenate([found.x, found.y]), frame.units)
     x, y, values = found.x / factor, found.y / factor, found.values
-    figure, ((ax,),) = _figure(4.8)
+    figure, ((ax,),) = new_figure(4.8)
     mesh = ax.pcolormesh(x, y, found.areal.T / values["reference"], cmap="Greys", vmin=0.0, vmax=1.5, shading="nearest", rasterized=True)
     if found.inside is not None:
         # what is plate, and what is an opening elsewhere, has no edge here
@@ -281,10 +205,10 @@ def hole(frame, found, axis="z"):
         r = 0.5 * values["diameter"] / factor
         ax.plot(at[0] + r * np.cos(angle), at[1] + r * np.sin(angle), "--", color=BODIES[1], lw=STYLE["line"],
                 label=f"equal area, {2.0 * r:.4g} {unit}; {values['smallest'] / factor:.4g} to {values['largest'] / factor:.4g} {unit}")
-        ax.legend(fontsize=STYLE["size"], frameon=False, loc="lower left", bbox_to_anchor=(0.0, 1.0))
-    _bar(figure, mesh, "mass per area / intact", "max", ax=ax)
+        legend(ax, 0, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    color_bar(figure, mesh, "mass per area / intact", "max", ax=ax)
     ax.set_aspect("equal")
-    _label(ax, unit_systems.label(names[0], unit), unit_systems.label(names[1], unit))
+    label_axes(ax, unit_systems.label(names[0], unit), unit_systems.label(names[1], unit))
     return figure
 
 
@@ -299,7 +223,7 @@ def distribution(masses, fits=(), units="si", small=None):
     if not len(m):
         raise HVIError("no fragments")
     factor, unit = unit_systems.scale("mass", m, units)
-    figure, ((ax,),) = _figure(4.2)
+    figure, ((ax,),) = new_figure(4.2)
     ax.step(m / factor, from_here, where="pre", color="black", lw=STYLE["line"], label="fragments")
     ax.vlines(m[-1] / factor, 0.5, from_here[-1], color="black", lw=STYLE["line"])
     highest = from_here[0]
@@ -325,8 +249,8 @@ def distribution(masses, fits=(), units="si", small=None):
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.set_ylim(0.7, 1.5 * highest)
-    _label(ax, unit_systems.label("m", unit), "N(> m)")
-    ax.legend(fontsize=STYLE["size"], frameon=False)
+    label_axes(ax, unit_systems.label("m", unit), "N(> m)")
+    legend(ax, 0)
     return figure
 
 
@@ -338,7 +262,7 @@ def cloud(table, units="si"):
     timed = np.isfinite(table["time"]).all()
     ft, ut = unit_systems.scale("time", table["time"], units) if timed else (1.0, "")
     time = table["time"] / ft if timed else table["step"]
-    figure, axes = _figure(4.8, columns=2, rows=2, sharex=True)
+    figure, axes = new_figure(4.8, columns=2, rows=2, sharex=True)
     panels = ((("front", "front"), ("rear", "rear")), (("length", "length"), ("diameter", "diameter")),
               (("front_velocity", "front"), ("rear_velocity", "rear"), ("expansion_velocity", "expansion"),
                ("front_displacement_velocity", "front, displacement")),
@@ -349,52 +273,9 @@ def cloud(table, units="si"):
             if np.isfinite(table[name]).any():
                 ax.plot(time, table[name] / factor, "o-", ms=3, color=color, lw=STYLE["line"], label=text)
         names = {"front": "position", "length": "size", "front_velocity": "velocity", "ratio": "length / radius"}
-        _label(ax, y=unit_systems.label(names[panel[0][0]], unit))
+        label_axes(ax, y=unit_systems.label(names[panel[0][0]], unit))
         if len(panel) > 1:
-            ax.legend(fontsize=STYLE["size"] - 1, frameon=False, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=2,
-                      borderpad=0.0, handlelength=1.5, columnspacing=1.0)
+            legend(ax, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=2, borderpad=0.0, handlelength=1.5, columnspacing=1.0)
     for ax in axes[1]:
-        _label(ax, x=unit_systems.label("time", ut) if timed else "step")
-    return figure
-
-
-# ---------------------------------------------------------------------- ballistic-limit equations
-def _equations(ax, speeds, curves):
-    """curves of ballistic_limit() drawn; the highest of what matters"""
-    speeds, highest = np.asarray(speeds), 0.0
-    for k, (name, points) in enumerate(curves.items()):
-        d, valid = np.array([d for d, _ in points]), np.array([valid for _, valid in points])
-        color, line = BODIES[k % len(BODIES)], STYLE["line"] * (1 + 0.22 * (len(curves) - 1 - k))  # those below show beside those above
-        ax.plot(speeds, d, "--", color=color, lw=0.5 * line, alpha=0.8)
-        ax.plot(speeds, np.where(valid, d, np.nan), color=color, lw=line, label=name, solid_capstyle="butt")
-        highest = max(highest, d[speeds >= min(3.0, speeds[-1])].max())
-    if curves:
-        ax.plot([], [], "--", color="0.4", lw=0.7 * STYLE["line"], label="beyond a range of validity")
-    return highest
-
-
-def limit_curve(speeds, curves, points, title, what):
-    """Limits over speed, with bars from what all hold to what all fail; points: [(speed, limit, low, high), ...]; speeds, curves: as of ballistic_limit(), {} if there are none"""
-    figure, ((ax,),) = _figure(4.4)
-    highest = _equations(ax, speeds, curves)
-    x, y, low, high = np.array(points).reshape(-1, 4).T
-    ax.errorbar(x, y, [y - low, high - y], fmt="o-", color="black", ms=5, lw=STYLE["line"], capsize=3, label="simulation")
-    ax.set(xlim=(speeds[0] - 0.3, speeds[-1] + 0.3), ylim=(0, 1.25 * max([highest, *high])))
-    ax.set_title(title, fontsize=STYLE["size"])
-    _label(ax, "speed (km/s)", what)
-    ax.legend(fontsize=STYLE["size"] - 1, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=4, columnspacing=1.2)
-    return figure
-
-
-def ballistic_limit(speeds, curves, title, point=None):
-    """Critical diameter over speed; curves: {name: [(diameter in mm, is it within the ranges of validity)]}; point: (speed, diameter) of a case"""
-    figure, ((ax,),) = _figure(4.4)
-    highest = _equations(ax, speeds, curves)
-    if point is not None:
-        ax.plot(*point, "o", color="black", ms=5, clip_on=False, label=f"the case, {point[1]:g} mm")
-        highest = max(highest, point[1])
-    ax.set(xlim=(speeds[0], speeds[-1]), ylim=(0, 1.25 * highest))
-    ax.set_title(title, fontsize=STYLE["size"])
-    _label(ax, "speed (km/s)", "critical diameter (mm): fails above")
-    ax.legend(fontsize=STYLE["size"] - 1, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=4, columnspacing=1.2)
+        label_axes(ax, x=unit_systems.label("time", ut) if timed else "step")
     return figure

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from ..material import curves
-from .frames import BODIES, STYLE, _figure, _label, _legend_of_lines
+from .style import BODIES, STYLE, label_axes, legend, new_figure
 
 SHOCK, ISENTROPE = "black", BODIES[1]
 EPS, RATE, T = 0.1, 1e4, 300.0  # where the other two of strain, rate and temperature are held
@@ -37,18 +37,18 @@ def draw(material):
     si = material.units != "lj"
     GPa, km_s, unit = (1e9, 1e3, " (GPa)") if si else (1.0, 1.0, " (lj)")
     speed = " (km/s)" if si else " (lj)"
-    figure, axes = _figure(9.2, columns=2, rows=4)
+    figure, axes = new_figure(9.2, columns=2, rows=4)
     shock, pressure, density, heat, strain, fast, hot, spall = axes.flat
     figure.suptitle(material.name + (f": {material.title}" if material.title else ""), fontsize=STYLE["size"] + 1, wrap=True)
 
-    _label(shock, f"particle velocity u{speed}", f"shock velocity{speed}")
-    _label(pressure, f"particle velocity u{speed}", f"pressure{unit}")
-    _label(density, "density / reference density", f"pressure{unit}")
-    _label(heat, "density / reference density", "temperature (K)")
-    _label(strain, f"plastic strain (at {RATE:g}/s, {T:g} K)", f"yield stress{unit}")
-    _label(fast, f"strain rate (1/s; strain {EPS:g}, {T:g} K)", f"yield stress{unit}")
-    _label(hot, f"temperature (K; strain {EPS:g}, {RATE:g}/s)", f"yield stress{unit}")
-    _label(spall, "strain rate (1/s)", f"spall strength{unit}")
+    label_axes(shock, f"particle velocity u{speed}", f"shock velocity{speed}")
+    label_axes(pressure, f"particle velocity u{speed}", f"pressure{unit}")
+    label_axes(density, "density / reference density", f"pressure{unit}")
+    label_axes(heat, "density / reference density", "temperature (K)")
+    label_axes(strain, f"plastic strain (at {RATE:g}/s, {T:g} K)", f"yield stress{unit}")
+    label_axes(fast, f"strain rate (1/s; strain {EPS:g}, {T:g} K)", f"yield stress{unit}")
+    label_axes(hot, f"temperature (K; strain {EPS:g}, {RATE:g}/s)", f"yield stress{unit}")
+    label_axes(spall, "strain rate (1/s)", f"spall strength{unit}")
 
     eos = material.laws("eos")[0]
     if eos in ("table", "idealgas"):
@@ -79,12 +79,12 @@ def _shocks(eos, axes, GPa, km_s):
     ps, _, Ts = eos.isentrope(eta)
     density.plot(rho / eos.rho0, p / GPa, color=SHOCK, lw=STYLE["line"], label="Hugoniot")
     density.plot(rho / eos.rho0, ps / GPa, "--", color=ISENTROPE, lw=STYLE["line"], label="isentrope")
-    _legend_of_lines(density)
+    legend(density)
     if not eos.cp:
         return _none(heat, "the eos has no cp")
     heat.plot(rho / eos.rho0, eos.temperature(rho, e), color=SHOCK, lw=STYLE["line"], label="Hugoniot")
     heat.plot(rho / eos.rho0, Ts, "--", color=ISENTROPE, lw=STYLE["line"], label="isentrope")
-    _legend_of_lines(heat)
+    legend(heat)
 
 
 def _yields(material, laws, axes, GPa):
@@ -101,7 +101,7 @@ def _yields(material, laws, axes, GPa):
     for ax in axes:
         ax.set_ylim(0.0, 1.15 * ax.get_ylim()[1])
     strain.set_ylim(0.0, 1.3 * strain.get_ylim()[1])  # room for the legend
-    strain.legend(fontsize=STYLE["size"] - 1, frameon=False, loc="upper left")
+    legend(strain, loc="upper left")
 
 
 def _spall(material, ax, GPa):
@@ -115,4 +115,4 @@ def _spall(material, ax, GPa):
     ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     ax.yaxis.set_major_formatter("{x:g}")
     ax.yaxis.set_minor_formatter(NullFormatter())
-    _legend_of_lines(ax)
+    legend(ax)

@@ -3,10 +3,10 @@
 
 import math
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 
+from ..material.library import stem
 from ..shield.elements import radii
 from ..shield.geometry import OPEN
 
@@ -33,7 +33,6 @@ def draw(case, plan):
     left = begin - max(1.5 * R, 0.7 / scale)  # room for words at the projectile
     width = stop - left
     figure = Figure(figsize=(max(5.0, scale * width + 1.5), scale * height + 1.5), constrained_layout=True)
-    FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     if len(places) > 1:
         z = (places[0][1], places[-1][0])
@@ -47,7 +46,7 @@ def draw(case, plan):
         missed = sides[0] < middle - r - 0.2 or sides[1] > middle + r + 0.2  # the plan has tenths of mm
         axes.plot([front, front], inside, color="#c8373a", lw=2, solid_capstyle="butt", label="struck" if k == 1 else None)
         axes.plot([0.5 * (front + rear)], [spot], "x", color="black", ms=5, label="struck by the shot itself" if k == 1 else None)
-        axes.annotate(f"wall {k}: {wall.thickness_mm:g} mm\n{_name(wall.material)}" + ("\ncloud passes beside" if missed else ""),
+        axes.annotate(f"wall {k}: {wall.thickness_mm:g} mm\n{stem(wall.material)}" + ("\ncloud passes beside" if missed else ""),
                       (0.5 * (front + rear), middle + wide[k - 1]), (0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=7,
                       color="#c8373a" if missed else "black")
         if k > 1:
@@ -56,7 +55,7 @@ def draw(case, plan):
             axes.annotate(f"{wall.gap_mm:g} mm", (0.5 * (before + front), y), (0, -4), textcoords="offset points", ha="center", va="top", fontsize=7)
     axes.plot([begin, stop], [(z + R) * slope for z in (begin, stop)], color="black", lw=0.7, ls="--", label="path of the center")
     axes.add_patch(Circle((begin, (begin + R) * slope), R, color="#555555", lw=0))
-    axes.annotate(f"{case.projectile}, {_name(case.material)}\n{case.speed_km_s:g} km/s, {case.angle_deg:g} deg", (begin, (begin + R) * slope - R), (0, -3),
+    axes.annotate(f"{case.projectile}, {stem(case.material)}\n{case.speed_km_s:g} km/s, {case.angle_deg:g} deg", (begin, (begin + R) * slope - R), (0, -3),
                   textcoords="offset points", ha="center", va="top", fontsize=7)
     axes.set(aspect="equal", xlim=(left, stop), ylim=(low - 0.14 * (high - low), high + 0.16 * (high - low)), xlabel="z (mm)", ylabel="x (mm)")
     axes.spines[["top", "right"]].set_visible(False)
@@ -74,7 +73,3 @@ def _wall(axes, case, k, faces, middle, r):
     known = axes.get_legend_handles_labels()[1]
     for size, color, label in bands:
         axes.add_patch(Rectangle((faces[0], middle - size), faces[1] - faces[0], 2 * size, color=color, lw=0, label=None if label in known else label))
-
-
-def _name(material):
-    return material.rpartition("/")[2].removesuffix(".hvi")

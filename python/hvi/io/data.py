@@ -1,5 +1,5 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""What a data file (write_data) adds to a dump: masses of the types, bonds, IDs and types of the particles."""
+"""What a data file (write_data) adds to a dump: masses of the types, bonds, IDs and types of the particles. Data files of particles."""
 
 import io
 import re
@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 from .. import units as unit_systems
-from ..errors import HVIError
+from ..errors import HVIError, reading, writing
 from . import mirror as mirrors
 from .box import Box
 from .frame import Frame
@@ -51,11 +51,9 @@ class DataFile:
     def _read(self, start=0, end=None):
         """Bytes of the file; the text is not kept, it may be large."""
         with open_binary(self.path) as stream:
-            try:
+            with reading(self.path):
                 stream.seek(start)
                 return stream.read(-1 if end is None else end - start)
-            except (OSError, EOFError) as error:
-                raise HVIError(f"cannot read {self.path}: {error}") from None
 
     def _masses(self):
         if "Masses" not in self._sections:
@@ -133,3 +131,21 @@ class DataFile:
         style = self._style
         table = self._table("Atoms", self._counts["atoms"], (0, 2 if style in _MOLECULE_FIRST else 1)).astype(np.int64)
         return tuple(table[np.argsort(table[:, 0])].T)
+
+
+def write(path, title, box, masses, x, kind, rho, digits=(10, 15), sections=()):
+    """A data file of atom_style sph, at rest and without internal energy.
+
+    box: its low and high corner; masses: {type: mass}; kind, rho: types and densities of the particles x (n, 3), or one for all; digits: of
+    box and places; sections: further ones, [(name, rows of whole numbers), ...]
+    """
+    counts = ((len(x), "atoms"), (len(masses), "atom types"), *((len(rows), name.lower()) for name, rows in sections))
+    atoms = np.column_stack([np.arange(1, len(x) + 1), np.broadcast_to(kind, len(x)), np.broadcast_to(rho, len(x)), np.zeros((len(x), 2)), x])
+    with writing(path), open(path, "w", encoding="ascii", errors="replace") as out:
+        out.write(f"LAMMPS data file: {title}\n\n" + "".join(f"{n} {what}\n" for n, what in counts) + "\n")
+        out.writelines(f"{low:.{digits[0]}g} {high:.{digits[0]}g} {a}lo {a}hi\n" for a, low, high in zip("xyz", *box))
+        out.write("\nMasses\n\n" + "".join(f"{k} {m:.15g}\n" for k, m in masses.items()) + "\nAtoms # sph\n\n")
+        np.savetxt(out, atoms, fmt="%d %d %.10g %d %d" + 3 * f" %.{digits[1]}g")
+        for name, rows in sections:
+            out.write(f"\n{name}\n\n")
+            np.savetxt(out, np.column_stack([np.arange(1, len(rows) + 1), rows]), fmt="%d")

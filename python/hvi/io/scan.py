@@ -10,7 +10,7 @@ import dataclasses
 import gzip
 import os
 
-from ..errors import HVIError
+from ..errors import HVIError, reading
 from ..progress import silent
 from . import mirror as mirrors
 from .box import Box
@@ -138,15 +138,13 @@ def scan(path, progress=silent):
     """
     path = str(path)
     with open_binary(path) as stream, progress(os.path.getsize(path), f"reading {os.path.basename(path)}") as bar:
-        try:
+        with reading(path):
             first = stream.read(5)
             if first != b"ITEM:":
                 what = "is not a LAMMPS text dump: it does not begin with ITEM:" if first else "is empty"
                 raise HVIError(f"{path} {what}")
             stream.seek(0)
             return _headers(path, _items(stream, bar))
-        except (OSError, EOFError) as error:  # a bad gz file
-            raise HVIError(f"cannot read {path}: {error}") from None
 
 
 def _headers(path, items):

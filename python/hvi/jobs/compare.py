@@ -4,7 +4,7 @@
 import math
 import os
 
-from ..errors import HVIError
+from ..errors import HVIError, reading
 
 MISSING = "-"
 WIDE = 40  # characters of a text in a table
@@ -17,13 +17,8 @@ def read_result(path):
     """
     if os.path.isdir(path):
         path = os.path.join(path, "result.yaml")
-    try:
-        with open(path, encoding="utf-8") as stream:
-            lines = stream.read().splitlines()
-    except FileNotFoundError:
-        raise HVIError(f"{path} does not exist") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise HVIError(f"cannot read {path}: {error}") from None
+    with reading(path), open(path, encoding="utf-8") as stream:
+        lines = stream.read().splitlines()
     result, parent = {}, None
     for number, raw in enumerate(lines, 1):
         line = raw.split(" #")[0].strip()

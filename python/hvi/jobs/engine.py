@@ -22,7 +22,7 @@ import time
 import yaml
 
 from .. import progress, tables
-from ..errors import HVIError, writing
+from ..errors import HVIError, reading, writing
 from ..material.library import potentials
 from ..version import ROOT
 
@@ -78,10 +78,8 @@ class Input:
             self.defaults = {name: words for name, words in self.defaults.items() if name not in optional}
 
     def _read(self, name):
-        try:
+        with reading(f"the input {self.path.parent / name}"):
             self.texts[name] = text = (self.path.parent / name).read_text()
-        except (OSError, UnicodeDecodeError) as problem:
-            raise HVIError(f"cannot read the input {self.path.parent / name}: {problem}") from None
         for other in re.findall(r"^\s*include\s+([\w./-]+)\s*(?:#.*)?$", text, re.M):  # names without variables
             if other not in self.texts:
                 self._read(other)

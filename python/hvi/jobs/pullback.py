@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from ..errors import HVIError
+from ..errors import HVIError, reading
 
 FALLEN, RISEN = 0.02, 0.1  # pull-back: u has fallen by this part of its top, and risen again by this part of the fall
 FROM, TO = 0.1, 0.5  # the part of the fall whose slope is the strain rate: voids bend the rest
@@ -65,10 +65,8 @@ def find(t, u, ringing):
 
 def columns(path, names):
     """{name: column} of a file of numbers below lines that begin with #"""
-    try:
+    with reading(path):
         text = path.read_text()
-    except (OSError, UnicodeDecodeError) as problem:
-        raise HVIError(f"cannot read {path}: {getattr(problem, 'strerror', None) or problem}") from None
     if text and not text.endswith("\n"):
         raise HVIError(f"{path} ends in the middle of a line: it is cut off")
     rows = []

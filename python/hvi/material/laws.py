@@ -2,26 +2,18 @@
 """What material files say that decides whether a body is a solid: its laws of strength, and what lets it fail under tension."""
 
 import difflib
-import pathlib
 import re
 
-from ..errors import HVIError
+from ..errors import reading
 from . import library
 
 SOLID = "damage no spall voids"  # words of fix hvi/johnson-cook that shields take
 
 
-def path_of(name):
-    """of a material file by its name or path, None if there is none"""
-    return next((path for path in (pathlib.Path(name), *(folder / name for folder in library.potentials())) if path.is_file()), None)
-
-
 def strengths(path):
     """laws of strength in a material file"""
-    try:
+    with reading(path):
         return re.findall(r"^[ \t]*strength[ \t]+([\w-]+)", path.read_text(), re.M)
-    except (OSError, UnicodeDecodeError) as problem:
-        raise HVIError(f"cannot read {path}: {problem}") from None
 
 
 def find(reader, node, key):
@@ -55,20 +47,20 @@ def check(case, reader):
     words = case.setting("solid").split()
     law = next((new for old, new in zip(words, words[1:]) if old == "strength"), "johnson-cook")
     places = [("projectile: material", case.material), *((f"wall {k}: material", wall.material) for k, wall in enumerate(case.walls, 1))]
-    laws = {name: strengths(path) for _, name in places if (path := path_of(name))}
+    laws = {name: strengths(path) for _, name in places if (path := library.path_of(name))}
     common = sorted(set.intersection(*map(set, laws.values())) - {"none"}) if laws else []
     for key, name in places:
         if name not in laws or law in laws[name] or law == "none":
             continue
         kept = " ".join(word for k, word in enumerate(words) if word != "strength" and (k == 0 or words[k - 1] != "strength"))
         remedy = (f"take settings: {{solid: {kept} strength {common[0]}}}, which all materials of this case have" if common else
-                  f"all materials of a case must have one law in common, and these have none: give {pathlib.Path(name).stem} a section strength {law}")
-        reader.wrong(key, f"{pathlib.Path(name).stem} has strength {' and '.join(laws[name])}, and the run takes {law}: it would be a liquid; {remedy}")
+                  f"all materials of a case must have one law in common, and these have none: give {library.stem(name)} a section strength {law}")
+        reader.wrong(key, f"{library.stem(name)} has strength {' and '.join(laws[name])}, and the run takes {law}: it would be a liquid; {remedy}")
 
 
 def tears(name, solid):
     """True if there is something in a material file that lets it fail under tension, with these words of fix hvi/johnson-cook"""
-    path = path_of(name)
+    path = library.path_of(name)
     if path is None:
         return True  # LAMMPS says so
     words, text = solid.split(), path.read_text(errors="replace")

@@ -10,7 +10,7 @@ import os
 import pathlib
 import re
 
-from ..errors import HVIError
+from ..errors import HVIError, reading
 from ..version import ROOT
 
 # keys of each law as its table in src/USER-HVI has them: (key, quantity, range, value if it is not given, None: it must be);
@@ -84,7 +84,7 @@ class Material:
 
     @property
     def name(self):
-        return self.path.name.removesuffix(".hvi")
+        return stem(self.path)
 
     def laws(self, kind):
         return [law for k, law in self.sections if k == kind]
@@ -122,14 +122,22 @@ def potentials():
     return [pathlib.Path(p) for p in os.environ.get("LAMMPS_POTENTIALS", str(ROOT / "potentials")).split(os.pathsep)]
 
 
+def path_of(name):
+    """of a material file by its name or path, None if there is none"""
+    return next((path for path in (pathlib.Path(name), *(folder / name for folder in potentials())) if path.is_file()), None)
+
+
 def find(name):
-    """a material file here, or in a folder of LAMMPS_POTENTIALS"""
-    if os.path.isfile(name):
-        return pathlib.Path(name)
-    for folder in potentials():
-        if (folder / name).is_file():
-            return folder / name
-    raise HVIError(f"cannot find material file {name}, neither here nor in LAMMPS_POTENTIALS")
+    """the same, which must be there"""
+    path = path_of(name)
+    if path is None:
+        raise HVIError(f"cannot find material file {name}, neither here nor in LAMMPS_POTENTIALS")
+    return path
+
+
+def stem(name):
+    """of a material file, without folder and ending"""
+    return pathlib.Path(name).name.removesuffix(".hvi")
 
 
 def _words(text):
@@ -264,10 +272,8 @@ class _Reader:
 def read(name):
     """The Material of a file, or an HVIError that names file and line."""
     path = find(name)
-    try:
+    with reading(path):
         text = path.read_bytes().decode("utf-8", errors="replace")
-    except OSError as error:
-        raise HVIError(f"cannot read {path}: {error.strerror or error}") from None
     reader = _Reader(path)
     for reader.line, line in enumerate(text.split("\n"), 1):
         body, _, comment = line.partition("#")
@@ -331,16 +337,10 @@ def everything(folder):
     return [row(read(pathlib.Path(folder, name))) for name in names]
 
 
-def density_of(path):
-    """(rho0, units) of a material file"""
-    try:
-        with open(path, encoding="utf-8", errors="replace") as stream:
-            text = stream.read()
-    except OSError as error:
-        raise HVIError(f"cannot read {path}: {error.strerror or error}") from None
-    found = re.search(r"^eos\b[^\n]*\n(?:(?![a-z]).*\n)*?\s+rho0\s+(\S+)", text, re.M)
-    units = re.search(r"UNITS: *(\w+)", text.split("\n")[0])
-    try:
-        return float(found[1]), units[1]
-    except (TypeError, ValueError):
-        raise HVIError(f"{path}: no rho0 in a section eos, or no UNITS in the first line: is it a material file?") from None
+def density_of(name, si=False):
+    """(rho0, units) of a material file, as it has them or in SI"""
+    one = read(name)
+    section = "eos", one.laws("eos")[0]
+    if "rho0" not in one.sections[section] or si and one.units == "lj":
+        raise HVIError(f"{one.path}: no rho0 in the section {' '.join(section)}" + (" in units that SI knows" if si else ""))
+    return (one.in_si(section)["rho0"], "si") if si else (one.sections[section]["rho0"], one.units)

@@ -5,7 +5,8 @@ import dataclasses
 
 import numpy as np
 
-from ..errors import HVIError, writing
+from ..errors import HVIError
+from ..io import data
 from . import glass
 
 SMOOTH = 0.15  # depth of the outermost particle of a glass, spacings, at least; half is usual
@@ -322,18 +323,10 @@ def write(path, body, density, title=""):
     low, high = shape.low - margin, shape.high + margin
     low[list(shape.planes)] = 0.0
     low[shape.endless], high[shape.endless] = shape.low[shape.endless], shape.high[shape.endless]
-    write_data(path, body.x, np.ones(len(body.x)), [density * body.volume], density, low, high, shape.planes, title)
+    write_data(path, body.x, 1, [density * body.volume], density, low, high, shape.planes, title)
 
 
 def write_data(path, x, kind, masses, density, low, high, planes, title):
-    """planes: columns with a mirror plane at 0, all particles being above it"""
+    """planes: columns with a mirror plane at 0, all particles being above it; masses: of types from 1 on"""
     mirror = " ".join(f"mirror {'xyz'[k]} 0 lo" for k in planes) or "mirror none"
-    with writing(path):
-        with open(path, "w", encoding="ascii", errors="replace") as out:
-            out.write(f"LAMMPS data file: {title}, {mirror}\n\n{len(x)} atoms\n{len(masses)} atom types\n\n")
-            out.writelines(f"{low[k]:.10g} {high[k]:.10g} {c}lo {c}hi\n" for k, c in enumerate("xyz"))
-            out.write("\nMasses\n\n")
-            out.writelines(f"{k + 1} {m:.15g}\n" for k, m in enumerate(masses))
-            out.write("\nAtoms # sph\n\n")
-            table = np.column_stack([np.arange(1, len(x) + 1), kind, np.full(len(x), density), np.zeros((len(x), 2)), x])
-            np.savetxt(out, table, fmt="%d %d %.10g %d %d %.15g %.15g %.15g")
+    data.write(path, f"{title}, {mirror}", (low, high), dict(enumerate(masses, 1)), x, kind, density)

@@ -5,7 +5,8 @@ import dataclasses
 
 import numpy as np
 
-from ..errors import HVIError, writing
+from ..errors import HVIError
+from ..io import data
 
 # nodes of a hexahedron in the order of VTK and of Abaqus's C3D8, and its faces seen from outside: -x +x -y +y -z +z
 CORNERS = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
@@ -129,20 +130,8 @@ class Mesh:
         kind = np.concatenate([np.full(len(nodes), self.node_type), np.repeat(self.type[self.n > 0], count), self.free_type])
         rho = np.where(kind == self.node_type, 0.0, density)
         first = np.where(self.n > 0, len(nodes) + 1 + count * (np.cumsum(self.n > 0) - 1), 0)
-        with writing(path):
-            with open(path, "w", encoding="ascii") as out:
-                out.write(f"LAMMPS data file: mesh {title}, mirror {self.mirror}\n\n{len(x)} atoms\n{len(masses)} atom types\n"
-                          + (f"{len(self.elements)} elements\n\n" if len(self.elements) else "\n"))
-                out.writelines(f"{lo:.16g} {hi:.16g} {a}lo {a}hi\n" for a, lo, hi in zip("xyz", *box))
-                out.write("\nMasses\n\n")
-                out.writelines(f"{k} {m:.15g}\n" for k, m in masses.items())
-                out.write("\nAtoms # sph\n\n")
-                table = np.column_stack([np.arange(1, len(x) + 1), kind, rho, np.zeros((len(x), 2)), x])
-                np.savetxt(out, table, fmt="%d %d %.10g %d %d %.16g %.16g %.16g")
-                if len(self.elements):
-                    out.write("\nElements\n\n")
-                    table = np.column_stack([np.arange(1, len(self.elements) + 1), self.type, self.elements + 1, self.n, first])
-                    np.savetxt(out, table, fmt="%d")
+        rows = np.column_stack([self.type, self.elements + 1, self.n, first])
+        data.write(path, f"mesh {title}, mirror {self.mirror}", box, masses, x, kind, rho, (16, 16), [("Elements", rows)] if len(rows) else ())
 
     def _box(self):
         """Around all, with an element's width to spare; nothing beyond mirrors"""

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from ..errors import HVIError
+from ..errors import HVIError, needed
 from . import mesh
 
 _FLAT = {"vertex", "line", "triangle", "quad"}  # edges and surfaces that lie in the hexahedra
@@ -18,10 +18,7 @@ def load(path, n=0, cells=None, scale=1.0, move=(0.0, 0.0, 0.0), type=1, node_ty
     scale, move: x = scale * (what the file says) + move
     Nodes of elements that are numbered inside out are put in order; returned is also how many.
     """
-    try:
-        import meshio
-    except ImportError:
-        raise HVIError("to import a mesh meshio is needed (Debian: python3-meshio, for /usr/bin/python3)") from None
+    meshio = needed("meshio", "meshes of other programs need")
     try:
         found = meshio.read(path)
     except SystemExit:  # which is what it does where a reader fails

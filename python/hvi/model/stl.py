@@ -3,15 +3,12 @@
 
 import numpy as np
 
-from ..errors import HVIError
+from ..errors import HVIError, needed
 
 
 def read(path):
     """Triangles of a file, (n, 3, 3): corners; HVIError if it cannot be read or is not closed"""
-    try:
-        import meshio
-    except ImportError:
-        raise HVIError("STL files need meshio: Debian's python3-meshio, or pip install meshio") from None
+    meshio = needed("meshio", "STL files need")
     try:
         mesh = meshio.read(path, file_format="stl")
         corners = np.asarray(mesh.points, dtype=float)

@@ -3,7 +3,6 @@
 
 import numpy as np
 from matplotlib import colormaps, rc_context
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import PowerNorm, to_rgb
 from matplotlib.figure import Figure
@@ -27,12 +26,6 @@ def body_name(body):
     return f"wall {body}" if body else "projectile"
 
 
-def _figure(width, height):
-    figure = Figure(figsize=(width, height))
-    FigureCanvasAgg(figure)
-    return figure
-
-
 def _axes(figure, left=0.62, right=0.12, low=0.5, high=0.12):
     """axes with margins in inches"""
     w, h = figure.get_size_inches()
@@ -47,7 +40,7 @@ def _axes(figure, left=0.62, right=0.12, low=0.5, high=0.12):
 def _panel(window, labels, width=PANEL, right=0.12):
     """(figure, axes, pixels across) whose scales are equal"""
     inner = width - 0.62 - right
-    figure = _figure(width, inner * (window[3] - window[2]) / (window[1] - window[0]) + 0.62)
+    figure = Figure(figsize=(width, inner * (window[3] - window[2]) / (window[1] - window[0]) + 0.62))
     axes = _axes(figure, right=right)
     axes.set(xlim=window[:2], ylim=window[2:])
     axes.set_xlabel(labels[0], fontsize=9)
@@ -121,7 +114,7 @@ def oblique(run, scene, width=6.4):
     low, high = np.percentile(seen[walls], 0.05, axis=0)[:2], np.percentile(seen[walls], 99.95, axis=0)[:2]
     margin = 0.04 * (high - low)
     window = (low[0] - margin[0], high[0] + margin[0], low[1] - margin[1], high[1] + margin[1])
-    figure = _figure(width, width * (window[3] - window[2]) / (window[1] - window[0]))
+    figure = Figure(figsize=(width, width * (window[3] - window[2]) / (window[1] - window[0])))
     axes = figure.add_axes((0, 0, 1, 1))
     axes.axis("off")
     _draw(axes, scene.x[keep], scene.radius[keep], by_body(scene)[keep], view, window, round(width * DPI))
@@ -238,5 +231,5 @@ def sketch(run, case):
 
     with rc_context({"text.parse_math": False}):  # names may have $
         figure = sketches.draw(case, run.plan)
-        figure.canvas.draw()
+        figure.draw_without_rendering()
     return figure

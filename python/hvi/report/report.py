@@ -16,6 +16,7 @@ from .. import tables
 from ..errors import HVIError
 from ..jobs import engine
 from ..material import library
+from ..material.library import stem
 from ..shield import ble, decision
 from ..shield.run import runs_of, texts
 from ..shield.script import BEGIN
@@ -47,10 +48,6 @@ WALL = {"layers": "layers of particles", "hole_mm": "hole, mm (of the same area;
 LEDGER = (("energy_ratio", "energy at the end and what has left, over that at the start", "1"), ("energy_missed_ratio", "energy that the time integration missed, booked", "small"),
           ("momentum_error", "error of the momentum, of that at the start", "round-off"), ("mass_error", "error of the mass", "round-off"),
           ("particles_left_the_box", "particles that left the box", ""))
-
-
-def stem(material):
-    return str(material).rpartition("/")[2].removesuffix(".hvi")
 
 
 def word(verdict):
@@ -178,7 +175,7 @@ class Report:
     def materials(self):
         parts, rows = [], []
         for name in dict.fromkeys(self.run.materials):
-            path = next((p for p in (pathlib.Path(name), self.run.folder / name, *(folder / name for folder in library.potentials())) if p.is_file()), None)
+            path = next((p for p in (pathlib.Path(name), self.run.folder / name, library.path_of(name)) if p and p.is_file()), None)
             used = ", ".join(pictures.body_name(k) for k, material in enumerate(self.run.materials) if material == name)
             if path is None:
                 rows.append((stem(name), used, "the file is not there any more"))

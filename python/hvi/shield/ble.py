@@ -16,7 +16,6 @@ Units as published: cm, g/cm^3, ksi, km/s, degrees from the normal.
 import dataclasses
 import functools
 import math
-import pathlib
 import re
 import typing
 
@@ -311,11 +310,7 @@ def properties(stem):
 @functools.lru_cache
 def _density(name):
     """g/cm^3 of a material file"""
-    path = next((p for p in (pathlib.Path(name), *(folder / name for folder in library.potentials())) if p.is_file()), name)
-    value, units = library.density_of(path)
-    if units != "si":
-        raise HVIError(f"{path}: units must be si, not {units}")
-    return 1e-3 * value
+    return 1e-3 * library.density_of(name, si=True)[0]
 
 
 def from_case(case):
@@ -324,8 +319,8 @@ def from_case(case):
         raise HVIError(f"ballistic-limit equations are for one or two walls, {case.name} has {len(case.walls)}")
     if case.not_modelled:
         raise HVIError(f"the ballistic-limit equations here do not have what {case.name} names in not_modelled: {', '.join(case.not_modelled)}")
-    wall, names = case.walls[-1], [pathlib.Path(name).name for name in (case.material, *(w.material for w in case.walls))]
-    _, strength, sound, brinell = properties(names[-1].removesuffix(".hvi"))
+    wall, names = case.walls[-1], [library.stem(name) for name in (case.material, *(w.material for w in case.walls))]
+    _, strength, sound, brinell = properties(names[-1])
     bumper = {} if len(case.walls) == 1 else {"bumper_thickness_cm": 0.1 * case.walls[0].thickness_mm, "bumper_density": _density(case.walls[0].material),
                                               "standoff_cm": 0.1 * wall.gap_mm}
     return Shield(wall_thickness_cm=0.1 * wall.thickness_mm, wall_density=_density(wall.material), projectile_density=_density(case.material),

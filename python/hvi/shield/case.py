@@ -1,20 +1,22 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """A shield and what strikes it, as a YAML file says: read and checked, with messages that name line and key.
 
-KEYS, WALL and SETTINGS are the tables of all keys: reader, messages, the documentation and --help take them from here.
+KEYS, projectile.KEYS, WALL and SETTINGS are the tables of all keys: reader, messages, the documentation and --help take them from here.
 """
 
 import dataclasses
+import functools
 import pathlib
 import warnings
-from typing import Any, Callable, NamedTuple
+from typing import Any
 
 import yaml
 
 from ..errors import HVIError, HVIWarning
 from ..material import laws
 from . import elements, geometry, projectile
-from .reader import REQUIRED, Reader
+from .projectile import material
+from .reader import REQUIRED, Key, Reader, choice, fields, number, several, word
 
 SLOWEST, FASTEST = 0.1, 100  # km/s
 RATIO = 1.2  # of spacings that may be said to differ
@@ -22,34 +24,6 @@ LAYERS = 3  # needed in the wall that decides
 ACROSS = 4  # particles across a projectile
 MOST = 1000  # walls
 METHODS = "sph", "hybrid", "tied"
-
-
-class Key(NamedTuple):
-    """read: of a Reader, gives what reads a value; default, REQUIRED if there is none; text: what it is"""
-
-    read: Callable[[Reader], Callable]
-    default: Any
-    text: str
-
-
-def number(**bounds):
-    return lambda reader: reader.number(**bounds)
-
-
-def choice(*known, hint=""):
-    return lambda reader: reader.choice(known, hint)
-
-
-def several(item, distinct=False):
-    return lambda reader: reader.several(item(reader), distinct)
-
-
-def word(reader):
-    return reader.text
-
-
-def material(reader):
-    return lambda node, key: laws.find(reader, node, key)
 
 
 MODEL = ": what this package has no model for belongs into not_modelled"
@@ -84,31 +58,20 @@ SETTINGS = {
 }
 
 KEYS = {
-    "projectile": Key(lambda reader: lambda node, key: projectile.read(reader, node, key), REQUIRED,
-                      "material, and shape: sphere (the default) with diameter_mm; cylinder with diameter_mm, length_mm and pitch_deg; cube with side_mm and pitch_deg; "
-                      "hollow sphere with diameter_mm and thickness_mm; file with file: an STL file in mm, or particle files of hvi body, one for each spacing"),
+    "projectile": Key(lambda reader: functools.partial(projectile.read, reader), REQUIRED, "what strikes the walls"),
     "speed_km_s": Key(number(), REQUIRED, f"at least {SLOWEST:g}, below {FASTEST:g}"),
     "angle_deg": Key(number(least=0, below=90), 0.0, "from the normal of the walls; at 0 a quarter is modelled"),
-    "walls": Key(lambda reader: lambda node, key: read_walls(reader, node, key), REQUIRED, "a list, the first is struck first"),
+    "walls": Key(lambda reader: functools.partial(read_walls, reader), REQUIRED, "a list, the first is struck first"),
     "spacings_mm": Key(several(number(above=0), distinct=True), REQUIRED, f"of particles: two or more for a verdict, the largest {RATIO:g} times the smallest at least"),
     "shifts": Key(several(number(least=0, below=1), distinct=True), (0.0, 0.25), "of the projectile's lattice along z, parts of a spacing: what they change is chance"),
     "method": Key(choice(*METHODS, hint=MODEL), "sph", "of walls: sph, particles; hybrid, elements that become particles where they fail; tied, elements that never do"),
     "not_modelled": Key(several(word), (), "what the shield has and the model has not, [MLI, stuffing, honeycomb]: the verdict is undecided"),
-    "settings": Key(lambda reader: lambda node, key: read_settings(reader, node, key), {}, "of the model"),
+    "settings": Key(lambda reader: functools.partial(read_settings, reader), {}, "of the model"),
 }
 
 
-@dataclasses.dataclass(frozen=True)
-class Wall:
-    thickness_mm: float
-    material: str
-    gap_mm: float = None
-    spacings_mm: tuple = None
-    radius_mm: float = None
-    method: str = "sph"  # None while it is read: that of the case
-    core_mm: float = None
-    hold_mm: float = None
-    yield_ksi: float = None
+# its attributes are these keys; method is None only while it is read: that of the case
+Wall = dataclasses.make_dataclass("Wall", [(name, Any, key.default) if key.default is not REQUIRED else (name, Any) for name, key in WALL.items()], frozen=True)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -268,11 +231,6 @@ class Case:
 
 
 # ---------------------------------------------------------------------- reading
-def fields(reader, table):
-    """{name: (function of node and key, default)} of a table of keys, as Reader.mapping takes them"""
-    return {name: (key.read(reader), key.default) for name, key in table.items()}
-
-
 def read_walls(reader, node, key):
     if not isinstance(node, yaml.SequenceNode) or not node.value:
         reader.wrong(key, "must be a list of walls, '- {thickness_mm: 0.8, material: Al2024-T3}' for each", node)
@@ -339,7 +297,7 @@ def warn(case, reader):
 def rows_of_keys():
     """[(key, default, what it is), ...] of all tables, for pages and --help"""
     found = []
-    for table, inside in ((KEYS, ""), (WALL, "walls: "), (SETTINGS, "settings: ")):
+    for table, inside in ((KEYS, ""), (projectile.KEYS, "projectile: "), (WALL, "walls: "), (SETTINGS, "settings: ")):
         for name, key in table.items():
             default = "needed" if key.default is REQUIRED else "" if key.default in (None, (), {}) else ", ".join(map("{:g}".format, key.default)) if isinstance(key.default, tuple) else str(key.default)
             found.append((inside + name, default, key.text))

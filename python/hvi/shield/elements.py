@@ -5,7 +5,7 @@ import math
 import pathlib
 
 from ..errors import HVIError
-from ..material import library, laws
+from ..material import library
 from . import geometry
 
 CORE = 1.6  # radii of the projectile: free particles under its impact
@@ -72,7 +72,4 @@ def write(path, material, **words):
     """its file, of the density of a material file"""
     from ..model import mesh_plate
 
-    file = laws.path_of(material)
-    if file is None:
-        raise HVIError(f"no material file {material}")
-    mesh_plate.plate(**words).write(path, library.density_of(file)[0], pathlib.Path(path).name)
+    mesh_plate.plate(**words).write(path, library.density_of(material, si=True)[0], pathlib.Path(path).name)

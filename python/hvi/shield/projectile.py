@@ -2,6 +2,7 @@
 """The projectile of a case: a sphere, cylinder, cube or hollow sphere, a closed surface (STL), or particles of a file."""
 
 import dataclasses
+import functools
 import math
 import pathlib
 
@@ -12,13 +13,37 @@ from ..errors import HVIError
 from ..io.data import DataFile
 from ..material import library, laws
 from ..model import bodies, stl
-from . import reader
+from .reader import REQUIRED, Key, choice, fields, number
 
 # shape: keys that it needs, keys that it may have
 SHAPES = {"sphere": (("diameter_mm",), ()), "cylinder": (("diameter_mm", "length_mm"), ("pitch_deg",)), "cube": (("side_mm",), ("pitch_deg",)),
           "hollow sphere": (("diameter_mm", "thickness_mm"), ()), "file": (("file",), ())}
 LEAST = 8  # particles of a body of a file
 LENGTHS = ("diameter_mm", "length_mm", "side_mm", "thickness_mm")
+
+
+def material(reader):
+    return functools.partial(laws.find, reader)
+
+
+def words(reader):
+    """of one or several"""
+    return lambda node, key: tuple(reader.text(item, key) for item in (node.value if isinstance(node, yaml.SequenceNode) else [node]))
+
+
+def of(name, text=""):
+    """which shapes have a key"""
+    *most, last = (shape for shape, keys in SHAPES.items() if name in sum(keys, ()))
+    return f"of a {', '.join(most)}{' or ' * bool(most)}{last}{text}"
+
+
+KEYS = {
+    "material": Key(material, REQUIRED, "as of walls"),
+    "shape": Key(choice(*SHAPES), "sphere", ", ".join(SHAPES)),
+    **{name: Key(number(above=0), None, of(name)) for name in LENGTHS},
+    "pitch_deg": Key(number(above=-90, below=90), 0.0, of("pitch_deg", ": its axis is turned about y, from the normal of the walls towards x")),
+    "file": Key(words, (), "an STL file in mm, or particle files of hvi body, one for each spacing"),
+}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -112,28 +137,25 @@ class Projectile:
         return [*lines, ("region", f"ball block {number(-half)} {number(half)} {number(-half)} {number(half)} {number(-R - half)} {number(-R + half)} units box{turn}")]
 
 
-def read(of, node, key):
-    """A Projectile; of: reader.Reader"""
-    positive = of.number(above=0)
-    found = of.mapping(node, key, {
-        "material": (lambda n, k: laws.find(of, n, k), reader.REQUIRED), "shape": (of.choice(tuple(SHAPES)), "sphere"), **{name: (positive, None) for name in LENGTHS},
-        "pitch_deg": (of.number(above=-90, below=90), 0.0), "file": (lambda n, k: tuple(of.text(item, k) for item in (n.value if isinstance(n, yaml.SequenceNode) else [n])), ())})
+def read(reader, node, key):
+    """A Projectile"""
+    found = reader.mapping(node, key, fields(reader, KEYS))
     shape, names = found["shape"], found.pop("file")
     needs, may = SHAPES[shape]
     for name in needs:
         if not (names if name == "file" else found[name]):
-            of.wrong(f"{key}: {name}", f"is missing: a {shape} has {' and '.join(needs)}", node)
+            reader.wrong(f"{key}: {name}", f"is missing: a {shape} has {' and '.join(needs)}", node)
     for name in (*LENGTHS, "pitch_deg", "file"):
         if name not in needs + may and (names if name == "file" else found[name]):
-            of.wrong(f"{key}: {name}", f"a {shape} has none: {', '.join(needs + may)}")
+            reader.wrong(f"{key}: {name}", f"a {shape} has none: {', '.join(needs + may)}")
     if shape == "hollow sphere" and 2 * found["thickness_mm"] >= found["diameter_mm"]:
-        of.wrong(f"{key}: thickness_mm", f"must be below the radius, {0.5 * found['diameter_mm']:g} mm")
-    files = tuple(str((of.path.parent / name).resolve()) for name in names)
+        reader.wrong(f"{key}: thickness_mm", f"must be below the radius, {0.5 * found['diameter_mm']:g} mm")
+    files = tuple(str((reader.path.parent / name).resolve()) for name in names)
     try:
-        density = library.density_of(laws.path_of(found["material"]))[0] if files else None
+        density = library.density_of(found["material"], si=True)[0] if files else None
         return Projectile(**found, files=files, of_files=tuple(measured(path, density) for path in files))
     except HVIError as problem:
-        of.wrong(f"{key}: file", str(problem))
+        reader.wrong(f"{key}: file", str(problem))
 
 
 def measured(path, density):
@@ -184,4 +206,4 @@ def write(path, source, spacing, shift, density):
     if len(x) < LEAST:
         raise HVIError(f"{source} holds {len(x)} particles of a spacing of {1e3 * spacing:g} mm, {LEAST} at least are needed: is it in mm?")
     x = x - stl.middle(x) if not is_surface(source) else x
-    bodies.write_data(path, x, np.ones(len(x), int), [mass / len(x)], density, x.min(axis=0) - spacing, x.max(axis=0) + spacing, (), pathlib.Path(source).name)
+    bodies.write_data(path, x, 1, [mass / len(x)], density, x.min(axis=0) - spacing, x.max(axis=0) + spacing, (), pathlib.Path(source).name)

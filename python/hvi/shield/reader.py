@@ -1,9 +1,11 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""YAML files by their nodes, which know their lines: messages name file, line and key."""
+"""YAML files by their nodes, which know their lines: messages name file, line and key. Tables of keys that they may have."""
 
 import difflib
 import math
+import operator
 import pathlib
+from typing import Any, Callable, NamedTuple
 
 import yaml
 
@@ -96,3 +98,32 @@ class Reader:
                 self.wrong(key, f"must be {', '.join(most)} or {last}, not {said}{hint}", node)
             return node.value
         return read
+
+
+# ---------------------------------------------------------------------- tables of keys
+class Key(NamedTuple):
+    """read: of a Reader, gives what reads a value; default, REQUIRED if there is none; text: what it is"""
+
+    read: Callable[[Reader], Callable]
+    default: Any
+    text: str
+
+
+def number(**bounds):
+    return operator.methodcaller("number", **bounds)
+
+
+def choice(*known, hint=""):
+    return operator.methodcaller("choice", known, hint)
+
+
+def several(item, distinct=False):
+    return lambda reader: reader.several(item(reader), distinct)
+
+
+word = operator.attrgetter("text")
+
+
+def fields(reader, table):
+    """{name: (function of node and key, default)} of a table of keys, as Reader.mapping takes them"""
+    return {name: (key.read(reader), key.default) for name, key in table.items()}

@@ -13,7 +13,7 @@ import types
 
 import numpy as np
 
-from ..errors import HVIError
+from ..errors import HVIError, reading
 from ..version import version
 from . import script
 
@@ -28,10 +28,8 @@ NOTHING = 1e-99
 def rows_of(path):
     """(steps (n,), values (n, columns)) of a file of fix ave/time; (n, rows, columns) of one with mode vector"""
     found, size = {}, None
-    try:
+    with reading(path):
         lines = [line.split() for line in pathlib.Path(path).read_text().splitlines() if line and not line.startswith("#")]
-    except (OSError, UnicodeDecodeError) as problem:
-        raise HVIError(f"cannot read {path}: {problem}") from None
     at = 0
     while at < len(lines):
         words = lines[at]

@@ -12,8 +12,7 @@ import shutil
 
 import yaml
 
-from ..errors import HVIError
-from ..material import library, laws
+from ..material import library
 from . import elements, geometry, projectile
 
 BEGIN, CONTINUE, CASE = "in.shield", "in.continue", "case.yaml"
@@ -30,14 +29,6 @@ FRICTION = 3 * 5300.0  # m/s: a wave loses exp(-3) of its amplitude on the way t
 
 
 BALL = "ball.data"  # the projectile, if it is of a file
-
-
-def material_file(material):
-    """the path of a material file by its name or path"""
-    path = laws.path_of(material)
-    if path is None:
-        raise HVIError(f"no material file {material}")
-    return path
 
 
 def make(path, **words):
@@ -106,7 +97,7 @@ class Shield:
     @functools.cached_property
     def rho(self):
         """kg/m^3 of the projectile and of the walls, from their material files"""
-        return [library.density_of(material_file(name))[0] for name in (self.case.material, *(wall.material for wall in self.case.walls))]
+        return [library.density_of(name, si=True)[0] for name in (self.case.material, *(wall.material for wall in self.case.walls))]
 
     @property
     def energy(self):
@@ -377,5 +368,5 @@ class Shield:
     def texts(self):
         """{file: text}: the inputs, the material files, so that LAMMPS alone can run the folder, and the case of this run, for judge"""
         names = dict.fromkeys((self.case.material, *(wall.material for wall in self.case.walls)))
-        return {BEGIN: self.text(), CONTINUE: self.text(new=False), **{pathlib.Path(name).name: material_file(name).read_text() for name in names},
+        return {BEGIN: self.text(), CONTINUE: self.text(new=False), **{pathlib.Path(name).name: library.find(name).read_text() for name in names},
                 CASE: yaml.safe_dump(self.case.one(self.which, self.shift).mapping(), sort_keys=False)}

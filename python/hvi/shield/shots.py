@@ -11,7 +11,7 @@ import math
 import pathlib
 import re
 
-from ..errors import HVIError
+from ..errors import HVIError, reading
 from ..material import laws
 from ..version import ROOT
 from . import ble, decision
@@ -54,10 +54,8 @@ class Shot:
 
 def read_list(path):
     """The shots of a CSV file: lengths in cm, degrees, km/s, ksi, P or NP; lines that begin with # are remarks."""
-    try:
+    with reading(path):
         lines = pathlib.Path(path).read_text().splitlines()
-    except (OSError, UnicodeDecodeError) as problem:
-        raise HVIError(f"cannot read {path}: {problem}") from None
     kept = [(number, line) for number, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]
     rows = csv.reader(line for _, line in kept)
     head = [name.strip() for name in next(rows, [])]
@@ -152,7 +150,8 @@ class Study:
         first, last = (tuple(round(dx * factor, 4) for factor in factors) for dx in (near, far))
         ball, bumper, wall = (self.materials[alloy] for alloy in shot.alloys())
         case = cases.Case(name=shot.folder, projectile=Projectile(ball, diameter_mm=shot.diameter_mm), speed_km_s=shot.speed_km_s, angle_deg=shot.angle_deg,
-                          walls=(cases.Wall(shot.bumper_mm, bumper, spacings_mm=first), cases.Wall(shot.wall_mm, wall, gap_mm=shot.gap_mm, spacings_mm=last, yield_ksi=shot.yield_ksi)),
+                          walls=(cases.Wall(shot.bumper_mm, bumper, spacings_mm=first, method="sph"),
+                                 cases.Wall(shot.wall_mm, wall, gap_mm=shot.gap_mm, spacings_mm=last, method="sph", yield_ksi=shot.yield_ksi)),
                           spacings_mm=first, shifts=self.shifts, settings=self.settings)
 
         def wrong(key, text):
