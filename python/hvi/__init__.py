@@ -17,21 +17,18 @@ from .version import version
 
 __version__ = version()
 # what is given out, and where it is: imported when it is asked for, as NumPy, SciPy, matplotlib and MDAnalysis take their time
-_PLACES = {"Dump": "io.dump", "Frame": "io.frame", "HVIError": "errors", "HVIWarning": "errors", "beyond": "analysis.cloud", "cumulative": "analysis.distribution",
-           "find": "analysis.fragments", "fit": "analysis.distribution", "measure": "analysis.cloud", "series": "analysis.cloud"}
-_MODULES = {"cloud": "analysis.cloud", "debris": "analysis.debris", "distribution": "analysis.distribution", "figures": "figures", "fragments": "analysis.fragments",
-            "hole": "analysis.hole", "maps": "analysis.maps", "universe": "io.universe"}
-__all__ = [*_PLACES, *_MODULES, "open"]
+_PLACES = {"Dump": "io.dump:Dump", "Frame": "io.frame:Frame", "HVIError": "errors:HVIError", "HVIWarning": "errors:HVIWarning", "open": "io.universe:open_universe",
+           "find": "analysis.fragments:find", **dict.fromkeys(("beyond", "measure", "series"), "analysis.cloud:"), **dict.fromkeys(("cumulative", "fit"), "analysis.distribution:"),
+           **{name: f"analysis.{name}" for name in ("cloud", "debris", "distribution", "fragments", "hole", "maps")}, "figures": "figures", "universe": "io.universe"}
+__all__ = [*_PLACES]
 
 
 def __getattr__(name):
-    if name == "open":
-        return importlib.import_module(".io.universe", __name__).open_universe
-    if name in _MODULES:
-        return importlib.import_module("." + _MODULES[name], __name__)
-    if name in _PLACES:
-        return getattr(importlib.import_module("." + _PLACES[name], __name__), name)
-    raise AttributeError(f"module {__name__} has no attribute {name}")
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__} has no attribute {name}")
+    module, inside, attribute = _PLACES[name].partition(":")
+    found = importlib.import_module("." + module, __name__)
+    return getattr(found, attribute or name) if inside else found
 
 
 def __dir__():

@@ -8,13 +8,15 @@ import subprocess
 import sys
 import termios
 import time
+import types
 
 import pytest
 import yaml
 from front_runs import CASE, case_folder, change, front, tries, wait_for  # noqa: F401
 from hvi import cli
 from hvi.jobs import engine
-from hvi.shield import script
+from hvi.shield import case as cases
+from hvi.shield import decision, script
 
 COMMAND = [sys.executable, "-m", "hvi", "shield", "emi.yaml", "--mpirun", "./mpirun", "--jobs", "2"]
 
@@ -29,6 +31,17 @@ def at_work(folder):
         except OSError:
             pass
     return found
+
+
+def test_a_call_that_ends_while_it_is_looked_at(folder, monkeypatch):
+    """it has not ended, or it has, and then its result is written; no look at it sees both"""
+    job, advanced = decision.job(cases.read("emi.yaml"), (0, 0.0), folder / "a"), []
+    monkeypatch.setattr(job, "advance", lambda: advanced.append(1) or True)
+    monkeypatch.setattr(job, "result", lambda: advanced or None)
+    job.folder.mkdir()
+    job.process = types.SimpleNamespace(poll=iter([None, 0, 0]).__next__)
+    assert not job.ended(None, None) and advanced == []
+    assert job.ended(None, None) and advanced == [1] and job.problem == ""
 
 
 def begin(folder, **how):

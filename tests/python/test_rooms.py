@@ -2,9 +2,11 @@
 
 import ast
 import importlib
+import os
 import subprocess
 import sys
 
+import hvi
 import pytest
 from hvi import cli
 from test_includes import circles
@@ -15,12 +17,12 @@ BELOW = {"io": "", "material": "", "analysis": "io", "model": "io", "jobs": "mat
 HEAVY = "MDAnalysis PIL matplotlib meshio numpy pandas scipy tqdm yaml".split()
 
 
-def graph(hvi):
+def graph(folder):
     """{module: {module of hvi that it imports, wherever in it}}, io/dump as io.dump, a room as its __init__"""
-    names = {str(path.relative_to(hvi).with_suffix("")).replace("/", ".").removesuffix(".__init__"): path for path in sorted(hvi.rglob("*.py"))}
+    names = {str(path.relative_to(folder).with_suffix("")).replace("/", ".").removesuffix(".__init__"): path for path in sorted(folder.rglob("*.py"))}
     edges = {}
     for name, path in names.items():
-        edges[name], here = set(), ["hvi", *path.relative_to(hvi).parts[:-1]]
+        edges[name], here = set(), ["hvi", *path.relative_to(folder).parts[:-1]]
         for node in ast.walk(ast.parse(path.read_text())):
             if isinstance(node, ast.ImportFrom) and node.level:
                 package = [*here[:len(here) + 1 - node.level], *(node.module or "").split(".")]
@@ -44,13 +46,13 @@ def wrong(edges):
 
 
 def test_rooms_import_those_below(root):
-    hvi = root / "python" / "hvi"
-    assert {path.parent.name for path in hvi.glob("*/__init__.py")} == set(BELOW)
+    folder = root / "python" / "hvi"
+    assert {path.parent.name for path in folder.glob("*/__init__.py")} == set(BELOW)
     known = set()
     for room, below in BELOW.items():  # the table itself goes one way
         assert set(below.split()) <= known
         known.add(room)
-    assert wrong(graph(hvi)) == []
+    assert wrong(graph(folder)) == []
 
 
 def test_no_circle_of_modules(root):
@@ -68,6 +70,15 @@ def test_a_wrong_import_is_found(tmp_path, text, found):
     assert wrong(graph(tmp_path)) == [found] * bool(found)
 
 
+def test_what_hvi_gives_out():
+    """is where its table says, and documented names are in it"""
+    given = {name: getattr(hvi, name) for name in hvi.__all__}
+    assert {"Dump", "Frame", "HVIError", "HVIWarning", "open", "find", "fit", "measure", "cumulative", "figures", "hole", "maps", "debris", "cloud", "fragments", "universe"} <= set(given)
+    assert given["open"] is given["universe"].open_universe and given["measure"] is given["cloud"].measure and set(given) <= set(dir(hvi))
+    with pytest.raises(AttributeError, match="no attribute nothing"):
+        hvi.nothing
+
+
 def test_commands_are_modules(root):
     """each with its options, examples and main(); the others of the room are what they share"""
     modules = {path.stem for path in (root / "python/hvi/commands").glob("*.py")} - {"__init__"}
@@ -77,15 +88,15 @@ def test_commands_are_modules(root):
         assert module.EXAMPLES.startswith(f"  python3 -m hvi {name} ") and callable(module.main) and callable(module.add_arguments)
 
 
-def loaded(code):
+def loaded(root, code):
     """heavy libraries that are there after this code"""
     code += f"\nimport sys; print(*(name for name in {HEAVY} if name in sys.modules))"
-    return set(subprocess.run([sys.executable, "-c", code], text=True, capture_output=True, check=True).stdout.splitlines()[-1].split())
+    return set(subprocess.run([sys.executable, "-c", code], text=True, capture_output=True, check=True, env={**os.environ, "PYTHONPATH": str(root / "python")}).stdout.splitlines()[-1].split())
 
 
-def test_heavy_libraries_wait():
+def test_heavy_libraries_wait(root):
     """for --help nothing is there, for the options of a command what it reads cases and dumps with"""
-    assert loaded("import hvi, hvi.cli; hvi.cli.options()") == set()
+    assert loaded(root, "import hvi, hvi.cli; hvi.cli.options()") == set()
     for name in cli.COMMANDS:
-        found = loaded(f"from hvi import cli; cli.options({name!r})")
+        found = loaded(root, f"from hvi import cli; cli.options({name!r})")
         assert found <= {"numpy", "yaml"}, f"{name}: {found}"

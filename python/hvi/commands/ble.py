@@ -7,7 +7,7 @@ from ..material.library import stem
 from ..shield import ble
 from ..shield import case as cases
 from . import running
-from .shared import add_output, save
+from .shared import add_output, draw
 
 EXAMPLES = """  python3 -m hvi ble emi.yaml --figure limit
   python3 -m hvi ble emi.yaml --speeds 3:9:13 --equation JSC --equation Reimerdes --out limit.csv
@@ -68,12 +68,8 @@ def of_case(args):
                          [(speed, *(value for name in names for value in (points[name][k][0], "; ".join(" ".join((w, t)).strip() for w, _, t in points[name][k][1]))))
                           for k, speed in enumerate(speeds)])
     if args.figure:
-        from .. import figures
-
         fine = running.evenly(args.speeds[0], args.speeds[1], CURVE)
-        curves = {name: [(d, not beyond) for d, beyond in ble.curve(shield, name, fine, case.angle_deg)] for name in names}
-        drawn = figures.ballistic_limit(fine, curves, title(case, shield), (case.speed_km_s, case.diameter_mm))
-        save(drawn, args.figure)
+        draw(args.figure, "ballistic_limit", fine, ble.curves(shield, names, fine, case.angle_deg), title(case, shield), (case.speed_km_s, case.diameter_mm))
 
 
 def title(case, shield):

@@ -6,7 +6,7 @@ import numpy as np
 from .. import progress, tables
 from ..analysis import cloud
 from . import dumps
-from .shared import add_output, save
+from .shared import add_output, draw
 
 EXAMPLES = """  python3 -m hvi cloud debris.dump --data debris.data --axis z --plane 4.05e-3
   python3 -m hvi cloud debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 --interval 3e-6 \\
@@ -35,7 +35,4 @@ def main(args):
     print(tables.text(names, table[names].tolist(), dict(cloud.SERIES), dump.units))
     if args.out:
         tables.write_csv(args.out, names, table[names].tolist())
-    if args.figure:
-        from .. import figures
-
-        save(figures.cloud(table, dump.units), args.figure)
+    draw(args.figure, "cloud", table, dump.units)

@@ -14,7 +14,7 @@ from ..shield import ble, decision
 from ..shield import case as cases
 from ..shield.limit import Limit
 from . import running
-from .shared import save
+from .shared import draw
 
 EXAMPLES = "  python3 -m hvi curve emi.yaml --speeds 3:9:4 --from 2 --to 8 --step 0.5 --jobs 2 --ranks 1"
 
@@ -27,11 +27,6 @@ def add_arguments(parser):
     running.add_runs(parser)
 
 
-def limits_of(case, speeds, folder, args):
-    """{speed: Limit}"""
-    return {speed: Limit(dataclasses.replace(case, speed_km_s=speed), folder, args.on, args.from_, args.to_, args.step_, name=f"v-{speed:g}_") for speed in speeds}
-
-
 def row(speed, limit):
     """numbers of a speed: the limit, between which values it is, what is wrong with it"""
     answer = limit.answer()
@@ -40,11 +35,11 @@ def row(speed, limit):
             "runs": sum(len(search.said) for search in limit.searches.values()), "why_not": "; ".join(answer.get("reasons", []))}
 
 
-def equations(case_at, speeds):
+def equations(case, speeds):
     """{equation: [(critical diameter in mm, is it within its ranges), ...]} over speeds, or why there are none"""
     def curves():
-        of = ble.from_case(case_at(speeds[0]))
-        return {name: [(d, not beyond) for d, beyond in ble.curve(of, name, speeds, case_at(speeds[0]).angle_deg)] for name in ble.equations(of)}
+        of = ble.from_case(case)
+        return ble.curves(of, ble.equations(of), speeds, case.angle_deg)
 
     return ble.beside(curves)
 
@@ -53,23 +48,22 @@ def main(args):
     case = cases.read(args.case)
     speeds = running.evenly(*args.speeds)
     folder = args.runs.resolve() / case.name / f"curve-{args.on}"
-    limits = limits_of(case, speeds, folder, args)
+    limits = {speed: Limit(dataclasses.replace(case, speed_km_s=speed), folder, args.on, args.from_, args.to_, args.step_, name=f"v-{speed:g}_") for speed in speeds}
     runner = engine.Runner(args)
-    first = [(limit, job) for limit in limits.values() for job in limit.first()]
+    first = [job for limit in limits.values() for job in limit.first()]
     print(f"{case.name}: {args.on} over {len(speeds)} speeds, {len(first)} runs to begin with", flush=True)
     if args.dry_run:
-        runner.show(job for _, job in first)
+        runner.show(first)
         return 0
-    owner = {f"v-{speed:g}_": limit for speed, limit in limits.items()}
 
     def more(job):
-        return next(limit for name, limit in owner.items() if job.name.startswith(name)).more(job)
+        return next(limit for limit in limits.values() if job.name in limit.jobs).more(job)
 
     def every():
-        return [job for limit in limits.values() for _, _, job in limit.jobs.values()]
+        return [job for limit in limits.values() for job in limit.every()]
 
     with engine.table_of(every, folder / "runs.csv"):
-        failed = runner.run([job for _, job in first], f"{case.name} curve", more)
+        failed = runner.run(first, f"{case.name} curve", more)
     if failed:
         raise HVIError(f"no curve: {len(failed)} runs failed: {', '.join(job.name for job in failed)}")
     return report(case, args.on, limits, folder, every())
@@ -77,12 +71,10 @@ def main(args):
 
 def report(case, on, limits, folder, jobs):
     """table, curve.csv, curve.yaml, curve.png; exit status"""
-    from .. import figures
-
     rows = [row(speed, limit) for speed, limit in limits.items()]
     unit = next(iter(limits.values())).unit
     fine = running.evenly(min(limits), max(limits), 60) if len(limits) > 1 else [*limits]
-    known = equations(lambda speed: dataclasses.replace(case, speed_km_s=speed), [*limits]) if on == "D" else f"none: the equations are for a diameter, not for {on}"
+    known = equations(case, [*limits]) if on == "D" else f"none: the equations are for a diameter, not for {on}"
     names = [] if isinstance(known, str) else list(known)
     columns = ("speed_km_s", f"limit_{unit}", "low", "high", "runs", *names)
     cells = [(line["speed_km_s"], *(line[key] for key in ("limit", "low", "high", "runs")), *(known[name][k][0] for name in names)) for k, line in enumerate(rows)]
@@ -97,9 +89,9 @@ def report(case, on, limits, folder, jobs):
     tables.write_csv(folder / "curve.csv", columns, cells)
     running.save(folder / "curve.yaml", {"on": on, "unit": unit, "points": [{key: value for key, value in line.items() if value == value} for line in rows]})
     points = [(line["speed_km_s"], line["limit"], line["low"], line["high"]) for line in rows if math.isfinite(line["limit"])]
-    curves = {} if isinstance(known, str) else equations(lambda speed: dataclasses.replace(case, speed_km_s=speed), fine)
+    curves = {} if isinstance(known, str) else equations(case, fine)
     what = "critical diameter" if on == "D" else f"limit on {on}"
     title = f"{case.name}: {case.projectile.shape} on " + " + ".join(f"{wall.thickness_mm:g}" for wall in case.walls) + f" mm, {case.angle_deg:g} degrees, {min(case.spacings_mm):g} mm between particles"
-    save(figures.limit_curve(fine, curves, points, title, f"{what} ({unit})"), str(folder / "curve.png"))
+    draw(str(folder / "curve.png"), "limit_curve", fine, curves, points, title, f"{what} ({unit})")
     print(f"table: {folder / 'curve.csv'}")
     return 0 if len(points) == len(rows) else decision.STATUS["undecided"]

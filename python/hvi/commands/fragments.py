@@ -9,7 +9,7 @@ from ..analysis import debris as below
 from ..analysis import fragments as pieces
 from ..errors import HVIError
 from . import dumps
-from .shared import add_output, positive, save
+from .shared import add_output, draw, positive
 
 EXAMPLES = """  python3 -m hvi fragments debris.dump --data debris.data --bonds bonds.dump --axis z --plane 4.05e-3 \\
       --fit both --figure masses --out fragments.csv
@@ -70,12 +70,9 @@ def main(args):
         print(fit)
     if args.out:
         tables.write_csv(args.out, names, rows)
-    if args.figure:
-        from .. import figures
-
-        known = kind < 2
-        small = (found.table["mass"][known] / number[known], number[known]) if debris else None
-        save(figures.distribution(resolved, fits, dump.units, small), args.figure)
+    known = kind < 2
+    small = (found.table["mass"][known] / number[known], number[known]) if debris else None
+    draw(args.figure, "distribution", resolved, fits, dump.units, small)
 
 
 def every(args, dump, rule):

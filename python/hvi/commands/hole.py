@@ -6,7 +6,7 @@ from ..errors import HVIError
 from ..io import mirror
 from ..io.data import DataFile
 from . import dumps
-from .shared import add_output, positive, save, show
+from .shared import add_output, draw, positive, show
 
 EXAMPLES = """  python3 -m hvi hole frame.10.dump --plane 0.5e-3 --type 2 --figure hole
   python3 -m hvi hole shield.dump --center 2.5e-3 0 --plane 31.4e-3 --type 3 --distance 0.4e-3 --thickness 1
@@ -54,10 +54,7 @@ def main(args):
     show({name: value for name, value in found.values.items() if found.values["found"] >= 0 or name in ("share", "layer", "reference", "spacing", "found")})
     if args.out:
         tables.write_csv(args.out, list(found.values), [list(found.values.values())])
-    if args.figure:
-        from .. import figures
-
-        save(figures.hole(frame, found, args.axis), args.figure)
+    draw(args.figure, "hole", frame, found, args.axis)
     return 0 if found.values["found"] >= 0 else 1
 
 

@@ -5,7 +5,7 @@ from ..analysis import maps
 from ..analysis import debris as below
 from ..analysis import fragments as pieces
 from . import dumps
-from .shared import add_output, positive, save, show
+from .shared import add_output, draw, positive, show
 
 EXAMPLES = """  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --figure witness
   python3 -m hvi impacts old.dump --axis z --plane 60.8e-3 --quarter --after 0 --bins 60 --figure witness.png
@@ -38,7 +38,4 @@ def main(args):
     if debris:
         show({**debris.summary, **{f"{kind}_kinetic_energy": share for kind, share in zip(below.KINDS, debris.shares(found.kinetic))}})
     dumps.show_debris({}, missing)
-    if args.figure:
-        from .. import figures
-
-        save(figures.impacts(frame, found, args.axis), args.figure)
+    draw(args.figure, "impacts", frame, found, args.axis)

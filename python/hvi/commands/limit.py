@@ -33,14 +33,14 @@ def main(args):
         runner.show(first)
         return 0
     (limit.folder / "limit.yaml").unlink(missing_ok=True)
-    with engine.table_of(lambda: [job for _, _, job in limit.jobs.values()], limit.folder / "runs.csv"):
+    with engine.table_of(limit.every, limit.folder / "runs.csv"):
         failed = runner.run(first, f"{case.name} limit", limit.more)
-    print(engine.overview([job for _, _, job in limit.jobs.values()], decision.shown(case)))
+    print(engine.overview(limit.every(), decision.shown(case)))
     if failed:
         raise HVIError(f"no limit: {len(failed)} runs failed: {', '.join(job.name for job in failed)}")
     print()
     print(tables.text(("spacing_mm", "shift", "holds", "undecided", "fails", "runs"), limit.rows()))
-    done = [job.result() for _, _, job in limit.jobs.values()]
+    done = [job.result() for job in limit.every()]
     answer = {**limit.answer(), "undecided_runs": limit.undecided(), "runs": len(done), "core_s": round(sum(result.get("core_s", 0) for result in done), 1),
               "equations": limit.equations()}
     running.save(limit.folder / "limit.yaml", answer)

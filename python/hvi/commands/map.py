@@ -2,7 +2,7 @@
 """python3 -m hvi map: velocities over positions."""
 
 from . import dumps
-from .shared import add_output, save
+from .shared import add_output, draw
 
 EXAMPLES = """  python3 -m hvi map debris.dump --data debris.data --axis z --figure phase
   python3 -m hvi map debris.dump --data debris.data --axis z --kind field --figure field.png"""
@@ -20,7 +20,5 @@ def add_arguments(parser):
 
 
 def main(args):
-    from .. import figures
-
     bins = {"bins": tuple(args.bins)} if args.bins else {}
-    save(getattr(figures, args.kind)(dumps.read(args)[args.frame], args.axis, args.plane, **bins), args.figure)
+    draw(args.figure, args.kind, dumps.read(args)[args.frame], args.axis, args.plane, **bins)

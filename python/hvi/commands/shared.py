@@ -29,10 +29,18 @@ def add_output(parser, figure, required=False, out=True):
     parser.add_argument("--figure", metavar="NAME", required=required, help=f"draw {figure}: NAME.png and NAME.pdf, or only the one that NAME ends in")
 
 
-def save(figure, name):
-    from .. import figures
+def draw(name, what, *given, **more):
+    """a figure, by its function in hvi.figures; nothing without a name"""
+    if name:
+        from .. import figures
 
-    for path in figures.save(figure, name):
+        save(getattr(figures, what)(*given, **more), name)
+
+
+def save(figure, name):
+    from ..figures import style
+
+    for path in style.save(figure, name):
         print(f"figure: {path}")
 
 

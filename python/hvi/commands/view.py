@@ -3,7 +3,7 @@
 
 from ..analysis import cloud, fragments
 from . import dumps
-from .shared import add_output, positive, save
+from .shared import add_output, draw, positive
 
 EXAMPLES = """  python3 -m hvi view debris.dump --data debris.data --axis z --thickness 8e-3 --figure side
   python3 -m hvi view debris.dump --data debris.data --axis z --plane 4.05e-3 \\
@@ -24,12 +24,10 @@ def add_arguments(parser):
 
 
 def main(args):
-    from .. import figures
-
     frame = dumps.read(args)[args.frame]
     found = None
     if args.color == "fragment":
         found = fragments.find(frame, **dumps.rule(args))
     elif args.plane is not None:
         frame = frame.select(cloud.beyond(frame, args.axis, args.plane))
-    save(figures.side(frame, args.axis, args.up, args.color, args.thickness, found, args.diameter), args.figure)
+    draw(args.figure, "side", frame, args.axis, args.up, args.color, args.thickness, found, args.diameter)

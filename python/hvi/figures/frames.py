@@ -3,9 +3,13 @@
 
 import numpy as np
 from matplotlib.colors import ListedColormap, LogNorm
+from matplotlib.lines import Line2D
 from scipy import ndimage
+from scipy.spatial import cKDTree
 
 from .. import units as unit_systems
+from ..analysis import maps
+from ..analysis.distribution import cumulative
 from ..errors import HVIError
 from ..io.frame import as_frame, axis_number, whole
 from .style import BESIDE, BODIES, MASS, SINGLE, STYLE, VELOCITY, color_bar, equal_axes, label_axes, legend, new_figure
@@ -25,8 +29,6 @@ def spacing(frame, sample=2000):
 
     In a solid that is its spacing; in a cloud of pieces that of the particles in pieces, where a mean would be far more.
     """
-    from scipy.spatial import cKDTree
-
     if len(frame) < 2:
         return 0.0
     some = frame.x[:: max(len(frame) // sample, 1)]
@@ -122,8 +124,6 @@ def _color_map(kind, values):
 
 
 def _legend_of_types(ax, names, how):
-    from matplotlib.lines import Line2D
-
     marks = [Line2D([], [], marker="o", linestyle="", markersize=5, color=how["cmap"](t - 1), label=name)
              for t, name in names.items()]
     legend(ax, 0, handles=marks, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=len(names), borderpad=0.0, handletextpad=0.2)
@@ -132,8 +132,6 @@ def _legend_of_types(ax, names, how):
 # ---------------------------------------------------------------------- velocity maps
 def phase(source, axis, plane=None, bins=(200, 120)):
     """Axial velocity against position: mass per bin, and the mean as a line (maps.phase)."""
-    from ..analysis import maps
-
     frame = as_frame(source)
     found = maps.phase(frame, axis, plane, bins)
     fx, ux = unit_systems.scale("distance", found.x, frame.units)
@@ -153,8 +151,6 @@ def phase(source, axis, plane=None, bins=(200, 120)):
 
 def field(source, axis, plane=None, bins=(200, 100)):
     """Mean axial velocity over position along the axis and distance from it (maps.field)."""
-    from ..analysis import maps
-
     frame = as_frame(source)
     found = maps.field(frame, axis, plane, bins)
     factor, unit = unit_systems.scale("distance", np.append(found.x, found.y), frame.units)
@@ -217,8 +213,6 @@ def distribution(masses, fits=(), units="si", small=None):
 
     small: (masses, numbers) of all pieces with those below the spacing, drawn as another curve
     """
-    from ..analysis.distribution import cumulative
-
     m, _, from_here = cumulative(masses)
     if not len(m):
         raise HVIError("no fragments")

@@ -20,7 +20,7 @@ def cloud(case, z):
 
 
 def draw(case, plan):
-    """A Figure; plan: of shield_chain.plan_of(), with wallK_radius_mm, wallK_middle_mm, wallK_struck_at_mm"""
+    """A Figure; plan: of chain.plan_of(), with wallK_radius_mm, wallK_middle_mm, wallK_struck_at_mm"""
     sizes, middles, spots = ([plan[f"wall{k}_{what}"] for k in range(1, len(case.walls) + 1)] for what in ("radius_mm", "middle_mm", "struck_at_mm"))
     places, R, slope = case.faces(), case.projectile.radius_mm, math.tan(math.radians(case.angle_deg))
     end = places[-1][1]

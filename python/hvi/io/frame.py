@@ -1,6 +1,8 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """One frame of a dump: the particles that were there at that moment, in double precision, in order of their IDs."""
 
+import functools
+
 import numpy as np
 
 from .. import units as unit_systems
@@ -34,7 +36,8 @@ class Frame:
         self.type_masses = masses or {}
         self.mirror = mirror
         self.where = where
-        self._cache = {} if flat is None else {"flat": flat}
+        if flat is not None:
+            self.flat = flat
 
     def __len__(self):
         return len(next(iter(self.columns.values()), ()))
@@ -64,13 +67,10 @@ class Frame:
         """The same frame, cut only at the planes across other axes (0, 1, 2) than these."""
         return self._with(self.columns, self.box, tuple(plane for plane in self.planes if plane.axis not in axes))
 
-    @property
+    @functools.cached_property
     def flat(self):
         """Axes (0, 1, 2) along which all particles have the same coordinate as written, a tuple: of a plane or a row of particles, where a mass
         is per length or area. () of FEW particles or less, or without coordinates."""
-        return self._once("flat", self._find_flat)
-
-    def _find_flat(self):
         names = next((names for names, _, _ in _COORDINATES if all(name in self for name in names)), ())
         return tuple(k for k, name in enumerate(names) if len(self) > FEW and np.ptp(self[name]) == 0.0)
 
@@ -94,16 +94,15 @@ class Frame:
         Rows of the part come first, then those of each image, with IDs above all of those before. Coordinates are in x y z,
         unwrapped; velocities, forces and shear stresses (sxy sxz syz) are those of the images, other columns are repeated.
         """
-        if not self.planes:
-            return self
-        return self._once("whole", self._add_images)
+        return self._with_images if self.planes else self
 
     @property
     def id_step(self):
         """By how much the IDs of an image are above those of the one before, in whole()."""
         return int(self.ids.max()) if len(self) else 1
 
-    def _add_images(self):
+    @functools.cached_property
+    def _with_images(self):
         images = list(mirrors.images(self.planes))
         letters = dict(zip("xyz", range(3)))
         old = {name for names, _, _ in _COORDINATES for name in names} | {"ix", "iy", "iz"}
@@ -133,33 +132,48 @@ class Frame:
             origin[k], vectors[k, k] = plane.at - reach, 2.0 * reach
         return Box(origin, vectors, self.box.periodic)
 
-    def _once(self, name, make):
-        if name not in self._cache:
-            self._cache[name] = make()
-        return self._cache[name]
-
     @property
     def ids(self):
         """LAMMPS's atom IDs, (n,) of int64, rising."""
         return self["id"]
 
-    @property
+    @functools.cached_property
     def x(self):
         """Coordinates (n, 3), unwrapped: xu, else xsu, else x or xs with ix iy iz if these are there.
 
         Without image flags coordinates of periodic boxes stay as they are, inside the box.
         """
-        return self._once("x", self._coordinates)
+        for names, scaled, unwrapped in _COORDINATES:
+            if all(name in self for name in names):
+                break
+        else:
+            raise HVIError(f"{self.where} has no coordinates (x y z, xs ys zs, xu yu zu or xsu ysu zsu); "
+                           f"it has: {' '.join(self.columns)}")
+        x = self._vectors(names)
+        if scaled:
+            x = self.box.from_scaled(x)
+        if not unwrapped and all(name in self for name in ("ix", "iy", "iz")):
+            x = x + self._vectors(("ix", "iy", "iz")) @ self.box.vectors
+        return x
 
-    @property
+    @functools.cached_property
     def v(self):
         """Velocities (n, 3) from vx vy vz."""
-        return self._once("v", lambda: self._vectors(("vx", "vy", "vz")))
+        return self._vectors(("vx", "vy", "vz"))
 
-    @property
+    @functools.cached_property
     def m(self):
         """Masses (n,): those given by type, else the column mass."""
-        return self._once("m", self._masses)
+        if not self.type_masses and "mass" in self:
+            m = np.asarray(self["mass"], dtype=float)
+        elif not self.type_masses:
+            raise HVIError(f"{self.where} has no masses: give a data file, the mass of each type, or dump the column mass")
+        else:
+            m = self.by_type(self.type_masses, "mass")
+        self.require_finite(m[:, None], ("mass",))
+        if len(m) and not m.min() > 0.0:
+            raise HVIError(f"{self.where}: a mass is {m.min():g}; masses must be > 0")
+        return m
 
     @property
     def mvv2e(self):
@@ -186,32 +200,6 @@ class Frame:
             row, k = np.argwhere(~np.isfinite(values))[0]
             who = f"particle {self.columns['id'][row]}" if "id" in self else f"row {row + 1}"
             raise HVIError(f"{self.where}: {names[k]} of {who} is {values[row, k]}")
-
-    def _coordinates(self):
-        for names, scaled, unwrapped in _COORDINATES:
-            if all(name in self for name in names):
-                break
-        else:
-            raise HVIError(f"{self.where} has no coordinates (x y z, xs ys zs, xu yu zu or xsu ysu zsu); "
-                           f"it has: {' '.join(self.columns)}")
-        x = self._vectors(names)
-        if scaled:
-            x = self.box.from_scaled(x)
-        if not unwrapped and all(name in self for name in ("ix", "iy", "iz")):
-            x = x + self._vectors(("ix", "iy", "iz")) @ self.box.vectors
-        return x
-
-    def _masses(self):
-        if not self.type_masses and "mass" in self:
-            m = np.asarray(self["mass"], dtype=float)
-        elif not self.type_masses:
-            raise HVIError(f"{self.where} has no masses: give a data file, the mass of each type, or dump the column mass")
-        else:
-            m = self.by_type(self.type_masses, "mass")
-        self.require_finite(m[:, None], ("mass",))
-        if len(m) and not m.min() > 0.0:
-            raise HVIError(f"{self.where}: a mass is {m.min():g}; masses must be > 0")
-        return m
 
 
 def as_frame(source):

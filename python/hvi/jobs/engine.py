@@ -7,7 +7,6 @@ what runs; what another process is still at (after kill -9 of the first) is wait
 """
 
 import contextlib
-import csv
 import fcntl
 import hashlib
 import os
@@ -26,7 +25,7 @@ from ..errors import HVIError, reading, writing
 from ..material.library import potentials
 from ..version import ROOT
 
-LAST = "package_version"  # the last key of result.yaml: it is there if the file is complete
+RESULT, LAST = "result.yaml", "package_version"  # what a run is for, and the last key in it: it is there if the file is complete
 PATIENCE = 10  # seconds that mpirun has to end its ranks
 FULL = 100_000  # bytes: less is a full disk
 
@@ -64,18 +63,15 @@ class Input:
         self.name = self.path.name
         self._read(self.name)
         self.known = {}  # variables that -var may set: {name: may it have several values}
-        self.defaults = {}  # {name: words} where there are any
         for text in self.texts.values():
             for name, values in re.findall(r'\bvariable\s+(\w+)\s+index\b(?=([^"#\n]*))', text):
                 self.known[name] = self.known.get(name, False) or len(values.split()) > 1
-                self.defaults.setdefault(name, values.split())  # the first is the default
         joined = re.sub(r"&[ \t]*\n", " ", "\n".join(self.texts.values()))
         said = [line.split() for line in re.findall(r"^\s*hvi/variables\s+known\s(.*)", joined, re.M)]
         if said:  # the input itself says which; what it names as optional may be lists
             named = {name for line in said for name in line} - {"optional"}
             optional = {name for line in said if "optional" in line for name in line[line.index("optional") + 1:]}
             self.known = {name: name in optional or self.known.get(name, True) for name in named}
-            self.defaults = {name: words for name, words in self.defaults.items() if name not in optional}
 
     def _read(self, name):
         with reading(f"the input {self.path.parent / name}"):
@@ -85,8 +81,7 @@ class Input:
                 self._read(other)
 
     def checksum(self):
-        texts = [self.texts[name] for name in sorted(self.texts)]
-        return hashlib.sha256("\0".join(texts).encode()).hexdigest()[:16]
+        return digest("\0".join(self.texts[name] for name in sorted(self.texts)).encode())
 
     def check(self, variables, where):
         """LAMMPS takes any name after -var; one that the input does not know would change nothing"""
@@ -102,6 +97,10 @@ class Input:
             (folder / name).write_text(text)
 
 
+def digest(data):
+    return hashlib.sha256(data).hexdigest()[:16]
+
+
 def words(value):
     """a value of a variable as LAMMPS's words: a list has a word for each"""
     return [str(v) for v in (value if isinstance(value, list) else [value])]
@@ -115,11 +114,9 @@ def job_name(case):
 class Job:
     """One run of an input in its own folder; goes_on: the input that goes on with it, restart: pattern of the files from which."""
 
-    def __init__(self, source, name, variables, folder, restart=None, remove=(), weight=1.0,
-                 product="result.yaml", last=LAST, made=None, goes_on=None):
+    def __init__(self, source, name, variables, folder, restart=None, remove=(), weight=1.0, made=None, goes_on=None):
         self.input, self.name, self.variables, self.folder = source, name, variables, pathlib.Path(folder)
         self.restart, self.remove, self.weight, self.goes_on = restart, remove, weight, goes_on  # weight: how much of all work this is
-        self.product, self.last = product, last  # the file that it is run for, and the last key in it
         self.record = {"input": source.checksum(), "variables": variables}
         if goes_on:
             self.record["continue"] = goes_on.checksum()
@@ -137,7 +134,7 @@ class Job:
         for word in (word for value in self.variables.values() for word in words(value)):
             for path in (folder / word for folder in potentials()):  # an absolute path stays what it is
                 if re.search(r"\.\w*[a-z]\w*$", word) and path.is_file():
-                    found[word] = hashlib.sha256(path.read_bytes()).hexdigest()[:16]
+                    found[word] = digest(path.read_bytes())
                     break
         return found
 
@@ -145,8 +142,8 @@ class Job:
         """the results if the job is done with these variables, input and files, else None"""
         if not self.begun():
             return None
-        result = read_yaml(self.folder / self.product)
-        return result if result and self.last in result else None
+        result = read_yaml(self.folder / RESULT)
+        return result if result and LAST in result else None
 
     def begun(self):
         """True if it was started before, with these variables, input and files"""
@@ -193,7 +190,7 @@ class Job:
             shutil.rmtree(self.folder, ignore_errors=True)
         self.saved = self._saved()
         self.folder.mkdir(parents=True, exist_ok=True)
-        (self.folder / self.product).unlink(missing_ok=True)
+        (self.folder / RESULT).unlink(missing_ok=True)
         for source in filter(None, (self.input, self.goes_on)):
             source.copy_to(self.folder)
         for name, said in self.record.get("made", {}).items():
@@ -225,7 +222,7 @@ class Job:
             self.leave()
             return True
         status = self.process.poll()
-        if status is None and not late:
+        if status is None and not late or status == 0 and self.goes_on_now(command):
             return False
         if status is None:
             end([self])
@@ -235,7 +232,7 @@ class Job:
         elif status != 0:
             self.problem = said_of(status)
         elif self.result() is None:
-            self.problem = f"no complete {self.product}"
+            self.problem = f"no complete {RESULT}"
         if not self.problem:
             self.problem = self.finish()
         if self.problem and shutil.disk_usage(self.folder).free < FULL:
@@ -249,6 +246,10 @@ class Job:
         self.process = None
         self.leave()
         return True
+
+    def goes_on_now(self, command):
+        """after a call of LAMMPS that ended well: True if it was not the last of the run, and the next one has begun"""
+        return False
 
     def finish(self):
         """what is done with a run that has ended well; what went wrong, "" if nothing"""
@@ -412,10 +413,7 @@ def write_table(jobs, path):
     rows = [{"job": job.name, **result, **job.variables} for job in jobs if (result := job.result())]
     columns = list(dict.fromkeys(["job", *(n for j in jobs for n in j.variables), *(n for row in rows for n in row)]))
     path.parent.mkdir(parents=True, exist_ok=True)
-    with open(path, "w", newline="") as out:
-        writer = csv.DictWriter(out, columns, restval="", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows({name: cell(value) for name, value in row.items()} for row in rows)
+    tables.write_csv(path, columns, [[cell(row.get(name, "")) for name in columns] for row in rows])
 
 
 @contextlib.contextmanager
@@ -427,7 +425,7 @@ def table_of(jobs, path):
     try:
         yield
     except BaseException:
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError, HVIError):
             write_table(jobs(), path)
         raise
     with writing(path):

@@ -203,6 +203,12 @@ def _positive(**sizes):
             raise HVIError(f"a body needs a {name} > 0, not {value:g}")
 
 
+def _hollow(radius, inner, **sizes):
+    _positive(radius=radius, **sizes)
+    if not 0.0 <= inner < radius:
+        raise HVIError(f"the inner radius must be from 0 to below {radius:g}, not {inner:g}")
+
+
 def _shape(parts, volume, half, middle, quarter):
     low, high = np.array([0.0, 0.0, middle]) - half, np.array([0.0, 0.0, middle]) + half
     if quarter:
@@ -212,17 +218,13 @@ def _shape(parts, volume, half, middle, quarter):
 
 def sphere(radius, inner=0.0, quarter=False):
     """about the origin; inner: radius of the hole inside"""
-    _positive(radius=radius)
-    if not 0.0 <= inner < radius:
-        raise HVIError(f"the inner radius must be from 0 to below {radius:g}, not {inner:g}")
+    _hollow(radius, inner)
     return _shape([Round((0, 1, 2), radius, inner)], 4 / 3 * np.pi * (radius**3 - inner**3), np.full(3, radius), 0.0, quarter)
 
 
 def cylinder(radius, length, inner=0.0, quarter=False, middle=0.0):
     """along z; middle: its z"""
-    _positive(radius=radius, length=length)
-    if not 0.0 <= inner < radius:
-        raise HVIError(f"the inner radius must be from 0 to below {radius:g}, not {inner:g}")
+    _hollow(radius, inner, length=length)
     parts = [Round((0, 1), radius, inner), Slab(2, middle - length / 2, middle + length / 2)]
     return _shape(parts, np.pi * (radius**2 - inner**2) * length, np.array([radius, radius, length / 2]), middle, quarter)
 

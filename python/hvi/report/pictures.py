@@ -7,6 +7,9 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import PowerNorm, to_rgb
 from matplotlib.figure import Figure
 
+from .. import figures
+from ..analysis import fragments, maps
+from ..figures import sketch as sketches
 from . import render
 
 COLORS = [to_rgb(c) for c in ("#e2603a", "#6f9bd1", "#86b58a", "#b39ad0", "#d8b25a", "#9aa4ad")]  # projectile, wall 1, ...
@@ -26,23 +29,15 @@ def body_name(body):
     return f"wall {body}" if body else "projectile"
 
 
-def _axes(figure, left=0.62, right=0.12, low=0.5, high=0.12):
-    """axes with margins in inches"""
-    w, h = figure.get_size_inches()
-    axes = figure.add_axes((left / w, low / h, 1.0 - (left + right) / w, 1.0 - (low + high) / h))
-    axes.tick_params(labelsize=9, direction="out", length=3)
-    axes.set_facecolor("#f7f8fa")
-    for spine in axes.spines.values():
-        spine.set_color("#9aa4ad")
-    return axes
-
-
 def _panel(window, labels, width=PANEL, right=0.12):
-    """(figure, axes, pixels across) whose scales are equal"""
-    inner = width - 0.62 - right
-    figure = Figure(figsize=(width, inner * (window[3] - window[2]) / (window[1] - window[0]) + 0.62))
-    axes = _axes(figure, right=right)
-    axes.set(xlim=window[:2], ylim=window[2:])
+    """(figure, axes, pixels across) whose scales are equal; margins in inches"""
+    left, low, high = 0.62, 0.5, 0.12
+    inner = width - left - right
+    w, h = width, inner * (window[3] - window[2]) / (window[1] - window[0]) + low + high
+    figure = Figure(figsize=(w, h))
+    axes = figure.add_axes((left / w, low / h, 1.0 - (left + right) / w, 1.0 - (low + high) / h), facecolor="#f7f8fa", xlim=window[:2], ylim=window[2:])
+    axes.tick_params(labelsize=9, direction="out", length=3)
+    axes.spines[:].set_color("#9aa4ad")
     axes.set_xlabel(labels[0], fontsize=9)
     axes.set_ylabel(labels[1], fontsize=9)
     return figure, axes, round(inner * DPI)
@@ -93,13 +88,9 @@ def side(run, scene, window, colors=None, bar=None):
     return figure
 
 
-def top_speed(run):
-    return run.case.speed_km_s
-
-
 def velocities(run, scene, window, bar=True):
     """the side view with speeds"""
-    rgb, norm = speeds(scene, top_speed(run))
+    rgb, norm = speeds(scene, run.case.speed_km_s)
     return side(run, scene, window, rgb, norm if bar else None)
 
 
@@ -161,8 +152,6 @@ def face(run, scene, k, rear):
 
 def body_of(run, scene, k):
     """particles of the largest sound piece of wall k: what is left of it"""
-    from ..analysis import fragments
-
     mine = np.flatnonzero(scene.body == k)
     reach = 1.5e-3 * max(run.dx, *(run.of_wall(j, "spacing_mm") for j in range(1, run.walls + 1)))
     found = fragments.find(scene.whole.select(scene.body == k), distance=reach, failed=fragments.FAILED)
@@ -212,23 +201,16 @@ def slice_of(run, k):
 # ---------------------------------------------------------------------- where the next wall is struck; the sketch
 def witness(run, scene, k):
     """Momentum and energy per area where the plane of wall k will be struck by what flies behind wall k-1, side by side"""
-    from .. import figures
-    from ..analysis import maps
-
     found = maps.impacts(scene.frame, "z", 1e-3 * run.faces(k)[0], after=1e-3 * run.faces(k - 1)[1], bins=40)
     return figures.impacts(scene.frame, found, "z"), found.summary
 
 
 def phase(scene, run, k):
     """mass over place and axial velocity of what is behind wall k"""
-    from .. import figures
-
     return figures.phase(scene.frame, "z", 1e-3 * run.faces(k)[1])
 
 
 def sketch(run, case):
-    from ..figures import sketch as sketches
-
     with rc_context({"text.parse_math": False}):  # names may have $
         figure = sketches.draw(case, run.plan)
         figure.draw_without_rendering()

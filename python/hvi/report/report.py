@@ -3,7 +3,6 @@
 
 import dataclasses
 import datetime
-import hashlib
 import pathlib
 import platform
 import re
@@ -182,7 +181,7 @@ class Report:
                 continue
             text = path.read_text(errors="replace")
             was = self.run.job.get("files", {}).get(name)
-            changed = was and was != hashlib.sha256(path.read_bytes()).hexdigest()[:16]
+            changed = was and was != engine.digest(path.read_bytes())
             laws = re.findall(r"^(eos|strength|damage|spall)\s+(\S+)", text, re.M)
             rows.append((stem(name), used, "; ".join(f"{kind}: {', '.join(law for k, law in laws if k == kind)}" for kind in dict.fromkeys(kind for kind, _ in laws))
                          + ("; HAS CHANGED since the run" if changed else "")))

@@ -180,22 +180,17 @@ def _piekutowski(shield, d):
     return 2.60 if ratio >= 0.16 else 1.436 * ratio ** (-1 / 3)
 
 
-def _jsc(shield, speed, angle):
+def _jsc(shield, speed, angle, ratio_at=lambda v, high: high, thick_enough=_thick_enough):
     c = _cos(angle)
 
     def low(v):
         return _low(shield, c, v)
     return _between(speed, min(_onset(low, lambda d: _piekutowski(shield, d), c), HIGH / c), HIGH / c, low,
-                    lambda v: _derated(shield, c, v, HIGH / c, _walls_jsc, _thick_enough))
+                    lambda v: _derated(shield, c, v, ratio_at(v, HIGH / c), _walls_jsc, thick_enough))
 
 
 def _modjsc(shield, speed, angle):
-    c = _cos(angle)
-
-    def low(v):
-        return _low(shield, c, v)
-    return _between(speed, min(_onset(low, lambda d: _piekutowski(shield, d), c), HIGH / c), HIGH / c, low,
-                    lambda v: _derated(shield, c, v, v, _walls_jsc, _thick_enough_mod))
+    return _jsc(shield, speed, angle, lambda v, high: v, _thick_enough_mod)
 
 
 def _reimerdes(shield, speed, angle):
@@ -299,6 +294,11 @@ def curve(shield, name, speeds, angle):
         d, _ = critical_diameter(name, shield, speed, angle)
         found.append((10 * d, beyond(name, shield, d, speed, angle)))
     return found
+
+
+def curves(shield, names, speeds, angle):
+    """{equation: [(d_c in mm, is it within its ranges), ...]} over speeds"""
+    return {name: [(d, not beyond) for d, beyond in curve(shield, name, speeds, angle)] for name in names}
 
 
 def properties(stem):

@@ -6,7 +6,6 @@ that was not. Where it stands is in chain.yaml, which names the last whole resta
 """
 
 import contextlib
-import hashlib
 import math
 import os
 import pathlib
@@ -38,7 +37,7 @@ class Written:
         self.texts, self.copy_to = shield.texts(), shield.copy_to
 
     def checksum(self):
-        return hashlib.sha256("\0".join(self.texts.values()).encode()).hexdigest()[:16]
+        return engine.digest("\0".join(self.texts.values()).encode())
 
 
 def shield_of(case, which, shift):
@@ -101,15 +100,14 @@ class Job(engine.Job):
                     self.advance()
         return taken
 
-    def ended(self, command, timeout):
-        if self.process is not None and self.process.poll() == 0:
-            try:
-                if not self.advance():
-                    self.launch(command, more=True)
-                    return False
-            except HVIError as problem:
-                print(problem)
-        return super().ended(command, timeout)
+    def goes_on_now(self, command):
+        try:
+            if not self.advance():
+                self.launch(command, more=True)
+                return True
+        except HVIError as problem:
+            print(problem)
+        return False
 
     def advance(self):
         """after a call: True if the run is over, and its result written"""
@@ -145,7 +143,7 @@ def write_plan(shield, folder):
 
 def size_of(shield):
     """about what a run takes: from geometry alone, before anything is made or read"""
-    count, steps, film = shield.particles(), STEPS * shield.steps(), shield.film_us()
+    count, steps, film = shield.particles(), STEPS * shield.steps(), shield.settings["film"]
     frames = shield.geometry.tstop_us / film + 2 if film else 1
     return {"particles": round(count), "steps": round(steps), "core_s": float(f"{count * steps / SPEED:.3g}"), "memory_MB": round(35 + BYTES * count / 1e6),
             "disk_MB": round((frames * ROW + 4 * RECORD) * count / 1e6, 1)}

@@ -6,6 +6,7 @@ import pathlib
 
 from ..errors import HVIError
 from ..material import library
+from ..model import mesh_plate
 from . import geometry
 
 CORE = 1.6  # radii of the projectile: free particles under its impact
@@ -70,6 +71,4 @@ def file_of(k):
 
 def write(path, material, **words):
     """its file, of the density of a material file"""
-    from ..model import mesh_plate
-
     mesh_plate.plate(**words).write(path, library.density_of(material, si=True)[0], pathlib.Path(path).name)

@@ -80,36 +80,33 @@ def quantity(case, on):
     return "thickness_mm", int(found.group(1)) - 1, "mm"
 
 
-def value_of(case, key, wall):
-    return getattr(case.projectile if key == "size_mm" else case if wall is None else case.walls[wall], key)
-
-
-def with_value(case, key, wall, value):
-    if key == "size_mm":  # all lengths of the projectile alike
-        return dataclasses.replace(case, projectile=case.projectile.scaled(value))
-    if wall is None:
-        return dataclasses.replace(case, **{key: value})
-    changed = dataclasses.replace(case.walls[wall], **{key: value})
-    return dataclasses.replace(case, walls=(*case.walls[:wall], changed, *case.walls[wall + 1:]))
-
-
 class Limit:
     """The searches of all spacings and shifts, and the runs that they ask for."""
 
     def __init__(self, case, folder, on, low=None, high=None, step=None, name=""):
         self.case, self.folder, self.on, self.name = case, folder, on, name  # name: what names of runs begin with
         self.key, self.wall, self.unit = quantity(case, on)
-        middle = value_of(case, self.key, self.wall)
+        middle = getattr(case.projectile if self.key == "size_mm" else case if self.wall is None else case.walls[self.wall], self.key)
         low, high, step = low or 0.5 * middle, high or 2 * middle, step or 0.05 * middle
         if low >= high or step > high - low:
             raise HVIError(f"--from {low:g} --to {high:g} --step {step:g}: there is nothing between")
         n = max(1, round((high - low) / step))
         self.values = [float(f"{low + (high - low) * k / n:.6g}") for k in range(n + 1)]
         for option, value in (("--from", self.values[0]), ("--to", self.values[-1])):
-            with_value(case, self.key, self.wall, value).check(self._wrong(f"{option} {value:g} {self.unit}"))
+            self.at(value).check(self._wrong(f"{option} {value:g} {self.unit}"))
         for value in self.values:  # elements do not fit any thickness
-            with_value(case, self.key, self.wall, value).check_elements(self._wrong(f"{on} {value:g} {self.unit}"))
+            self.at(value).check_elements(self._wrong(f"{on} {value:g} {self.unit}"))
         self.searches, self.jobs = {}, {}
+
+    def at(self, value):
+        """the case with that value"""
+        if self.key == "size_mm":  # all lengths of the projectile alike
+            return dataclasses.replace(self.case, projectile=self.case.projectile.scaled(value))
+        if self.wall is None:
+            return dataclasses.replace(self.case, **{self.key: value})
+        walls = list(self.case.walls)
+        walls[self.wall] = dataclasses.replace(walls[self.wall], **{self.key: value})
+        return dataclasses.replace(self.case, walls=tuple(walls))
 
     @staticmethod
     def _wrong(where):
@@ -123,7 +120,7 @@ class Limit:
         for place in self.searches[member].next():
             value = self.values[place]
             name = f"{self.name}{decision.member_name(self.case, member)}_{self.on}-{value:g}"
-            job = decision.job(with_value(self.case, self.key, self.wall, value), member, self.folder / name, name, remove=["cloud*.dump", "film.*.dump"])
+            job = decision.job(self.at(value), member, self.folder / name, name, remove=["cloud*.dump", "film.*.dump"])
             self.jobs[job.name] = member, place, job
             found.append(job)
         search, (which, shift) = self.searches[member], member
@@ -133,6 +130,9 @@ class Limit:
             self.searches[which + 1, shift] = Search(search.n, window, search.turned)
             found = self._new((which + 1, shift))
         return found
+
+    def every(self):
+        return [job for _, _, job in self.jobs.values()]
 
     def first(self):
         found = []
@@ -164,7 +164,7 @@ class Limit:
 
     def equations(self):
         """what ballistic-limit equations say of the same range, or why they say nothing"""
-        return ble.beside(ble.limits, lambda value: with_value(self.case, self.key, self.wall, value), self.values[0], self.values[-1])
+        return ble.beside(ble.limits, self.at, self.values[0], self.values[-1])
 
     def answer(self):
         """The mapping of limit.yaml; limit is None where it is not in the range, reasons say why."""

@@ -178,8 +178,8 @@ class Shield:
             text("fix", "masses all property/atom rmass ghost yes", "nodes have masses of their own")
         mirrors = " mirror x 0 lo mirror y 0 lo" if g.quarter else ""
         text("pair_style", f"hvi/sph {s['kernel']} {s['pair']}{mirrors}")
-        rows = [(1, f"{self.file_of(self.case.material)} {self.lengths(g.a, g.a)}")]
-        rows += [(1 + k, f"{self.file_of(of.material)} {self.lengths(wall.spacing, wall.dz)}") for k, (wall, of) in enumerate(zip(g.walls, self.case.walls), 1)]
+        rows = [(1, f"{pathlib.Path(self.case.material).name} {self.lengths(g.a, g.a)}")]
+        rows += [(1 + k, f"{pathlib.Path(of.material).name} {self.lengths(wall.spacing, wall.dz)}") for k, (wall, of) in enumerate(zip(g.walls, self.case.walls), 1)]
         for (kinds, what), comment in itertools.zip_longest(alike(rows), ["smoothing length, masses, densities follow from spacings"]):
             text("pair_coeff", f"{types(kinds)} {types(kinds)} file {what}", comment or "")
         if self.elements:
@@ -188,10 +188,6 @@ class Shield:
         v, angle = 1e3 * self.case.speed_km_s, math.radians(self.case.angle_deg)
         text("velocity", f"ball set {number(round(v * math.sin(angle), 6))} 0 {number(round(v * math.cos(angle), 6))} units box")
         text.lines.append("")
-
-    @staticmethod
-    def file_of(material):
-        return pathlib.Path(material).name
 
     def lengths(self, spacing, high):
         """words of pair_coeff; particles of a cell that is no cube have a volume of their own"""
@@ -300,7 +296,7 @@ class Shield:
                   + (" colname -2 mirror_x_lo colname -1 mirror_y_lo" if g.quarter else " colname v_plane mirror_none"))
         text("variable", f"columns string '{COLUMNS}{mirrors}'")
         text("variable", f"names string '{modify}'")
-        film = self.film_us()
+        film = self.settings["film"]  # us between frames
         if film:
             text("dump", f"film {matter} custom {10**9} film.*.dump ${{columns}}")
             text("dump_modify", f"film every/time {number(1e-6 * film)} first yes pad 9 ${{names}}")
@@ -330,10 +326,6 @@ class Shield:
     def latest_us(self):
         """end of the run, whatever happens: what the case says, or longer than what is usually enough"""
         return self.geometry.tstop_us * (1 if self.settings["tstop"] else LONGER)
-
-    def film_us(self):
-        """us between frames"""
-        return self.settings["film"]
 
     def text(self, new=True):
         text = Text()

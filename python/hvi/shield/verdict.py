@@ -59,7 +59,7 @@ class Measured(types.SimpleNamespace):
 
 
 def measured(shield, result):
-    """Measured of a run; shield: its shield_input.Shield, result: what shield_result.measure() found"""
+    """Measured of a run; shield: its script.Shield, result: what record.measure() found"""
     case, d, n = shield.case, result["walls_reached"], result["walls"]
     m = Measured(r=result, d=d, n=n, case=case, shield=shield, last=d == n)
     m.hole = result[f"hole{d}_diameter_mm"]
