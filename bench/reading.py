@@ -14,7 +14,7 @@ import time
 import numpy as np
 
 import hvi
-from hvi.bonds import BondDump
+from hvi.io.bonds import BondDump
 
 HEAD = "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF {}\n{}\nITEM: BOX BOUNDS ff ff ff\n-1 200\n-1 200\n-1 200\nITEM: {}\n"
 

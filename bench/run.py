@@ -80,15 +80,21 @@ def key_of(name, settings):
     return hashlib.sha1(json.dumps([name, settings], sort_keys=True).encode()).hexdigest()[:12]
 
 
-@functools.cache
-def files():
-    """hash of inputs, scenes of tests, materials and Python that runs are made of"""
-    made = hashlib.sha256()
-    for pattern in ("bench/runners/*.py", "bench/stock/*", "bench/dem/*", "bench/sph/*", "tests/*.py", "tests/reference/*.py", "python/hvi/*.py",
+def made_of():
+    """inputs, scenes of tests, materials and Python that runs are made of"""
+    for pattern in ("bench/runners/*.py", "bench/stock/*", "bench/dem/*", "bench/sph/*", "tests/*.py", "tests/reference/*.py", "python/hvi/**/*.py",
                     "examples/*/in.*", "examples/*/legs.*", "examples/whipple-shield/*/*.yaml", "examples/*/shots.csv", "examples/whipple-shield/shots/*.csv", "potentials/*.hvi"):
         for path in sorted(ROOT.glob(pattern)):
             if path.is_file() and not path.name.startswith("hard"):
-                made.update(path.read_bytes())
+                yield path
+
+
+@functools.cache
+def files():
+    """their hash"""
+    made = hashlib.sha256()
+    for path in made_of():
+        made.update(path.read_bytes())
     return made.hexdigest()
 
 

@@ -6,8 +6,8 @@ import re
 
 import blocks
 import pareto  # noqa: F401, where hvi is
-from hvi import page
-from hvi.page import Html, tag
+from hvi.report import page
+from hvi.report.page import Html, tag
 
 WORDS = {"front": "holds", "default": "accent", "dominates": "holds", "dominated": "fails", "fails": "fails",
          "ledger open": "fails", "trade": "undecided"}

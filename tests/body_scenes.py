@@ -17,7 +17,7 @@ import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
-from hvi import bodies  # noqa: E402
+from hvi.model import bodies  # noqa: E402
 from solid_runs import STATE, material, read_frames  # noqa: E402
 from solids import runner  # noqa: E402
 

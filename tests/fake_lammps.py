@@ -48,7 +48,7 @@ if not shield:
     pathlib.Path("result.yaml").write_text(f"verdict: {verdict}\nparticles: {particles}\ncore_s: {core:.1f}\npackage_version: 0.1.0\n")
     sys.exit(0)
 
-from hvi.shield_result import BOOK, WALL  # noqa: E402
+from hvi.shield.record import BOOK, WALL  # noqa: E402
 
 n, note = len(thickness), "FAKE_NOTE" in os.environ
 mass = 2785 * 3.14159265 / 6 * (1e-3 * D)**3

@@ -6,8 +6,8 @@ Unless said otherwise of an aluminum that stays elastic, in SI units, elements w
 import re
 
 import numpy as np
-from hvi.mesh import assemble, block, volumes
-from hvi.mesh_plate import plate
+from hvi.model.mesh import assemble, block, volumes
+from hvi.model.mesh_plate import plate
 from solid_runs import material
 
 RHO, C, G = 2703.0, 5240.0, 27.6e9

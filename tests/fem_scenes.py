@@ -3,7 +3,7 @@
 import pathlib
 
 import numpy as np
-from hvi.mesh import block
+from hvi.model.mesh import block
 
 ALUMINUM = pathlib.Path(__file__).resolve().parents[1] / "potentials" / "Al6061-T6.hvi"
 

@@ -6,7 +6,8 @@ import sys
 import time
 
 import pytest
-from hvi import cli, shield_chain
+from hvi import cli
+from hvi.shield import chain
 
 CASE = """# a shield
 projectile:
@@ -30,7 +31,7 @@ def case_folder(tmp_path, root, monkeypatch):
     mpirun.write_text(f"#!/bin/sh\nexec '{sys.executable}' '{root}/tests/fake_lammps.py' \"$@\"\n")
     mpirun.chmod(0o755)
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(shield_chain, "LEG", math.inf)  # one call of LAMMPS for a run
+    monkeypatch.setattr(chain, "LEG", math.inf)  # one call of LAMMPS for a run
     monkeypatch.setenv("HVI_LMP", str(mpirun))
     monkeypatch.setenv("PYTHONPATH", str(root / "python"))
     return tmp_path

@@ -21,9 +21,9 @@ from shock_scenes import CASES as SHOCKS
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "python"))
-from hvi import material  # noqa: E402
-from hvi.curves import Eos  # noqa: E402
-from hvi.eos_table import write_eos_table  # noqa: E402
+from hvi.material import library  # noqa: E402
+from hvi.material.curves import Eos  # noqa: E402
+from hvi.material.eos_table import write_eos_table  # noqa: E402
 from reference import impedance  # noqa: E402
 
 PARTICLE_MEANS = ("rho", "u", "p")
@@ -164,7 +164,7 @@ class Spalled(Plates):
     def __init__(self, speed, n):
         super().__init__("vacuum-plate", impedance.AL6061, impedance.AL6061, speed, (n,), (n,))
         self.times = [1.5 * self.solution.last]
-        law, u = Eos(material.read(str(HERE.parent / "potentials" / "Al6061-T6.hvi"))), 0.5 * speed
+        law, u = Eos(library.read(str(HERE.parent / "potentials" / "Al6061-T6.hvi"))), 0.5 * speed
         _, _, rho, e = (float(a) for a in law.hugoniot(u))
         r, _, p, _, v = along_isentrope(law.pressure, rho, e, 0.6 * rho)
         self.surface = np.interp(0.0, -p, v)  # what expansion to p = 0 gives
@@ -188,7 +188,7 @@ class Dome(Row):
     gamma, units, length = None, "si", 0.01
 
     def __init__(self, pressure, n, later=()):
-        self.law = Eos(material.read(str(HERE.parent / "potentials" / "Al-Tillotson.hvi")))
+        self.law = Eos(library.read(str(HERE.parent / "potentials" / "Al-Tillotson.hvi")))
         energy = lambda rho: 0.5 * pressure * (1 / self.law.rho0 - 1 / rho)  # noqa: E731
         self.rho = brentq(lambda rho: float(self.law.pressure(rho, energy(rho))) - pressure, 1.05 * self.law.rho0, 4 * self.law.rho0)
         self.e = energy(self.rho)

@@ -12,7 +12,8 @@ import yaml
 from fem_mechanics_scenes import collision
 from hard import BOOKS, Case, Stopped
 from hard_stock import stock
-from hvi import bodies, mesh_plate, runs
+from hvi.jobs import engine
+from hvi.model import bodies, mesh_plate
 from solid_runs import material
 from tensile_scenes import nearest
 
@@ -133,7 +134,7 @@ def crumpled(lmp, folder, convert):
 
 def debris(lmp, folder, lattice):
     """examples/debris-cloud, coarse, at 20 km/s"""
-    runs.Input(ROOT / "examples" / "debris-cloud" / "in.debris").copy_to(folder)
+    engine.Input(ROOT / "examples" / "debris-cloud" / "in.debris").copy_to(folder)
     lmp(folder / "in.debris", vars=dict(v0=20000, N=4000, tstop=4, frames=1, lattice=lattice, out=folder))
     r = yaml.safe_load((folder / "result.yaml").read_text())
     return dict(energy=abs(r["energy_ratio"] - 1), momentum=r["momentum_error"], mass=abs(r["mass_error"]), fragmentation=r["fragmentation"])

@@ -6,7 +6,7 @@ Units of arguments: spacings of particles for lengths, steps for times.  The met
 import pathlib
 
 import numpy as np
-from hvi.mesh import block
+from hvi.model.mesh import block
 from scipy.spatial import cKDTree
 
 ALUMINUM = pathlib.Path(__file__).resolve().parents[1] / "potentials" / "Al6061-T6.hvi"

@@ -2,8 +2,8 @@
 
 import pytest
 import yaml
-from hvi import case as cases
-from hvi import shield_chain, shield_input
+from hvi.shield import chain, script
+from hvi.shield import case as cases
 
 
 def wall(thickness, gap=None, radius=None, **more):
@@ -28,12 +28,12 @@ def shield(lmp, tmp_path):
     """shield(*walls, nranks=1, folder="run", edit=function of the input's text, **words of mapping()) -> result.yaml"""
     def run(*walls, nranks=1, folder="run", edit=None, **words):
         where = tmp_path / folder
-        shield_chain.write_run(read(tmp_path / f"{folder}.yaml", *walls, **words), 0, 0, where)
-        script = where / shield_input.BEGIN
+        chain.write_run(read(tmp_path / f"{folder}.yaml", *walls, **words), 0, 0, where)
+        path = where / script.BEGIN
         if edit:
-            script.write_text(edit(script.read_text()))
-        r = lmp(script, nranks=nranks, cwd=where, env={"LAMMPS_POTENTIALS": ""})
+            path.write_text(edit(path.read_text()))
+        r = lmp(path, nranks=nranks, cwd=where, env={"LAMMPS_POTENTIALS": ""})
         (where / "log.lammps").write_text(r.log)
-        return shield_chain.judge(where)
+        return chain.judge(where)
 
     return run

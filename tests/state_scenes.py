@@ -28,7 +28,7 @@ from scipy.special import erf
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
 from reference.elastic_plastic import METALS, Solid, impact  # noqa: E402
-from hvi import bodies  # noqa: E402
+from hvi.model import bodies  # noqa: E402
 from shock_runs import read_log  # noqa: E402
 from solid_runs import STATE, material, read_frames  # noqa: E402
 from solids import runner  # noqa: E402

@@ -37,8 +37,9 @@ ROOT = BENCH.parent
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests")]
 
 from hard import Stopped, executor  # noqa: E402
-from hvi import measures, runs, shield_mesh, shots  # noqa: E402
 from hvi.errors import HVIError  # noqa: E402
+from hvi.jobs import engine, measures  # noqa: E402
+from hvi.shield import elements, shots  # noqa: E402
 
 OPEN = 1e-3  # of the initial energy: a ledger that is farther off at the end is a failure; during the impact of few particles it swings by more
 OURS = ("method", "ranks", "repeat")  # settings that are none of the input's
@@ -91,7 +92,7 @@ def run(case, settings, folder, lmp, ranks=1, timeout=600):
 
 def source_of(scene):
     """an input, or what writes one"""
-    return shields.Shields(scene) if scene.suffix == ".yaml" else runs.Input(scene)
+    return shields.Shields(scene) if scene.suffix == ".yaml" else engine.Input(scene)
 
 
 def variables_of(case, method, settings):
@@ -130,9 +131,9 @@ def from_table(words, variables):
 def make_mesh(path, variables, words):
     """the wall in elements of n particles of the spacing each way; Cannot if the layers of particles are no whole elements"""
     dx = float(variables["dx"])
-    layers, n = shields.elements(1e3 * words["thickness"], dx)
+    layers, n = shields.whole_elements(1e3 * words["thickness"], dx)
     element = 1e-3 * n * dx
-    shield_mesh.write(path, **words, element=element, n=n, layers=layers // n, growth=shield_mesh.GROWTH, largest=shield_mesh.LARGEST * element)
+    elements.write(path, **words, element=element, n=n, layers=layers // n, growth=elements.GROWTH, largest=elements.LARGEST * element)
 
 
 def one(source, variables, folder, lmp, ranks, timeout, after=None):
@@ -149,7 +150,7 @@ def one(source, variables, folder, lmp, ranks, timeout, after=None):
         said = [line for line in lines if line.strip() and not line.startswith(("quit", "Total wall"))]
         raise Stopped(f"{why}: {said[-1]}" if said and str(why).startswith("ended with") else str(why)) from None
     try:
-        result = result or (measures.measure(folder) if after == "measure" else runs.read_yaml(folder / "result.yaml"))
+        result = result or (measures.measure(folder) if after == "measure" else engine.read_yaml(folder / "result.yaml"))
     except HVIError as why:
         raise Stopped(str(why)) from None
     if not result or "particles" not in result or "steps" not in result:

@@ -6,9 +6,10 @@ import pathlib
 import warnings
 
 import yaml
-from hvi import case as cases
-from hvi import geometry, runs, shield_chain, shield_input, shield_mesh, shots
 from hvi.errors import HVIError
+from hvi.jobs import engine
+from hvi.shield import chain, elements, geometry, script, shots
+from hvi.shield import case as cases
 
 from hard import Stopped
 from . import Cannot
@@ -16,10 +17,10 @@ from . import Cannot
 OF_A_CASE, OF_A_STUDY = ("dx", "shift", "method"), ("shot", "finer")  # variables beside the settings of a case
 
 
-def elements(thickness, dx):
+def whole_elements(thickness, dx):
     """(layers of particles in a wall, of them along the edge of an element); Cannot if they are no whole elements. mm"""
     layers = geometry.layers(thickness, dx)
-    n = shield_mesh.per_edge(layers)
+    n = elements.per_edge(layers)
     if n is None:
         raise Cannot(f"{layers} layers of particles (spacing {dx:g} mm) are no whole elements of 2 or 3 each way")
     return layers, n
@@ -30,7 +31,7 @@ class Shields:
 
     def __init__(self, path):
         self.path, self.name = pathlib.Path(path), pathlib.Path(path).name
-        self.study = "list" in (runs.read_yaml(self.path) or {})
+        self.study = "list" in (engine.read_yaml(self.path) or {})
 
     def check(self, variables, where):
         for name in variables:
@@ -53,25 +54,25 @@ class Shields:
         said.update(spacings_mm=[given.pop("dx")], shifts=[given.pop("shift", 0)], method=given.pop("method", "sph"))
         if said["method"] != "sph":
             for wall in said["walls"]:
-                elements(wall["thickness_mm"], said["spacings_mm"][0])
+                whole_elements(wall["thickness_mm"], said["spacings_mm"][0])
         said["settings"] = {**said.get("settings", {}), **given}
         (folder / self.name).write_text(yaml.safe_dump(said))
         return cases.read(folder / self.name)
 
     def write(self, variables, folder):
-        """the folder of a run; its shield_input.Shield"""
+        """the folder of a run; its script.Shield"""
         with warnings.catch_warnings():  # of few layers
             warnings.simplefilter("ignore")
             case = self.case(variables, folder)
-        return shield_chain.write_run(case, 0, case.shifts[0], folder)
+        return chain.write_run(case, 0, case.shifts[0], folder)
 
     def run(self, lmp, variables, folder, **how):
         """(Result of the run, result.yaml); lmp: tests/hard.py's executor"""
         shield = self.write(variables, folder)
-        r = lmp(folder / shield_input.BEGIN, **how)
+        r = lmp(folder / script.BEGIN, **how)
         (folder / "log.lammps").write_text(r.log)
         try:
-            shield_chain.write_result(shield, folder)
+            chain.write_result(shield, folder)
         except HVIError as why:  # of what the run has left; a case that is wrong has been refused before
             raise Stopped(str(why)) from None
-        return r, runs.read_yaml(folder / "result.yaml")
+        return r, engine.read_yaml(folder / "result.yaml")

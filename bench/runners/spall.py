@@ -7,8 +7,8 @@ Of a method: words (of pair_style hvi/sph). Settings: n (particles through the f
 from . import ROOT, answer, merged
 
 from hard import Stopped, executor
-from hvi import measures
 from hvi.errors import HVIError
+from hvi.jobs import measures
 
 VARIABLES = {"n": "n", "words": "pair", "kernel": "kernel", "h": "eta", "C": "C", "spall": "spall", "solid": "solid"}
 SETTINGS = set(VARIABLES)

@@ -1,12 +1,10 @@
 """The directive ".. materials::" is the table of all material files of the folder potentials/: what each has, lacks and assumes.
 
-The files are read by python/hvi/material.py, as `python3 -m hvi material` does, without the rest of that package, which needs NumPy.
+The files are read by python/hvi/material/library.py, as `python3 -m hvi material` does; neither needs NumPy.
 """
 
-import importlib
 import pathlib
 import sys
-import types
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COLUMNS = {"file": 15, "eos": 14, "strength": 12, "damage": 10, "spall": 9, "lacks; assumed": 24, "sources": 16}
@@ -14,10 +12,10 @@ COLUMNS = {"file": 15, "eos": 14, "strength": 12, "damage": 10, "spall": 9, "lac
 
 def rows(folder):
     """a {column: text} per file"""
-    if "hvi" not in sys.modules:
-        package = sys.modules["hvi"] = types.ModuleType("hvi")
-        package.__path__ = [str(ROOT / "python" / "hvi")]
-    return importlib.import_module("hvi.material").everything(folder)
+    sys.path.insert(0, str(ROOT / "python"))
+    from hvi.material import library
+
+    return library.everything(folder)
 
 
 def escaped(text):

@@ -26,7 +26,7 @@ import yaml
 here = os.path.dirname(os.path.abspath(__file__))
 root = os.environ.get("HVI_ROOT", os.path.join(here, "..", ".."))
 sys.path[:0] = [os.path.join(root, "tests"), os.path.join(root, "python")]
-from hvi import curves, material
+from hvi.material import curves, library
 from reference import voids
 
 NS = (8, 16, 32, 64, 128, 256, 512)
@@ -72,7 +72,7 @@ def rate_without_fracture(name, sigma):
 
 def raised(file):
     """sigma so raised, of what the file has"""
-    one = material.read(os.path.join(root, "potentials", file + ".hvi"))
+    one = library.read(os.path.join(root, "potentials", file + ".hvi"))
     v = one.in_si(("spall", "voids"))
     return curves.sigma_for(one, v["sigma"], v["rate"]) / v["sigma"]
 

@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt
 
 here = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, os.environ.get("HVI_PYTHON", str(here.parents[1] / "python")))
-from hvi import material as materials
+from hvi.material import library
 
 NAMES = "us p sxx syy szz sxy sxz syz vm vx vy vz x y z".split()
 SOURCE = {(1, 60): 74.3, (1, 95): 68.4, (1, 130): 61.9, (2, 60): 63.9, (2, 95): 44.7, (2, 130): 37.2}  # MPa, the source's simulation
@@ -59,7 +59,7 @@ class Plate:
     """Waves of small amplitude in a plate of a material; mm and us"""
 
     def __init__(self, material, thickness):
-        law = materials.read(material)
+        law = library.read(material)
         eos = law.in_si(("eos", "gruneisen"))
         rho, K, G = eos["rho0"], eos["rho0"] * eos["C"] ** 2, law.in_si(("strength", "johnson-cook"))["G"]
         self.rho, self.h = rho, thickness

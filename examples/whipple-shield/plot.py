@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
 from hvi.figures import BODIES  # noqa: E402
-from hvi.shield_run import Run  # noqa: E402
+from hvi.shield.run import Run  # noqa: E402
 
 run = Run(sys.argv[1] if len(sys.argv) > 1 else ".")
 result, quarter = run.result, run.result["quarter"] == "yes"

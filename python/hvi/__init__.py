@@ -13,25 +13,23 @@ On the command line: python3 -m hvi --help
 
 import importlib
 
-from . import debris
-from .cloud import beyond, measure, series
-from .distribution import cumulative, fit
-from .dump import Dump
-from .errors import HVIError, HVIWarning
-from .fragments import find
-from .frame import Frame
 from .version import version
 
 __version__ = version()
-__all__ = ["Dump", "Frame", "HVIError", "HVIWarning", "beyond", "cumulative", "debris", "figures", "find", "fit", "hole", "maps", "measure",
-           "open", "series", "universe"]
-
-_LATER = ("figures", "hole", "maps", "universe")  # matplotlib, scipy.ndimage, MDAnalysis
+# what is given out, and where it is: imported when it is asked for, as NumPy, SciPy, matplotlib and MDAnalysis take their time
+_PLACES = {"Dump": "io.dump:Dump", "Frame": "io.frame:Frame", "HVIError": "errors:HVIError", "HVIWarning": "errors:HVIWarning", "open": "io.universe:open_universe",
+           "find": "analysis.fragments:find", **dict.fromkeys(("beyond", "measure", "series"), "analysis.cloud:"), **dict.fromkeys(("cumulative", "fit"), "analysis.distribution:"),
+           **{name: f"analysis.{name}" for name in ("cloud", "debris", "distribution", "fragments", "hole", "maps")}, "figures": "figures", "universe": "io.universe"}
+__all__ = [*_PLACES]
 
 
 def __getattr__(name):
-    if name == "open":
-        return importlib.import_module(".universe", __name__).open_universe
-    if name in _LATER:
-        return importlib.import_module("." + name, __name__)
-    raise AttributeError(f"module {__name__} has no attribute {name}")
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__} has no attribute {name}")
+    module, inside, attribute = _PLACES[name].partition(":")
+    found = importlib.import_module("." + module, __name__)
+    return getattr(found, attribute or name) if inside else found
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})

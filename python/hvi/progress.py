@@ -11,20 +11,16 @@ class Silent:
 
     n = total = 0
 
-    def update(self, n=1):
+    def update(self, *_):
         pass
 
-    def set_postfix_str(self, text):
-        pass
+    set_postfix_str = __exit__ = update
 
     def write(self, text):
         print(text, flush=True)
 
     def __enter__(self):
         return self
-
-    def __exit__(self, *_):
-        pass
 
 
 def silent(total, what):

@@ -6,7 +6,7 @@ import csv
 import numpy as np
 
 from . import units as unit_systems
-from .errors import HVIError
+from .errors import writing
 
 
 def number(value):
@@ -31,10 +31,8 @@ def text(names, rows, quantities=None, units=None, left=False):
 
 def write_csv(path, names, rows):
     """A CSV file; numbers with all their digits."""
-    try:
+    with writing(path):
         with open(path, "w", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream, lineterminator="\n")
             writer.writerow(names)
             writer.writerows(rows)
-    except OSError as error:
-        raise HVIError(f"cannot write {path}: {error.strerror or error}") from None

@@ -139,6 +139,11 @@ def test_octant(tmp_path, lmp_exe):
     assert found[0] == pytest.approx(found[1], rel=1e-6)
 
 
+def test_records_know_what_makes_them():
+    """whatever changes in a runner or in any room of python/hvi, records of before are old"""
+    assert {*(ROOT / "python" / "hvi").rglob("*.py"), *(ROOT / "bench" / "runners").glob("*.py")} <= set(bench.made_of())
+
+
 def test_publish(tmp_path, monkeypatch):
     """records of a case are of one binary and one state of the sources; those of two cases may be of two"""
     monkeypatch.setattr(bench, "HERE", tmp_path)

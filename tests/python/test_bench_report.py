@@ -21,8 +21,8 @@ import figures  # noqa: E402
 import pareto  # noqa: E402
 import report  # noqa: E402
 import sections  # noqa: E402
-from hvi import page  # noqa: E402
 from hvi.errors import HVIError  # noqa: E402
+from hvi.report import page  # noqa: E402
 
 EVIL = "<script>alert(1)</script> | *star*"
 SOD = {"title": "Sod's shock tube", "group": "exact", "question": ["shock", "wave"], "about": f"A tube. {EVIL}",

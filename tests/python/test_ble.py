@@ -7,9 +7,11 @@ import re
 import pytest
 import yaml
 from front_runs import CASE, case_folder, front  # noqa: F401
-from hvi import ble, ble_command, cli, runs, shield
-from hvi import case as cases
+from hvi import cli
+from hvi.commands import ble as command
 from hvi.errors import HVIError
+from hvi.shield import ble
+from hvi.shield import case as cases
 
 SPEEDS = (1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 15)
 TABLE = {  # cm, computed with pyBLOSSUM's functions for the shield T; it minimizes squares, so implicit equations are good to 2e-4
@@ -222,7 +224,7 @@ def test_wrong_options(folder, capsys, words, message):
 
 def test_stretches():
     far, near = ("S/d", 20, "above 15"), ("v", 1, "below 2")
-    assert ble_command.where_beyond([1, 2, 3, 4, 5], [(0, [far, near]), (0, [far]), (0, []), (0, [far]), (0, [])]) == {
+    assert command.where_beyond([1, 2, 3, 4, 5], [(0, [far, near]), (0, [far]), (0, []), (0, [far]), (0, [])]) == {
         ("S/d", "above 15"): [(1, 2), (4, 4)], ("v", "below 2"): [(1, 1)]}
 
 

@@ -5,7 +5,8 @@ import functools
 import hvi
 import numpy as np
 import pytest
-from hvi import bodies, cli
+from hvi import cli
+from hvi.model import bodies
 from scipy.spatial import cKDTree
 
 SHAPES = {

@@ -20,12 +20,17 @@ import numpy as np
 import pytest
 import yaml
 from front_runs import CASE, begun, case_folder, change, front, tries, wait_for  # noqa: F401
-from hvi import case as cases
-from hvi import cli, laws, runs, shield, shield_chain, shield_result, sketch
+from hvi import cli
 from hvi.errors import HVIError
+from hvi.figures import sketch
+from hvi.io.data import DataFile
+from hvi.jobs import engine
+from hvi.material import laws
+from hvi.shield import ble, chain, decision, projectile, record
+from hvi.shield import case as cases
 
 
-MINE = "# DATE: 2026 UNITS: si\neos linear\n  rho0 2700\nstrength johnson-cook"
+MINE = "# DATE: 2026 UNITS: si\neos linear\n  rho0 2700\n  K 7e10\nstrength johnson-cook\n  G 27e9\n  A 3e8\n  B 1e8\n  n 0.4\n  C 0\n  m 1\n  Tref 300\n  Tm 900"
 
 
 # ---------------------------------------------------------------------- cases
@@ -41,6 +46,20 @@ def test_case_as_variables(folder, root):
     found = cases.read("emi.yaml").variables(0, 0.0)
     assert found["spacings"] == [0.4, 0.5] and found["radius"] == [0, 40.0] and found["angle"] == 30.0
     assert found["material"] == [str(folder / "mine.hvi"), "Al6061-T6.hvi"] and found["tstop"] == 40 and found["layers"] == [2, 3]
+
+
+def test_material_in_other_units(folder):
+    """masses are those of the density, whatever the units of the file"""
+    cgs = MINE.replace("UNITS: si", "UNITS: cgs")
+    for old, new in (("rho0 2700", "rho0 2.7"), ("K 7e10", "K 7e11"), ("G 27e9", "G 27e10"), ("A 3e8", "A 3e9"), ("B 1e8", "B 1e9")):
+        cgs = cgs.replace(old, new)
+    (folder / "emi.yaml").write_text(CASE.replace("material: Al2024-T3", "material: mine").replace("material: Al6061-T6", "material: mine"))
+    plans = []
+    for text in (MINE, cgs):
+        (folder / "mine.hvi").write_text(text)
+        shield = chain.shield_of(cases.read("emi.yaml"), 0, 0.0)
+        plans.append((shield.mass(), *shield.rho, chain.plan_of(shield)["areal_density_kg_m2"], ble.from_case(shield.case).wall_density))
+    assert plans[1] == pytest.approx(plans[0], rel=1e-12) and plans[0][1:] == (2700, 2700, 2700, pytest.approx(5.4), pytest.approx(2.7))
 
 
 def test_the_case_of_one_run(folder):
@@ -61,9 +80,10 @@ def test_tables_of_keys(capsys):
     for table, name in ((cases.KEYS, cases.Case), (cases.WALL, cases.Wall)):
         fields = {field.name for field in dataclasses.fields(name)} - {"name"} | ({"method"} if name is cases.Case else set())
         assert set(table) == fields
+    assert set(projectile.KEYS) - {"file"} | {"files", "of_files"} == {field.name for field in dataclasses.fields(projectile.Projectile)}
     for key, _, text in cases.rows_of_keys():
         assert f"\n{key} " in shown and (text or key.endswith("thickness_mm"))
-    page = pathlib.Path(cases.__file__).parents[2] / "doc/src/case_keys.txt"
+    page = pathlib.Path(cases.__file__).parents[3] / "doc/src/case_keys.txt"
     assert page.read_text() == shown[shown.index("key  "):].rstrip() + "\n", f"python3 -m hvi shield --help | sed -n '/^key  /,$p' > {page}"
 
 
@@ -168,7 +188,7 @@ def test_cases_of_the_example(root):
 def test_input_of_the_example(root):
     """examples/whipple-shield/in.shield is what hvi shield writes for quick.yaml at 0.5 mm"""
     case = cases.read(root / "examples/whipple-shield/cases/quick.yaml")
-    assert (root / "examples/whipple-shield/in.shield").read_text() == shield_chain.shield_of(case, 1, 0.0).text()
+    assert (root / "examples/whipple-shield/in.shield").read_text() == chain.shield_of(case, 1, 0.0).text()
 
 
 # ---------------------------------------------------------------------- shield
@@ -198,7 +218,7 @@ def test_what_cannot_tear_in_tension(folder, capsys, D, wall, ball, verdict):
     """a wall without a law of spall is none that holds: a file of it has nothing that lets it fail"""
     text = CASE.replace("diameter_mm: 5", f"diameter_mm: {D}").replace("material: Al6061-T6", f"material: {wall}").replace("  material: Al2024-T3", f"  material: {ball}")
     (folder / "emi.yaml").write_text(text)
-    assert front("shield", "--jobs", "3") == shield.STATUS[verdict]
+    assert front("shield", "--jobs", "3") == decision.STATUS[verdict]
     said = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())
     place = "reasons" if verdict == "undecided" else "notes"
     what = f"wall 2 is of {wall}.hvi" if wall[0] == "T" else f"the projectile is of {ball}.hvi"
@@ -257,7 +277,7 @@ def test_dry_run(folder, capsys):
     picture = imread(folder / "runs/emi/sketch.png")[..., :3]
     assert 0.01 < np.mean(picture.min(axis=2) < 0.9) < 0.6
     case = cases.read("emi.yaml")
-    plan = shield_chain.plan_of(shield_chain.shield_of(case, 0, 0.0))
+    plan = chain.plan_of(chain.shield_of(case, 0, 0.0))
     texts = [text.get_text() for text in sketch.draw(case, plan).axes[0].texts]
     assert "wall 2: 1.2 mm\nAl6061-T6" in texts and "wall 1: 0.8 mm\nAl2024-T3" in texts and "60 mm" in texts
     texts = [text.get_text() for text in sketch.draw(case, {**plan, "wall2_radius_mm": 30}).axes[0].texts]
@@ -286,7 +306,7 @@ def test_undecided_runs_and_what_is_not_modelled(folder, capsys, monkeypatch):
     monkeypatch.delenv("FAKE_UNSURE")
     (folder / "emi.yaml").write_text(CASE + "not_modelled: [MLI, honeycomb]\n")
     assert front("shield") == 4
-    assert runs.read_yaml(folder / "runs/emi/dx-0.2_shift-0.0/job.yaml")["variables"]["outside"] == "MLI, honeycomb"
+    assert engine.read_yaml(folder / "runs/emi/dx-0.2_shift-0.0/job.yaml")["variables"]["outside"] == "MLI, honeycomb"
 
 
 def test_notes_are_not_causes(folder, capsys, monkeypatch):
@@ -377,20 +397,20 @@ def test_included_files_are_inputs(folder):
     (folder / "in.main").write_text("variable D index 1\ninclude more/in.part # walls\n")
     (folder / "more").mkdir()
     (folder / "more/in.part").write_text("variable t index 1\n")
-    first = runs.Input(folder / "in.main")
+    first = engine.Input(folder / "in.main")
     assert set(first.known) == {"D", "t"}
     first.copy_to(folder / "there")
     assert (folder / "there/more/in.part").read_text() == "variable t index 1\n"
     (folder / "more/in.part").write_text("variable t index 2\n")
-    assert runs.Input(folder / "in.main").checksum() != first.checksum()
+    assert engine.Input(folder / "in.main").checksum() != first.checksum()
     (folder / "in.main").write_text("include in.lost\n")
     with pytest.raises(HVIError, match="cannot read the input .*in.lost"):
-        runs.Input(folder / "in.main")
+        engine.Input(folder / "in.main")
 
 
 def test_stage_of_a_run(folder):
     """from the last whole line of its thermo output; nothing where there is none"""
-    job = shield.job(cases.read("emi.yaml"), (0, 0.0), folder / "a")
+    job = decision.job(cases.read("emi.yaml"), (0, 0.0), folder / "a")
     assert job.stage() == (0.0, "")
     (folder / "a").mkdir()
     (folder / "a/output.txt").write_text("   Step v_us Dt \n 0 0.0 1e-9\n 100 12.0 1e-9\n 200 14.")
@@ -451,7 +471,7 @@ def test_case_with_elements(folder):
     (folder / "emi.yaml").write_text(HYBRID)
     case = cases.read("emi.yaml")
     assert case.variables(1, 0.0)["method"] == "hybrid"
-    made = shield.job(case, (1, 0.0), folder / "a").record["made"]
+    made = decision.job(case, (1, 0.0), folder / "a").record["made"]
     first, second = made["wall1.data"], made["wall2.data"]
     assert (first["type"], first["node_type"], second["type"], second["node_type"]) == (2, 4, 3, 5)
     assert (first["n"], first["layers"], first["element"], second["n"], second["layers"]) == (2, 2, pytest.approx(4e-4), 2, 3)
@@ -461,11 +481,11 @@ def test_case_with_elements(folder):
     assert first["quarter"] is True and first["growth"] > 1
     (folder / "emi.yaml").write_text(CASE.replace("gap_mm: 60", "gap_mm: 60\n    method: tied\n    radius_mm: 30\n    core_mm: 0") + "angle_deg: 20\n")
     case = cases.read("emi.yaml")
-    assert case.variables(0, 0.0)["method"] == "tied" and list(shield.job(case, (0, 0.0), folder / "b").record["made"]) == ["wall2.data"]
-    words = shield.job(case, (0, 0.0), folder / "b").record["made"]["wall2.data"]
+    assert case.variables(0, 0.0)["method"] == "tied" and list(decision.job(case, (0, 0.0), folder / "b").record["made"]) == ["wall2.data"]
+    words = decision.job(case, (0, 0.0), folder / "b").record["made"]["wall2.data"]
     assert words["n"] == 3 and words["core"] == 0 and "hold" not in words and words["quarter"] is False
     assert words["side"] >= 60e-3 and words["side"] / (2 * words["element"]) == pytest.approx(round(words["side"] / (2 * words["element"])))
-    assert "made" not in shield.job(cases.read(written(folder, CASE)), (0, 0.0), folder / "c").record
+    assert "made" not in decision.job(cases.read(written(folder, CASE)), (0, 0.0), folder / "c").record
 
 
 def written(folder, text):
@@ -501,9 +521,9 @@ def test_meshes_are_made(folder, capsys):
     (folder / "emi.yaml").write_text(text.replace("{thickness_mm: 0.8,", "{thickness_mm: 0.8, hold_mm: 11,"))
     assert front("shield") == 3 and "0 done before, 4 to run" in capsys.readouterr().out
     case = cases.read("emi.yaml")
-    labels = [label for label in sketch.draw(case, shield_chain.plan_of(shield_chain.shield_of(case, 0, 0.0))).axes[0].get_legend_handles_labels()[1]]
+    labels = [label for label in sketch.draw(case, chain.plan_of(chain.shield_of(case, 0, 0.0))).axes[0].get_legend_handles_labels()[1]]
     assert labels.count("elements") == labels.count("elements that hold particles") == 1
-    assert not shield.fits(case, 0.8) and shield.fits(case, 0.5)  # 0.16 and 0.1 mm
+    assert not decision.fits(case, 0.8) and decision.fits(case, 0.5)  # 0.16 and 0.1 mm
     assert front("limit", "--on", "thickness1", "--from", "0.7", "--to", "1.1", "--step", "0.1") == 1
     assert "thickness1 0.9 mm: wall 1: method: hybrid: 5 layers" in capsys.readouterr().err
 
@@ -513,7 +533,7 @@ def test_real_shapes(root, lmp, tmp_path, shape, number):
     """LAMMPS makes the body that a case asks for: its mass, its extents, a quarter of it where planes are mirrors"""
     (tmp_path / "hit.yaml").write_text(REAL.replace("{diameter_mm: 6", shape).replace("[0.8, 0.66]", "[0.4]"))
     case = cases.read(tmp_path / "hit.yaml")
-    made = shield_chain.write_run(case, 0, 0.0, tmp_path / "run")
+    made = chain.write_run(case, 0, 0.0, tmp_path / "run")
     lmp(tmp_path / "run/in.shield", cwd=tmp_path / "run", vars={"until": 0.02})
     frame = hvi.Dump(str(sorted((tmp_path / "run").glob("film.*.dump"))[0]))[0]
     ball = frame.select(frame["type"] == 1)
@@ -543,10 +563,10 @@ def test_real_bodies_of_files(root, lmp, tmp_path):
     (tmp_path / "hit.yaml").write_text(text)
     case = cases.read(tmp_path / "hit.yaml")
     assert case.projectile.volume_mm3 == pytest.approx(36) and case.projectile.radius_mm == pytest.approx(math.sqrt(27))
-    made = shield_chain.write_run(case, 0, 0.0, tmp_path / "run")
+    made = chain.write_run(case, 0, 0.0, tmp_path / "run")
     assert made.images == 1 and (tmp_path / "run/body.stl").exists() and cases.read(tmp_path / "run/case.yaml").projectile.volume_mm3 == pytest.approx(36)
     shutil.copy(tmp_path / "run/ball.data", tmp_path / "body.data")
-    x = hvi.data.DataFile(tmp_path / "body.data").frame().x * 1e3 + 3
+    x = DataFile(tmp_path / "body.data").frame().x * 1e3 + 3
     assert x.min() > 0 and x.sum(axis=1).max() < 6 and len(x) == pytest.approx(36 / 0.125, rel=0.1)
     (tmp_path / "again.yaml").write_text(text.replace("body.stl", "body.data"))
     lmp(tmp_path / "run/in.shield", cwd=tmp_path / "run", vars={"until": 0.02})
@@ -564,7 +584,7 @@ def test_real_bodies_of_files(root, lmp, tmp_path):
 def test_real_meshes(root, lmp, tmp_path):
     """LAMMPS takes the meshes that a case makes: as many elements as the files have"""
     (tmp_path / "hit.yaml").write_text("method: hybrid\n" + REAL.replace("[0.8, 0.66]", "[0.8]"))
-    shield_chain.write_run(cases.read(tmp_path / "hit.yaml"), 0, 0.0, tmp_path / "run")
+    chain.write_run(cases.read(tmp_path / "hit.yaml"), 0, 0.0, tmp_path / "run")
     lmp(tmp_path / "run/in.shield", cwd=tmp_path / "run", vars={"until": 0.05})
     elements = sum(int(re.search(r"^(\d+) elements$", (tmp_path / f"run/wall{k}.data").read_text()[:400], re.M)[1]) for k in (1, 2))
-    assert np.loadtxt(tmp_path / "run/history.dat")[0, 3 + shield_result.BOOK] == elements
+    assert np.loadtxt(tmp_path / "run/history.dat")[0, 3 + record.BOOK] == elements

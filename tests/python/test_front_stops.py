@@ -8,11 +8,15 @@ import subprocess
 import sys
 import termios
 import time
+import types
 
 import pytest
 import yaml
 from front_runs import CASE, case_folder, change, front, tries, wait_for  # noqa: F401
-from hvi import cli, runs, shield_input
+from hvi import cli
+from hvi.jobs import engine
+from hvi.shield import case as cases
+from hvi.shield import decision, script
 
 COMMAND = [sys.executable, "-m", "hvi", "shield", "emi.yaml", "--mpirun", "./mpirun", "--jobs", "2"]
 
@@ -27,6 +31,17 @@ def at_work(folder):
         except OSError:
             pass
     return found
+
+
+def test_a_call_that_ends_while_it_is_looked_at(folder, monkeypatch):
+    """it has not ended, or it has, and then its result is written; no look at it sees both"""
+    job, advanced = decision.job(cases.read("emi.yaml"), (0, 0.0), folder / "a"), []
+    monkeypatch.setattr(job, "advance", lambda: advanced.append(1) or True)
+    monkeypatch.setattr(job, "result", lambda: advanced or None)
+    job.folder.mkdir()
+    job.process = types.SimpleNamespace(poll=iter([None, 0, 0]).__next__)
+    assert not job.ended(None, None) and advanced == []
+    assert job.ended(None, None) and advanced == [1] and job.problem == ""
 
 
 def begin(folder, **how):
@@ -108,14 +123,14 @@ def test_last_lines(folder, lines, seen, unseen):
     (folder / "in.main").write_text("")
     (folder / "a").mkdir()
     (folder / "a/output.txt").write_text("\n".join(lines))
-    said = "\n".join(runs.Job(runs.Input(folder / "in.main"), "a", {}, folder / "a").last_lines())
+    said = "\n".join(engine.Job(engine.Input(folder / "in.main"), "a", {}, folder / "a").last_lines())
     assert seen in said and unseen not in said
 
 
 @pytest.mark.parametrize("status, words", [(1, "exit status 1"), (139, "exit status 139 (SIGSEGV)"), (-9, "exit status -9 (SIGKILL: out of memory?)"),
                                            (137, "exit status 137 (SIGKILL: out of memory?)"), (255, "exit status 255")])
 def test_status_in_words(status, words):
-    assert runs.said_of(status) == words
+    assert engine.said_of(status) == words
 
 
 def test_what_cannot_be(folder, capsys, monkeypatch):
@@ -125,14 +140,14 @@ def test_what_cannot_be(folder, capsys, monkeypatch):
     assert front("shield", "--lmp", "emi.yaml") == 1 and "emi.yaml cannot be executed: run make first, or give --lmp FILE" in capsys.readouterr().err
     assert cli.main(["shield", "emi.yaml", "--mpirun", "./none"]) == 1 and "./none is not there: install MPI" in capsys.readouterr().err
     monkeypatch.setenv("FAKE_FAIL", "dx-0.2_shift-0.0")
-    monkeypatch.setattr(runs, "FULL", float("inf"))
+    monkeypatch.setattr(engine, "FULL", float("inf"))
     assert front("shield") == 1 and "dx-0.2_shift-0.0  FAILED: exit status 1; the disk is full" in capsys.readouterr().out
 
     def full(*_):
         raise OSError(28, "No space left on device")
-    monkeypatch.setattr(runs, "write_table", full)
+    monkeypatch.setattr(engine, "write_table", full)
     assert front("shield", "--runs", "r") == 1 and "r/emi/runs.csv: No space left on device\n" in capsys.readouterr().err
-    monkeypatch.setattr(shield_input.Shield, "copy_to", full)
+    monkeypatch.setattr(script.Shield, "copy_to", full)
     assert front("shield") == 1
     said = capsys.readouterr().err
     assert "hvi: cannot run in " in said and "dx-0.2_shift-0.0: No space left on device; put that right and call again to go on\n" in said
@@ -147,7 +162,7 @@ def test_two_calls_at_once(folder, capsys):
     (folder / "emi.yaml").write_text(change("speed_km_s: 7.1", "speed_km_s: 7"))
     first = subprocess.Popen(COMMAND, cwd=folder, env={**os.environ, "FAKE_SLEEP": "2"}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     last = folder / "runs/emi/dx-0.2_shift-0.5"
-    wait_for(lambda: (runs.read_yaml(last / "job.yaml") or {}).get("variables", {}).get("v0") == 7000 and not (last / "result.yaml").exists())  # those of 0.4 mm are done
+    wait_for(lambda: (engine.read_yaml(last / "job.yaml") or {}).get("variables", {}).get("v0") == 7000 and not (last / "result.yaml").exists())  # those of 0.4 mm are done
     (folder / "emi.yaml").write_text(change("speed_km_s: 7.1", "speed_km_s: 6"))
     assert front("shield", "--jobs", "4") == 3
     assert "its result is gone or of another case" in first.communicate(timeout=60)[1] and first.returncode == 1

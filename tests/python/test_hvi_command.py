@@ -1,6 +1,7 @@
 """python3 -m hvi: every command, its figures and tables, and what it says about wrong input."""
 
 import csv
+import importlib
 import os
 import pty
 import re
@@ -10,7 +11,8 @@ import sys
 import hvi
 import numpy as np
 import pytest
-from hvi import cli, compare
+from hvi import cli
+from hvi.jobs import compare
 
 CLOUD = ["--axis", "z", "--plane", "-1e-3"]
 MASS = ["--mass", "1=5e-7", "--mass", "2=5e-7"]
@@ -73,24 +75,25 @@ def pictures(folder, name):
 # ---------------------------------------------------------------------- commands
 def test_help_and_version(command, root):
     status, out, _ = command("--help")
-    assert status == 0 and all(name in out for name in cli.EXAMPLES)
+    assert status == 0 and all(name in out for name in cli.COMMANDS)
     version = re.search(r'HVI_VERSION\[\] = "([^"]+)"', (root / "src" / "USER-HVI" / "hvi_version.h").read_text()).group(1)
     assert command("--version")[1] == f"lammps-hvi {version}\n" and hvi.__version__ == version
 
 
-@pytest.mark.parametrize("name", cli.EXAMPLES)
+@pytest.mark.parametrize("name", cli.COMMANDS)
 def test_examples_in_help(name, capsys):
     """every command explains itself, and its examples are commands that it takes"""
     with pytest.raises(SystemExit) as end:
         cli.main([name, "--help"])
     assert end.value.code == 0
     out = capsys.readouterr().out
-    assert cli.EXAMPLES[name] in out
-    examples = cli.EXAMPLES[name].replace("\\\n", " ").splitlines()
+    examples = importlib.import_module(f"hvi.commands.{name}").EXAMPLES
+    assert examples in out
+    examples = examples.replace("\\\n", " ").splitlines()
     for line in examples:
         words = line.split()
         assert words[:3] == ["python3", "-m", "hvi"]
-        assert cli.options().parse_args(words[3:]).command == name
+        assert cli.parse(words[3:]).command == name
 
 
 def test_howto(files, root):
@@ -100,9 +103,9 @@ def test_howto(files, root):
 
     text = (root / "doc" / "src" / "Howto_python.rst").read_text()
     lines = re.findall(r"^   (python3 -m hvi (?!--help).*)$", text.replace("\\\n", " "), re.M)
-    assert len(lines) == len(cli.EXAMPLES)
+    assert len(lines) == len(cli.COMMANDS)
     for line in lines:
-        cli.options().parse_args(shlex.split(line)[3:])
+        cli.parse(shlex.split(line)[3:])
     for old, new in (("a.dump", "debris.dump"), ("a.data", "debris.data")):
         shutil.copy(old, new)
     blocks = re.findall(r"code-block:: python\n\n(.*?)\n(?=\S)", text, re.S)

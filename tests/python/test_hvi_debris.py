@@ -5,8 +5,9 @@ import csv
 import hvi
 import numpy as np
 import pytest
-from hvi import cli, debris
-from hvi.distribution import cumulative
+from hvi import cli
+from hvi.analysis import debris
+from hvi.analysis.distribution import cumulative
 
 RHO = {1: 2000.0, 2: 1000.0}
 # id, type, x, z, damage, spalled, fragsize: a sound pair; failed and larger than its particle, smaller, unknown; a sound one with a size that does not count

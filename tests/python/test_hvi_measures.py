@@ -6,9 +6,9 @@ import hvi
 import numpy as np
 import pytest
 import yaml
-from hvi.cloud import MEASURES
-from hvi.distribution import cumulative
-from hvi.fragments import ROW
+from hvi.analysis.cloud import MEASURES
+from hvi.analysis.distribution import cumulative
+from hvi.analysis.fragments import ROW
 from scenes import cube, impact, scene
 
 PLANE = 0.425 * 9.53e-3
@@ -264,7 +264,7 @@ run 0
 
 def test_reach_longer_than_the_box():
     """more than one image of each particle"""
-    from hvi.box import Box
+    from hvi.io.box import Box
 
     box = Box.parse("pp pp pp", ["0 1", "0 10", "0 10"])
     x = np.array([[0.5, 1.0, 1.0], [0.5, 3.5, 1.0], [0.5, 8.0, 5.0]])
@@ -357,7 +357,7 @@ def test_bonds_of_another_run(lmp, run, tmp_path):
     (tmp_path / "few.dump").write_text(text[:text.index("ITEM: TIMESTEP", 5)])
     with pytest.raises(hvi.HVIError, match="has no frame of step 600; it has 0"):
         hvi.find(frame, bonds=tmp_path / "few.dump")
-    from hvi.bonds import BondDump
+    from hvi.io.bonds import BondDump
 
     with pytest.raises(hvi.HVIError, match=r"has no columns a b; it has: index c_B\[1\]"):
         BondDump(run[0] / "bonds.dump", ("a", "b"))
@@ -366,7 +366,7 @@ def test_bonds_of_another_run(lmp, run, tmp_path):
 # ---------------------------------------------------------------------- by hand
 def test_edge_by_hand():
     """ties, masses, direction"""
-    from hvi.cloud import edge
+    from hvi.analysis.cloud import edge
 
     values = np.array([3.0, 1.0, 2.0, 2.0, 5.0])
     assert [edge(values, np.ones(5), q) for q in (1.0, 0.8, 0.79)] == [5.0, 3.0, 3.0]

@@ -3,8 +3,12 @@
 import hvi
 import numpy as np
 import pytest
-from hvi import cli, maps, mirror, plates
-from hvi.data import DataFile
+from hvi import cli
+from hvi.analysis import maps
+from hvi.io import mirror
+from hvi.io.data import DataFile
+from hvi.material import library
+from hvi.model import plates
 from scipy.spatial import cKDTree
 
 
@@ -107,12 +111,16 @@ print "mass $(mass(wall)) $(count(wall)) $(bound(wall,zmin)) $(bound(wall,zmax))
 
 
 def test_density_of_material_files(root, tmp_path):
-    assert plates.density_of(root / "potentials" / "Cu-OFHC.hvi") == (8930.0, "si")
+    assert library.density_of(root / "potentials" / "Cu-OFHC.hvi") == (8930.0, "si")
     for path in (root / "potentials").glob("*.hvi"):
-        assert plates.density_of(path)[0] > 0, path
-    (tmp_path / "no.hvi").write_text("# UNITS: si\nstrength perfect\n  rho0 3\n")
-    with pytest.raises(hvi.HVIError, match="no.hvi: no rho0"):
-        plates.density_of(tmp_path / "no.hvi")
+        assert library.density_of(path)[0] > 0, path
+    (tmp_path / "no.hvi").write_text("# UNITS: cgs\neos tait\n  rho0 2.7\n  c0 5e5\n")
+    assert library.density_of(tmp_path / "no.hvi") == (2.7, "cgs") and library.density_of(tmp_path / "no.hvi", si=True) == (pytest.approx(2700), "si")
+    for text, si, said in (("si\nstrength perfect\n  rho0 3\n", False, "strength perfect: unknown key rho0"), ("si\neos idealgas\n  gamma 1.4\n", False, "no rho0"),
+                           ("lj\neos linear\n  rho0 1\n  K 1\n", True, "no rho0 .* SI")):
+        (tmp_path / "no.hvi").write_text(f"# UNITS: {text}")
+        with pytest.raises(hvi.HVIError, match=f"no.hvi.*: {said}"):
+            library.density_of(tmp_path / "no.hvi", si)
 
 
 def cloud(planes=()):

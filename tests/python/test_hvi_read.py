@@ -7,7 +7,7 @@ import warnings
 import hvi
 import numpy as np
 import pytest
-from hvi.data import DataFile
+from hvi.io.data import DataFile
 from hvi.progress import Silent, bar
 from scenes import cube, scene
 
@@ -147,8 +147,8 @@ def test_frames_that_need_more_than_one_block(tmp_path, monkeypatch):
     want = [(h.start, h.step, h.n, h.body, h.size, h.rows) for h in hvi.Dump(path).headers]
     assert [w[2] for w in want] == [k % 7 for k in range(40)]
     for chunk, head in ((1, 300), (17, 300), (1000, 300), (299, 301)):
-        monkeypatch.setattr("hvi.scan.CHUNK", chunk)
-        monkeypatch.setattr("hvi.scan.HEAD", head)
+        monkeypatch.setattr("hvi.io.scan.CHUNK", chunk)
+        monkeypatch.setattr("hvi.io.scan.HEAD", head)
         assert [(h.start, h.step, h.n, h.body, h.size, h.rows) for h in hvi.Dump(path).headers] == want
     assert hvi.Dump(path)[0].x.shape == (0, 3) and hvi.Dump(path)[13].x[:, 2].tolist() == [13.0] * 6
 

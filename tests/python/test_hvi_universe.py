@@ -5,7 +5,7 @@ import pickle
 import hvi
 import numpy as np
 import pytest
-from hvi.data import DataFile
+from hvi.io.data import DataFile
 from scenes import cube, scene
 
 
@@ -107,7 +107,7 @@ def test_particles_that_come(leaving):
 
 def test_registered_format(leaving):
     """MDAnalysis finds the reader by its format, with its own topology too"""
-    import hvi.universe  # noqa: F401
+    import hvi.io.universe  # noqa: F401
     import MDAnalysis
 
     path = str(leaving / "c.dump")

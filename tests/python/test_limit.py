@@ -9,7 +9,7 @@ import sys
 import pytest
 import yaml
 from front_runs import begun, case_folder, change, front, tries, wait_for  # noqa: F401
-from hvi import limit
+from hvi.shield import limit
 
 
 def answer(folder, on="D"):

@@ -13,8 +13,9 @@ import pytest
 from conftest import ROOT
 from reference import voids
 
-from hvi import HVIError, cli, curves, material
-from hvi.material_figure import draw
+from hvi import HVIError, cli
+from hvi.figures.material import draw
+from hvi.material import curves, library
 
 FILES = sorted((ROOT / "potentials").glob("*.hvi"))
 HEADERS = ROOT / "lib" / "hvi" / "material"
@@ -42,8 +43,8 @@ def written(tmp_path, monkeypatch):
 def test_keys_are_those_of_the_headers():
     """names, dimensions, ranges and presets of all laws, as their tables in C++ have them"""
     text = "".join(p.read_text() for p in sorted(HEADERS.glob("hvi_*.h")) + [HEADERS / "hvi_laws.cpp"])
-    ranges = {"POSITIVE": material.POSITIVE, "NOT_NEGATIVE": material.FROM_0, "ANY": material.ANY, "FRACTION": material.FRACTION, "PART": material.PART,
-              "ABOVE_ONE": material.ABOVE_1}
+    ranges = {"POSITIVE": library.POSITIVE, "NOT_NEGATIVE": library.FROM_0, "ANY": library.ANY, "FRACTION": library.FRACTION, "PART": library.PART,
+              "ABOVE_ONE": library.ABOVE_1}
     kinds = {"Eos": "eos", "Strength": "strength", "Damage": "damage", "Spall": "spall", "Thermal": "thermal"}
     found = {}
     structs = re.split(r"^ *struct (\w+) \{$", text, flags=re.M)
@@ -56,7 +57,7 @@ def test_keys_are_those_of_the_headers():
         kind = next(value for key, value in kinds.items() if struct.startswith(key))
         found[kind, law[1]] = tuple((key, "impulse" if quantity.startswith("{") else quantity.lower(), ranges[bounds],
                                      None if preset == "REQUIRED" else float(preset)) for key, quantity, bounds, preset in rows)
-    assert found == {section: keys for section, keys in material.LAWS.items() if section != ("eos", "table")}
+    assert found == {section: keys for section, keys in library.LAWS.items() if section != ("eos", "table")}
 
 
 @pytest.mark.parametrize("text, message", [
@@ -102,7 +103,7 @@ def test_wrong_files(lmp, written, capsys, text, message):
 def test_lines_and_blanks(lmp, written):
     """as LAMMPS has them: all that ends a line elsewhere is text or a blank"""
     name = written((HEAD + "# one\u2028line\x85 with\fall\v of it\n" + EOS.replace("rho0 2700", "rho0\f2700\v")).replace("\n", "\r\n"))
-    assert material.read(name).sections["eos", "gruneisen"]["rho0"] == 2700
+    assert library.read(name).sections["eos", "gruneisen"]["rho0"] == 2700
     lmp("units si\natom_style sph\nregion b block 0 1 0 1 0 1\ncreate_box 1 b\npair_style hvi/sph cubic dissipation riemann\n"
         f"pair_coeff 1 1 file {name} h 0.1\n")
 
@@ -138,7 +139,7 @@ def test_units(written, units, factor):
     time = {"cgs": 1.0, "micro": 1e6}[units]
     text = (f"eos gruneisen\nrho0 {2700 * density}\nC {5200 * speed}\nS1 1.3\ng0 2\ncp {900 * heat}\n"
             f"spall tuler-butcher\nsigma_0 {4e8 * pressure}\nlambda 2\nK {2e16 * pressure**2 * time}\ndamage johnson-cook\nD1 1\nD2 0\nD3 0\nD4 0\nD5 0\n")
-    one = material.read(written(f"# UNITS: {units}\n" + text))
+    one = library.read(written(f"# UNITS: {units}\n" + text))
     assert one.in_si(("eos", "gruneisen")) == pytest.approx({"rho0": 2700, "C": 5200, "S1": 1.3, "g0": 2, "a": 0, "cp": 900, "S2": 0, "S3": 0, "T0": 300})
     assert one.in_si(("spall", "tuler-butcher")) == pytest.approx({"sigma_0": 4e8, "lambda": 2, "K": 2e16})
     assert one.in_si(("damage", "johnson-cook"))["epsdot0"] == 1
@@ -149,7 +150,7 @@ def test_units(written, units, factor):
 def test_all_files_pass(path, capsys):
     """each is read and drawn, has a title, a date, sources, and says of all it has not why"""
     assert cli.main(["material", str(path)]) == 0
-    one, out = material.read(path), capsys.readouterr().out
+    one, out = library.read(path), capsys.readouterr().out
     assert one.title and one.date and one.citation
     assert all(one.lacks().values()), "a line '# No KIND: why' in the head"
     assert "does not say why" not in out
@@ -167,10 +168,10 @@ def test_all_files_pass(path, capsys):
 def test_metals_of_the_shots_can_be_used():
     """what published shields are made of has strength and spall by voids; what is assumed of it is said"""
     for name in "Al1100-O Al2017-T4 Al2024-T3 Al2219-T87 Al5456-H116 Al6061-T6 Al7075-T6".split():
-        one = material.read(ROOT / "potentials" / f"{name}.hvi")
-        assert material.needs(one, dict((words, wanted) for _, words, wanted in material.USES)["spall voids damage no"]) == []
+        one = library.read(ROOT / "potentials" / f"{name}.hvi")
+        assert library.needs(one, dict((words, wanted) for _, words, wanted in library.USES)["spall voids damage no"]) == []
     for name in "Al2219-T87 Al5456-H116 Al7075-T6".split():
-        assert set(material.read(ROOT / "potentials" / f"{name}.hvi").assumed()["spall", "voids"]) == {"sigma", "rate", "m", "phi_c"}
+        assert set(library.read(ROOT / "potentials" / f"{name}.hvi").assumed()["spall", "voids"]) == {"sigma", "rate", "m", "phi_c"}
 
 
 def test_table(capsys, tmp_path):
@@ -178,7 +179,7 @@ def test_table(capsys, tmp_path):
     out = capsys.readouterr().out.splitlines()
     assert len(out) == len(FILES) + 1 and out[0].split() == ["file", "eos", "strength", "damage", "spall", "assumed"]
     with open(tmp_path / "t.csv") as stream:
-        assert list(csv.DictReader(stream)) == material.everything(ROOT / "potentials")
+        assert list(csv.DictReader(stream)) == library.everything(ROOT / "potentials")
     assert cli.main(["material", *map(str, FILES), "--figure", "x"]) == 1 and "--figure draws one file" in capsys.readouterr().err
 
 
@@ -229,7 +230,7 @@ def states(lmp, file, units, rho0, points, heat):
 @pytest.mark.parametrize("metal, within", [("Al6061-T6", 0.004), ("Al2024-T3", None)])
 def test_what_voids_bear(capsys, metal, within):
     """stretched at a constant rate: against the equations of tests/reference by SciPy; and a sigma that bears the strength that was measured"""
-    one = material.read(ROOT / "potentials" / f"{metal}.hvi")
+    one = library.read(ROOT / "potentials" / f"{metal}.hvi")
     v = one.in_si(("spall", "voids"))
     rate = np.array([1e4, 1e5, 1e7])
     if within:
@@ -249,7 +250,7 @@ OTHERS = {"tait": "eos tait\nrho0 1000\nc0 1500\n",
 def test_shocks_isentropes_and_temperatures(lmp, written, path):
     """pressure and temperature of LAMMPS in the states of the curves, and off them in expansion; the shock's own equation"""
     file = path if path in FILES else ROOT.joinpath(os.getcwd(), written("# UNITS: si\n" + OTHERS[path]))
-    one = material.read(file)
+    one = library.read(file)
     eos = curves.Eos(one)
     up = np.array([0.05, 0.3, 0.7, 1.2]) * eos.c0
     Us, p, rho, e = eos.hugoniot(up)
@@ -291,12 +292,12 @@ run 1
 """
 
 
-@pytest.mark.parametrize("path, law", [(p, law) for p in FILES for law in material.read(p).laws("strength")] + [(None, law) for law in EXTRA],
+@pytest.mark.parametrize("path, law", [(p, law) for p in FILES for law in library.read(p).laws("strength")] + [(None, law) for law in EXTRA],
                          ids=lambda x: getattr(x, "stem", x or "-"))
 def test_yield_stress(lmp, written, tmp_path, path, law):
     """von Mises's stress of what LAMMPS has sheared by 5 %, at the strain, rate, temperature and pressure it reports"""
     file = path or tmp_path / written("# UNITS: si\n" + EOS + EXTRA[law])
-    one = material.read(file)
+    one = library.read(file)
     eos = curves.Eos(one)
     m = eos.rho0 * 1e-9
     lmp(BLOCK.format(m=m, rho0=eos.rho0, E=m * eos.cp * 150, file=file, rate=5e4, law=law))
@@ -311,7 +312,7 @@ def test_yield_stress(lmp, written, tmp_path, path, law):
 
 def test_hugoniots_end():
     """lead's cubic Hugoniot turns back at 10.5 km/s: beyond there is none"""
-    eos = curves.Eos(material.read(ROOT / "potentials" / "Pb.hvi"))
+    eos = curves.Eos(library.read(ROOT / "potentials" / "Pb.hvi"))
     Us = eos.hugoniot([500.0, 2400.0, 8000.0, 12000.0])[0]
     eta = np.array([500.0, 2400.0, 8000.0]) / Us[:3]
     assert Us[:3] == pytest.approx(2006 / (1 - 1.429 * eta - 0.8506 * eta**2 + 1.64 * eta**3)) and np.all(np.diff(Us[:3]) > 0) and np.isnan(Us[3])
@@ -329,7 +330,7 @@ def test_curves_end_where_the_hugoniot_does(written, capsys, eos):
 
 
 def test_nothing_bears_shear_above_melting():
-    one = material.read(ROOT / "potentials" / "Al6061-T6.hvi")
+    one = library.read(ROOT / "potentials" / "Al6061-T6.hvi")
     for law, melt in (("johnson-cook", 775), ("steinberg-guinan", 1220)):
         v = one.in_si(("strength", law))
         Y = curves.yield_stress(law, v, 0.1, 1e4, np.array([melt - 1, melt, melt + 100]))
@@ -340,7 +341,7 @@ def test_spall_strength(written):
     """the four laws: a constant, the power law, what stress that grows steadily uses up, Grady's limit"""
     text = (HEAD + EOS + "strength perfect\n  G 27e9\n  Y 3e8\nspall limit\n  sigma_p 1.2e9\nspall voids\n  sigma 1.2e9\n  rate 1e5\n  m 0.2\n  phi_c 0.1\n"
             "spall tuler-butcher\n  sigma_0 4e8\n  lambda 2\n  K 2e13\nspall grady\n  eps_c 0.15\n")
-    one = material.read(written(text))
+    one = library.read(written(text))
     rate = np.array([1e4, 1e5, 1e6])
     assert list(curves.spall_strength(one, "limit", rate)) == [1.2e9] * 3
     assert curves.spall_strength(one, "voids", rate) == pytest.approx(1.2e9 * np.array([10**-0.2, 1, 10**0.2]))
@@ -349,7 +350,7 @@ def test_spall_strength(written):
         stress = 2700 * 5200**2 * epsdot * np.linspace(0, 1e-9 * 1e6 / epsdot * 1e3, 400001)
         used = np.cumsum(np.maximum(stress - 4e8, 0) ** 2) * (stress[1] / (2700 * 5200**2 * epsdot)) / 2e13
         assert stress[np.searchsorted(used, 1)] == pytest.approx(strength, rel=1e-3)
-    no_strength = material.read(written(HEAD + EOS + "spall grady\n  eps_c 0.15\n"))
+    no_strength = library.read(written(HEAD + EOS + "spall grady\n  eps_c 0.15\n"))
     with pytest.raises(HVIError, match="spall grady needs a section strength"):
         curves.spall_strength(no_strength, "grady", rate)
 
@@ -362,4 +363,4 @@ def test_laws_without_curves(written, tmp_path, capsys):
         assert cli.main(["material", name, "--figure", "t.png"]) == 0
         assert f"no curves of eos {law}" in capsys.readouterr().out and os.path.getsize("t.png") > 5000
         with pytest.raises(HVIError, match=f"no curves of eos {law}"):
-            curves.Eos(material.read(name))
+            curves.Eos(library.read(name))

@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 import yaml
-from hvi import cli, measures, pullback
+from hvi import cli
 from hvi.errors import HVIError
+from hvi.jobs import measures, pullback
 
 RHO, C = 2700.0, 5000.0
 RESULT = {"flyer": "a.hvi", "target": "b.hvi", "v0_m_s": 500, "flyer_mm": 2, "target_mm": 4, "n": 64, "spacing_um": 31.25, "target_density_kg_m3": RHO,

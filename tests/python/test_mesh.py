@@ -5,8 +5,9 @@ import re
 import hvi
 import numpy as np
 import pytest
-from hvi import cli, mesh, mesh_plate
-from hvi.data import DataFile
+from hvi import cli
+from hvi.io.data import DataFile
+from hvi.model import mesh, mesh_plate
 from scipy.spatial import cKDTree
 
 FACES = [(0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7)]

@@ -9,7 +9,7 @@ import sys
 import pytest
 from conftest import ROOT
 
-from hvi import material
+from hvi.material import library
 
 FOLDER = ROOT / "examples" / "single-plate"
 
@@ -54,11 +54,11 @@ def test_no_runs(tmp_path):
 def test_constants(tmp_path):
     """files that differ from the package's in the one constant that their name says, by its factor"""
     assert script(FOLDER / "studies" / "constants.py", tmp_path, "made").returncode == 0
-    files = sorted((tmp_path / "made").glob("*.hvi"))
-    assert len(files) == 8
-    for path in files:
+    made = sorted((tmp_path / "made").glob("*.hvi"))
+    assert len(made) == 8
+    for path in made:
         metal, key, factor = re.fullmatch(r"(.*-T\d)-(sigma|m|phi_c)-(.*)\.hvi", path.name).groups()
-        one, other = material.read(ROOT / "potentials" / f"{metal}.hvi"), material.read(path)
+        one, other = library.read(ROOT / "potentials" / f"{metal}.hvi"), library.read(path)
         for section, values in one.sections.items():
             want = dict(values)
             if section == ("spall", "voids"):

@@ -62,7 +62,7 @@ def check(folder, words):
         assert (folder / words[0]).resolve() == ROOT / "build" / "lmp", where
         check_variables(folder, words, where)
     elif words[:3] == ["python3", "-m", "hvi"]:
-        cli.options().parse_args(words[3:])
+        cli.parse(words[3:])
     elif words[0] in ("python3", "sh"):
         assert (folder / words[1]).is_file(), where
         for word in words[2:]:

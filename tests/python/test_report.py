@@ -7,8 +7,11 @@ import re
 import numpy as np
 import pytest
 import yaml
-from hvi import cli, movie, page, render, report_pictures, shield_run
+from hvi import cli
+from hvi.commands import movie
 from hvi.errors import HVIError
+from hvi.report import page, pictures, render
+from hvi.shield.run import Run, runs_of
 
 EVIL = "<script>alert(1)</script>"
 NAME = "<img src=x onerror=alert(1)>"  # a name of a folder and of a file has no slash
@@ -63,7 +66,7 @@ def make_run(folder, dx, shift=0.0, verdict="fails", material="Al6061-T6.hvi", f
 @pytest.fixture(autouse=True)
 def small(monkeypatch):
     """pictures of few pixels, for time"""
-    monkeypatch.setattr(report_pictures, "DPI", 40)
+    monkeypatch.setattr(pictures, "DPI", 40)
     monkeypatch.setattr(movie, "DPI", 40)
 
 
@@ -216,13 +219,13 @@ def test_light_and_shadow():
 def test_scene_is_the_whole(tmp_path):
     """four times the particles of a quarter, in mm, us, km/s; spheres of their volume"""
     make_run(tmp_path / "run", 0.5)
-    run = shield_run.Run(tmp_path / "run")
+    run = Run(tmp_path / "run")
     scene = run.scene("shield.dump")
     part = len(scene.frame)
     assert len(scene.x) == 4 * part and scene.time == pytest.approx(9.0) and scene.v[:, 2].max() == pytest.approx(1.0)
     assert sorted(np.unique(scene.body)) == [0, 1, 2] and scene.x[:, 0].min() == pytest.approx(-scene.x[:, 0].max())
     assert 4 / 3 * np.pi * scene.radius[scene.body == 0][0] ** 3 == pytest.approx(0.125)
-    left = report_pictures.body_of(run, scene, 2)
+    left = pictures.body_of(run, scene, 2)
     assert len(left) == (scene.body == 2).sum()
     case = run.case
     assert (case.diameter_mm, case.speed_km_s, [w.gap_mm for w in case.walls]) == (4.0, 6.0, [None, 6.0])
@@ -254,7 +257,7 @@ def test_export_read_back(several, tmp_path, capsys):
     sets = tree.parse(several / "shield.pvd").getroot().findall("Collection/DataSet")
     assert [float(s.get("timestep")) for s in sets] == pytest.approx([0.2e-6, 2e-6, 3.2e-6, 6.2e-6, 9e-6])
     mesh = meshio.read(several / sets[-1].get("file"))
-    scene = shield_run.Run(several / "dx-0.5").scene("shield.dump").whole
+    scene = Run(several / "dx-0.5").scene("shield.dump").whole
     np.testing.assert_array_equal(mesh.points, scene.x)
     np.testing.assert_array_equal(mesh.point_data["velocity (m/s)"], scene.v)
     np.testing.assert_array_equal(mesh.point_data["mass (kg)"], scene.m)
@@ -281,4 +284,4 @@ def test_only_runs_that_are_whole(several):
     said["runs"]["dx-2"] = "fails"
     (several / "verdict.yaml").write_text(yaml.safe_dump(said))
     with pytest.raises(HVIError, match="dx-2: no complete result.yaml"):
-        shield_run.runs_of(pathlib.Path(several))
+        runs_of(pathlib.Path(several))

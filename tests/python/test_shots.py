@@ -8,8 +8,8 @@ import re
 import pytest
 import yaml
 from front_runs import case_folder, front, tries  # noqa: F401
-from hvi import ble, runs, shield, shots
 from hvi.errors import HVIError
+from hvi.shield import ble, shots
 
 HEAD = "source,shotID,proj_mat,proj_diam,angle,velocity,bumper_mat,bumper_thick,standoff,wall_mat,wall_yield,wall_thick,result\n"
 LIST = "# a remark\n" + HEAD + """A,small,AA2017-T4,0.318,0,6.5,AA6061-T6,0.08,5.08,AA6061-T6,40,0.159,NP

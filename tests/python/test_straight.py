@@ -7,8 +7,9 @@ import types
 import numpy as np
 import pytest
 import yaml
-from hvi import cli, shield_chain, shield_input, shield_result, verdict
-from hvi import case as cases
+from hvi import cli
+from hvi.shield import chain, record, script, verdict
+from hvi.shield import case as cases
 
 CASE = """projectile: {diameter_mm: 3, material: Al2017-T4}
 speed_km_s: 5
@@ -30,12 +31,12 @@ def read(path, text=CASE):
 def test_inputs_are_straight(tmp_path, change):
     """no label, jump or condition; at most 80 lines; the second differs only where it goes on"""
     for new in (True, False):
-        text = shield_chain.shield_of(read(tmp_path / "c.yaml", CASE.replace(*change)), 0, 0.0).text(new)
+        text = chain.shield_of(read(tmp_path / "c.yaml", CASE.replace(*change)), 0, 0.0).text(new)
         lines = text.splitlines()
         assert len(lines) <= 80 + (15 if "edge" in change[1] else 0), len(lines)
         assert not [line for line in lines if re.match(r"\s*(label|jump|next|if|include)\b", line)] and text.isascii()
         assert ("read_restart" in text) is not new and ("create_atoms" in text) is new
-    first, second = (shield_chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0).text(new).splitlines() for new in (True, False))
+    first, second = (chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0).text(new).splitlines() for new in (True, False))
     assert first[first.index("fix             move all hvi/sph"):] == second[second.index("fix             move all hvi/sph"):]
 
 
@@ -43,7 +44,7 @@ def test_inputs_are_straight(tmp_path, change):
 def test_lines_of_a_further_wall(tmp_path, thickness, gap, material, more):
     """region, create_atoms, a row of compute hvi/wall; a lattice of its own and a law of its own where they differ"""
     wall = f"  - {{thickness_mm: {thickness}, material: {material}, gap_mm: {gap}}}\n"
-    two, three = (len(shield_chain.shield_of(read(tmp_path / "c.yaml", CASE.replace("spacings_mm", new + "spacings_mm")), 0, 0.0).text().splitlines()) for new in ("", wall))
+    two, three = (len(chain.shield_of(read(tmp_path / "c.yaml", CASE.replace("spacings_mm", new + "spacings_mm")), 0, 0.0).text().splitlines()) for new in ("", wall))
     assert three - two == more and two <= 72
 
 
@@ -58,7 +59,7 @@ def test_write_run_and_judge(lmp, tmp_path, capsys, monkeypatch):
     for folder, ends in (("one", [2, 5, 8]), ("three", [2, 5, 8])):
         where = tmp_path / folder / "dx-0.75_shift-0.0"
         for leg, until in enumerate(ends):
-            command = where / (shield_input.CONTINUE if leg else shield_input.BEGIN)
+            command = where / (script.CONTINUE if leg else script.BEGIN)
             if folder == "three" and leg == 1:  # one that is stopped in the middle leaves rows, which do not count
                 lmp(command, cwd=where, env={"LAMMPS_POTENTIALS": ""}, vars={"until": 4, "from": "r.a", "to": "r.lost"})
             lmp(command, cwd=where, env={"LAMMPS_POTENTIALS": ""}, vars={"until": until, "to": f"r.{'ab'[leg % 2]}", **({"from": f"r.{'ba'[leg % 2]}"} if leg else {})})
@@ -114,10 +115,10 @@ def test_what_the_machine_cannot_hold_is_refused(tmp_path, capsys, monkeypatch, 
 def test_rows_after_a_restart_count_once(tmp_path):
     """those of the run that was stopped go; so does a block that was cut off"""
     (tmp_path / "w").write_text("# fix\n0 2\n1 1 1\n2 2 2\n20 2\n1 3 3\n2 4 4\n40 2\n1 5 5\n2 6 6\n20 2\n1 7 7\n2 8 8\n40 2\n1 9\n")
-    steps, rows = shield_result.rows_of(tmp_path / "w")
+    steps, rows = record.rows_of(tmp_path / "w")
     assert list(steps) == [0, 20] and rows.shape == (2, 2, 2) and rows[1].tolist() == [[7, 7], [8, 8]]
     (tmp_path / "h").write_text("0 0.0 1\n100 1.0 2\n200 2.0 3\n100 1.5 4\n200 2.\n")
-    steps, rows = shield_result.rows_of(tmp_path / "h")
+    steps, rows = record.rows_of(tmp_path / "h")
     assert list(steps) == [0, 100] and rows[1].tolist() == [1.5, 4]
 
 
@@ -144,7 +145,7 @@ def result(**changed):
     ({"wall1_layers": 2}, "holds", ["sound", "coarse"]), ({"method": "tied"}, "undecided", ["tied", "sound"])])
 def test_rules(tmp_path, changed, said, rules):
     """each rule by the number that it is about, and what it makes of the verdict"""
-    shield = shield_chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
+    shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
     found = verdict.of_run(shield, result(**changed))
     assert (found["verdict"], found["rules"]) == (said, rules)
     assert found["reasons"] and all("-var" not in text for text in found["reasons"])
@@ -156,7 +157,7 @@ def test_rules(tmp_path, changed, said, rules):
 
 def test_whole_walls_and_what_is_not_modelled(tmp_path):
     """material files decide; the wall that cannot fail in tension is named"""
-    shield = shield_chain.shield_of(read(tmp_path / "c.yaml", CASE.replace("Al2024-T3", "Ti-6Al-4V") + "not_modelled: [MLI]\n"), 0, 0.0)
+    shield = chain.shield_of(read(tmp_path / "c.yaml", CASE.replace("Al2024-T3", "Ti-6Al-4V") + "not_modelled: [MLI]\n"), 0, 0.0)
     found = verdict.of_run(shield, result())
     assert found["verdict"] == "undecided" and found["rules"] == ["not modelled", "whole", "sound"]
     assert any(text.startswith("wall 2 is of Ti-6Al-4V.hvi, whose file has no law of spall (damage no spall voids)") for text in found["reasons"])

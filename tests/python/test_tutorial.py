@@ -41,7 +41,7 @@ def test_commands_are_known(root):
     found = commands(root)
     assert [words[3] for words in found] == ["material", "ble", "shield", "shield", "report", "shield", "limit"]
     for words in found:
-        cli.options().parse_args(words[3:])
+        cli.parse(words[3:])
 
 
 def test_before_it_runs(root, reader, tmp_path):

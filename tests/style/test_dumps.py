@@ -7,7 +7,11 @@ import numpy as np
 import plate_scenes
 import pytest
 import yaml
-from hvi import mirror, runs, shield_chain
+from hvi.io import mirror
+from hvi.io.bonds import BondDump
+from hvi.io.data import DataFile
+from hvi.jobs import engine
+from hvi.shield import chain
 from shield_runs import read, wall
 
 pytestmark = pytest.mark.filterwarnings("ignore::hvi.errors.HVIWarning")  # of few layers
@@ -36,13 +40,13 @@ def case(request, lmp, root, tmp_path_factory, cache):
         folder = tmp_path_factory.mktemp("case")
         script, variables, pattern, _, _ = CASES[name]
         if isinstance(script, dict):
-            shield_chain.write_run(read(folder / "case.yaml", script, **variables), 0, 0, folder)
+            chain.write_run(read(folder / "case.yaml", script, **variables), 0, 0, folder)
             lmp(folder / "in.shield", cwd=folder, env={"LAMMPS_POTENTIALS": ""})
-            shield_chain.judge(folder)
+            chain.judge(folder)
         elif "\n" in script:
             lmp(script, cwd=folder, env={"LAMMPS_POTENTIALS": str(root / "potentials")}, vars={"out": folder, **variables})
         else:
-            source = runs.Input(root / "examples" / script)
+            source = engine.Input(root / "examples" / script)
             source.copy_to(folder)  # with what it includes
             lmp(folder / source.name, cwd=folder, env={"LAMMPS_POTENTIALS": str(root / "potentials")}, vars={"out": folder, **variables})
         cache[name] = sorted(folder.glob(pattern))
@@ -129,8 +133,8 @@ def test_bonds(case):
     folder = case[1][0].parent
     text = (folder / "bonds.dump").read_text()
     assert "ITEM: NUMBER OF BONDS\n" in text and "ITEM: BONDS index btype batom1 batom2\n" in text
-    bonds = hvi.bonds.BondDump(folder / "bonds.dump")
+    bonds = BondDump(folder / "bonds.dump")
     dump = hvi.Dump(case[1][0])
     assert bonds.dump.units == "si" and [bonds.dump.time(k) for k in range(3)] == pytest.approx([dump.time(k) for k in range(3)], rel=1e-8)
     first, last = ({tuple(sorted(pair)) for pair in bonds.at(step).tolist()} for step in (dump.steps[0], dump.steps[-1]))
-    assert {tuple(sorted(pair)) for pair in hvi.data.DataFile(folder / "debris.data").bonds.tolist()} < last < first
+    assert {tuple(sorted(pair)) for pair in DataFile(folder / "debris.data").bonds.tolist()} < last < first

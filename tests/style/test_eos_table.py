@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-import hvi.eos_table
 from hvi import HVIError
+from hvi.material.eos_table import write_eos_table
 
 SCENE = """units {units}
 boundary p p p
@@ -68,7 +68,7 @@ def write(path, units="si", **how):
     p = np.array([[mie_gruneisen(r, x) for x in e] for r in rho])
     temperature = 300 + np.array([[x / 885 for x in e]] * len(rho))
     how = {"rho0": RHO0 * M / L**3, **how}
-    hvi.eos_table.write_eos_table(path, rho * M / L**3, e * L**2 / T**2, p * M / L / T**2, temperature, units=units, **how)
+    write_eos_table(path, rho * M / L**3, e * L**2 / T**2, p * M / L / T**2, temperature, units=units, **how)
     return path
 
 
@@ -253,6 +253,6 @@ def test_missing_words(lmp, tmp_path):
 ])
 def test_writer_refuses(how, says):
     good = {"path": "x.table", "rho": [1, 2], "e": [0, 1], "pressure": lambda rho, e: rho * e}
-    hvi.eos_table.write_eos_table(**good)
+    write_eos_table(**good)
     with pytest.raises(HVIError, match=says):
-        hvi.eos_table.write_eos_table(**{**good, **how})
+        write_eos_table(**{**good, **how})

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from fem_scenes import ALUMINUM
-from hvi.mesh import block
-from hvi.mesh_plate import plate
+from hvi.model.mesh import block
+from hvi.model.mesh_plate import plate
 
 START = """
 units         si

@@ -4,8 +4,10 @@ import hvi
 import numpy as np
 import plate_scenes
 import pytest
-from hvi import cli, hole, mirror
-from hvi.data import DataFile
+from hvi import cli
+from hvi.analysis import hole
+from hvi.io import mirror
+from hvi.io.data import DataFile
 from test_hole import THERMO, head, plate, radius, write_data
 
 CLOSE = 1e-10

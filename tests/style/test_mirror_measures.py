@@ -5,10 +5,11 @@ import re
 import hvi
 import numpy as np
 import pytest
-from hvi import cli, mirror
-from hvi.box import Box
-from hvi.cloud import MEASURES
-from hvi.fragments import ROW
+from hvi import cli
+from hvi.analysis.cloud import MEASURES
+from hvi.analysis.fragments import ROW
+from hvi.io import mirror
+from hvi.io.box import Box
 from test_mirror import ROOM, material, start  # noqa: F401
 
 RECORD = {"": ("v_plane", "mirror_none"), "x": ("v_plane", "mirror_x_lo"), "xy": ("v_plane v_plane", "mirror_x_lo mirror_y_lo")}

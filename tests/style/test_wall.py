@@ -5,7 +5,7 @@ import re
 import hvi
 import numpy as np
 import pytest
-from hvi import shield_result
+from hvi.shield import record
 
 HEAD = """
 units si
@@ -40,8 +40,8 @@ compute w all hvi/wall axis z wall 2 0 1.2e-3 layers 2 radius 5.4e-3 wall 3 6e-3
 compute state all hvi/atom damage spalled eps
 thermo_modify lost ignore
 """
-PRINT = "run 0 post no\n" + "".join(f"print 'row {k} " + " ".join(f"$(c_w[{k}][{c}]:%.15g)" for c in range(1, 1 + len(shield_result.WALL))) + "'\n" for k in (1, 2))
-NAMES = shield_result.WALL
+PRINT = "run 0 post no\n" + "".join(f"print 'row {k} " + " ".join(f"$(c_w[{k}][{c}]:%.15g)" for c in range(1, 1 + len(record.WALL))) + "'\n" for k in (1, 2))
+NAMES = record.WALL
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import yaml
 from hvi import cli
-from hvi.fragments import components
+from hvi.analysis.fragments import components
 from scipy.spatial import cKDTree
 
 DX = 0.953  # mm, 10 particles across

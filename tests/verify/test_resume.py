@@ -10,7 +10,8 @@ import time
 
 import pytest
 import yaml
-from hvi import runs, shield_chain
+from hvi.jobs import engine
+from hvi.shield import chain
 from shield_runs import read, wall
 
 pytestmark = pytest.mark.filterwarnings("ignore::hvi.errors.HVIWarning")  # of few layers
@@ -21,7 +22,7 @@ CASES = {
     "hybrid": ((wall(0.8, radius=10, core_mm=4, hold_mm=8), wall(0.8, gap=6, radius=12)), dict(method="hybrid", dx=0.4, tstop=4, film=1, edge="absorb", rim=1)),
 }
 # hvi shield with a restart file each so many particle-steps, in a process of its own
-SCRIPT = "import sys; from hvi import cli, shield_chain; shield_chain.LEG = float(sys.argv.pop(1)); raise SystemExit(cli.main())"
+SCRIPT = "import sys; from hvi import cli; from hvi.shield import chain; chain.LEG = float(sys.argv.pop(1)); raise SystemExit(cli.main())"
 
 
 def at_work(folder):
@@ -40,7 +41,7 @@ class Shield:
     def __init__(self, folder, name, lmp_exe, root):
         walls, words = CASES[name]
         self.at, self.folder = folder, folder / f"runs/{name}/dx-{words['dx']}_shift-0.0"
-        made = shield_chain.shield_of(read(folder / f"{name}.yaml", *walls, **words), 0, 0)
+        made = chain.shield_of(read(folder / f"{name}.yaml", *walls, **words), 0, 0)
         leg = made.particles() * made.steps() / LEGS
         self.words = [sys.executable, "-W", "ignore", "-c", SCRIPT, repr(leg), "shield", f"{name}.yaml"]
         self.environment = {**os.environ, "PYTHONPATH": str(root / "python"), "HVI_LMP": str(lmp_exe)}
@@ -73,7 +74,7 @@ class Shield:
         assert not (self.folder / "result.yaml").exists()
 
     def chain(self):
-        return runs.read_yaml(self.folder / "chain.yaml") or {"leg": 0, "step": 0}
+        return engine.read_yaml(self.folder / "chain.yaml") or {"leg": 0, "step": 0}
 
     def steps(self):
         """of the last row of walls.dat"""

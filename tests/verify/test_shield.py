@@ -8,7 +8,8 @@ import hvi
 import numpy as np
 import pytest
 import yaml
-from hvi import laws, plates
+from hvi.material import laws
+from hvi.model import plates
 from shield_runs import read, shield, wall  # noqa: F401
 
 pytestmark = pytest.mark.filterwarnings("ignore::hvi.errors.HVIWarning")  # of few layers

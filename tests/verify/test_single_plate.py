@@ -5,7 +5,7 @@ import numpy as np
 import plate_scenes
 import pytest
 import yaml
-from hvi import bodies, mesh_plate
+from hvi.model import bodies, mesh_plate
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree

@@ -7,7 +7,7 @@ import re
 
 import numpy as np
 import pytest
-from hvi import measures
+from hvi.jobs import measures
 from reference.voids import C0, CL, RHO0, S1, SHEAR, constants, law
 from solid_runs import row
 

@@ -9,7 +9,7 @@ import csv
 import math
 import pathlib
 
-from hvi import shots
+from hvi.shield import shots
 
 HERE = pathlib.Path(__file__).resolve().parent
 MOST, MOST_RARE = 120e6, 450e6  # particle-steps of the plan, 3 and 10 minutes of an idle core; the latter for oblique shots and thin bumpers

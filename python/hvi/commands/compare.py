@@ -1,0 +1,72 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""python3 -m hvi compare: two runs side by side."""
+
+from .. import tables
+from ..analysis import cloud
+from ..analysis import fragments as pieces
+from ..errors import HVIError
+from ..jobs import compare
+from . import dumps
+
+EXAMPLES = """  python3 -m hvi compare run1/result.yaml run2/result.yaml
+  python3 -m hvi compare run1 run2 --rtol 0.05 --keys length_ratio fragmentation
+  python3 -m hvi compare run1/debris.dump run2/debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 \\
+      --bonds run1/bonds.dump run2/bonds.dump"""
+
+
+def add_arguments(parser):
+    for name in "AB":
+        parser.add_argument(name.lower(), metavar=name, help="result.yaml, folder with one, or dump")
+    parser.add_argument("--keys", nargs="+", metavar="KEY", help="only these (default: all)")
+    parser.add_argument("--rtol", type=float, metavar="T", help="exit status 1 if a relative difference is larger than T")
+    parser.add_argument("--out", metavar="FILE.csv", help="write the table with all digits")
+    dumps.add_frame(parser)
+    dumps.add_cloud(parser, needed=False)
+    dumps.add_quantile(parser)
+    dumps.add_rules(parser, several=True)
+    dumps.add_reading(parser, several=True)
+
+
+def main(args):
+    runs = args.a, args.b
+    kinds = [dumps.is_dump(path) for path in runs]
+    if kinds[0] != kinds[1]:
+        raise HVIError(f"cannot compare a dump with a result.yaml: {runs[0]} and {runs[1]}")
+    if kinds[0]:
+        if args.plane is None:
+            raise HVIError("to compare two dumps give --plane, and --axis if it is not z")
+        both = [measures(args, path, k) for k, path in enumerate(runs)]
+    else:
+        both = [compare.read_result(path) for path in runs]
+    if args.keys:
+        unknown = [key for key in args.keys if not any(key in result for result in both)]
+        if unknown:
+            raise HVIError(f"there is no {' '.join(unknown)}; there are: {' '.join(both[0])}")
+        both = [{key: result[key] for key in args.keys if key in result} for result in both]
+    table = compare.rows(*both)
+    names = ("", "A", "B", "B - A", "relative")
+    print(tables.text(names, [[compare.cut(value) for value in row] for row in table]))
+    for key, left, right, *_ in table:
+        if (left, right) != (compare.cut(left), compare.cut(right)):
+            print(key)
+            for name, value in (("A", left), ("B", right)):
+                print(f"  {name}: " + "\n     ".join(tables.number(value).split("; ")))
+    if args.out:
+        tables.write_csv(args.out, ("key", *names[1:]), table)
+    if args.rtol is not None and not compare.largest(table) <= args.rtol:
+        print(f"larger than {args.rtol:g}: {', '.join(row[0] for row in table if compare.largest([row]) > args.rtol)}")
+        return 1
+    return 0
+
+
+def measures(args, path, which):
+    """Cloud and, if there is a rule for them, fragments of the cloud in one of two dumps"""
+    frame = dumps.read(args, path, args.data and args.data[which])[args.frame]
+    result = {"step": frame.step}
+    if frame.time is not None:
+        result["time"] = frame.time
+    result.update(cloud.measure(frame, args.axis, args.plane, args.quantile))
+    if dumps.has_rule(args):
+        summary = pieces.both(frame, **dumps.rule(args, args.bonds and args.bonds[which]))[1]
+        result.update({name: value for name, value in summary.items() if name not in ("mass", "particles")})
+    return result

@@ -1,0 +1,68 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""What commands that run LAMMPS share: how it is run, of which case, over which values."""
+
+import argparse
+import pathlib
+import textwrap
+
+from .. import tables
+from ..errors import writing
+from ..jobs import engine
+from ..shield import case as cases
+from .shared import count, positive
+
+
+def add_runs(parser):
+    group = parser.add_argument_group("how LAMMPS is run; call again to go on where it stopped")
+    group.add_argument("--runs", type=pathlib.Path, default="runs", metavar="DIR", help="folder for the runs (default: runs)")
+    group.add_argument("--jobs", type=count, default=1, metavar="N", help="runs at a time (default: 1)")
+    group.add_argument("--ranks", type=count, metavar="R", help="MPI ranks of a run (default: the study's, or 2)")
+    group.add_argument("--timeout", type=positive, metavar="S", help="end a run after this many seconds (default: the study's, or never)")
+    group.add_argument("--lmp", metavar="FILE", help="LAMMPS with USER-HVI (default: $HVI_LMP, or build/lmp of the source tree)")
+    group.add_argument("--mpirun", default="mpirun", metavar="FILE", help="how ranks are started (default: mpirun)")
+    group.add_argument("--dry-run", action="store_true", help="show what would be run")
+
+
+def add_case(parser):
+    """a case; --help says what it may have"""
+    parser.add_argument("case", metavar="CASE.yaml", help="projectile, speed, angle, walls, spacings")
+    usual = parser.format_help
+    rows = [(name, default, line) for name, default, text in cases.rows_of_keys() for name, default, line in wrapped(name, default, text)]
+    parser.format_help = lambda: f"{usual()}\nkeys of CASE.yaml:\n{tables.text(('key', 'default', 'what it is'), rows, left=True)}\n"
+
+
+def wrapped(name, default, text):
+    for k, line in enumerate(textwrap.wrap(text, 80) or [""]):
+        yield (name, default, line) if k == 0 else ("", "", line)
+
+
+def add_range(parser):
+    for name, text, default in (("from", "lowest value", "half of the case's"), ("to", "highest value", "twice the case's"), ("step", "between values that are tried", "a 20th of the case's")):
+        parser.add_argument("--" + name, dest=name + "_", type=positive, metavar="X", help=f"{text}, mm or km/s (default: {default})")
+
+
+def add_speeds(parser, default):
+    """A:B:N, as (first, last, number)"""
+    parser.add_argument("--speeds", type=speeds, default=default, metavar="A:B:N", help="first, last, number of speeds, km/s (default: {:g}:{:g}:{})".format(*default))
+
+
+def speeds(text):
+    try:
+        first, last, number = text.split(":")
+        first, last, number = positive(first), positive(last), count(number)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text} is not FIRST:LAST:NUMBER, like 1:15:15") from None
+    if first >= last:
+        raise argparse.ArgumentTypeError(f"{text}: the first speed must be below the last")
+    return first, last, number
+
+
+def evenly(first, last, n):
+    return [first + (last - first) * k / (n - 1) for k in range(n)] if n > 1 else [first]
+
+
+def save(path, mapping):
+    """an answer as a YAML file"""
+    with writing(path):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        engine.write_yaml(path, mapping)

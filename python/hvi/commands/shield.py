@@ -1,0 +1,128 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""python3 -m hvi shield: does the wall hold?  One case at several spacings and shifts of the lattice, one verdict."""
+
+import math
+import pathlib
+import shlex
+import shutil
+
+from .. import tables
+from ..errors import HVIError
+from ..jobs import engine
+from ..shield import ble, chain, script
+from ..shield import case as cases
+from ..shield.decision import STATUS, decide, finer, job, lines, member_name, members, said_of_finer, shown, verdict
+from . import running
+
+EXAMPLES = """  python3 -m hvi shield emi.yaml --dry-run
+  python3 -m hvi shield emi.yaml --jobs 2 --ranks 1
+  python3 -m hvi shield emi.yaml --write emi"""
+
+
+def add_arguments(parser):
+    running.add_case(parser)
+    parser.add_argument("--write", type=pathlib.Path, metavar="DIR", help="only write in.shield of all runs, complete folders for LAMMPS alone, and say how to run them")
+    running.add_runs(parser)
+
+
+def command(args, ranks):
+    """what was asked for, as it is typed"""
+    given = (("--runs", args.runs), ("--jobs", args.jobs), ("--ranks", ranks), ("--lmp", args.lmp))
+    return shlex.join(["python3", "-m", "hvi", "shield", str(args.case), *(str(word) for option, value in given if value for word in (option, value))])
+
+
+def main(args):
+    case = cases.read(args.case)
+    if args.write:
+        return write(case, args.write)
+    folder = args.runs.resolve() / case.name
+    if args.dry_run:
+        return plan(case, folder, args.jobs, args.ranks or 2)
+    runner = engine.Runner(args)
+    jobs = {member: job(case, member, folder / member_name(case, member)) for member in members(case)}
+    (folder / "verdict.yaml").unlink(missing_ok=True)  # that of another case, or of fewer runs
+    todo = [j for j in jobs.values() if j.result() is None]
+    if todo:
+        refuse_too_large(case, [chain.plan_of(j.shield) for j in todo], folder, min(runner.jobs, len(todo)))
+    print(f"{case.name}: {len(jobs)} runs, {len(jobs) - len(todo)} done before, {len(todo)} to run", flush=True)
+    with engine.table_of(jobs.values, folder / "runs.csv"):
+        failed = runner.run(todo, case.name)
+    if failed:
+        print(engine.overview(jobs.values(), shown(case)))
+        raise HVIError(f"no verdict: {len(failed)} of {len(jobs)} runs failed: {', '.join(j.name for j in failed)}")
+    each = {member: verdict(j) for member, j in jobs.items()}
+    said, reasons, notes = decide(case, each)
+    further = finer(case, each, jobs) if said == "undecided" else None
+    more = {name: value for name, value in (("notes", notes), ("next_finer", further)) if value}
+    equations = ble.beside(ble.predictions, case)
+    (folder / "case.yaml").write_text(pathlib.Path(args.case).read_text())
+    running.save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **more, "runs": {j.name: verdict(j)[0] for j in jobs.values()},
+                                           "areal_density_kg_m2": chain.plan_of(jobs[0, case.shifts[0]].shield)["areal_density_kg_m2"],
+                                           "equations": equations, "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1),
+                                           "command": command(args, runner.ranks)})
+    print(engine.overview(jobs.values(), shown(case)))
+    print(f"verdict: {said}")
+    print("\n".join([*lines(reasons, notes), *([said_of_finer(case, further)] if further else [])]))
+    print(f"table: {folder / 'runs.csv'}, verdict: {folder / 'verdict.yaml'}")
+    print("\n".join(ble.said(equations)))
+    return STATUS[said]
+
+
+def free_memory():
+    """MB that processes can still have, None where nothing says so"""
+    try:
+        lines = pathlib.Path("/proc/meminfo").read_text().splitlines()
+        return next(int(line.split()[1]) / 1e3 for line in lines if line.startswith("MemAvailable"))
+    except (OSError, StopIteration, ValueError):
+        return None
+
+
+def refuse_too_large(case, plans, folder, jobs):
+    """before anything is made: runs that the machine has no room for; plans: [plan, ...] of the spacings, jobs: runs at a time"""
+    free, most = free_memory(), max(plans, key=lambda plan: plan["memory_MB"])
+    dx = most["dx_mm"]
+    what = f"spacings_mm: {dx:g} mm makes some {most['particles']:.3g} particles"
+    if most["particles"] > 2**31 - 1:
+        raise HVIError(f"{case.name}: {what}, more than LAMMPS can number: are lengths in mm?")
+    if free is not None and most["memory_MB"] * jobs > free:
+        fit = math.ceil(100 * dx * (most["memory_MB"] * jobs / free) ** (1 / 3)) / 100
+        raise HVIError(f"{case.name}: {what}, {most['memory_MB']:.3g} MB of memory{f' in each of {jobs} runs at a time' if jobs > 1 else ''}, and {free:.0f} are free: "
+                       f"take {fit:g} mm or more{', or fewer jobs at a time' if jobs > 1 else ''}; --write makes the input for another machine")
+    existing = next(path for path in (folder, *folder.parents) if path.exists())
+    disk = shutil.disk_usage(existing).free / 1e6
+    if (needed := sum(plan["disk_MB"] for plan in plans) * len(case.shifts)) > disk:
+        raise HVIError(f"{case.name}: some {needed:.3g} MB would be written, and {disk:.0f} are free in {existing}: take a larger settings: film, or another --runs DIR")
+
+
+def plan(case, folder, jobs, ranks):
+    """what would be run: particles, areal densities, steps, time and memory of each spacing, from geometry alone; and a sketch"""
+    from .. import figures
+    from ..figures import sketch
+
+    plans = [chain.plan_of(chain.shield_of(case, which, case.shifts[0])) for which in range(len(case.spacings_mm))]
+    n = len(case.walls)
+    keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, n + 1) for what in ("particles", "layers", "areal_density_kg_m2")), "areal_density_kg_m2",
+            "tstop_us", "particles", "steps", "core_s", "memory_MB", "disk_MB"]
+    print(tables.text(("each run", *(f"dx-{dx:g}" for dx in case.spacings_mm)), [
+        (key, *(f"about {tables.number(found[key])}" if key in ("steps", "core_s", "memory_MB", "disk_MB") else found[key] for found in plans)) for key in keys]))
+    core = sum(found["core_s"] for found in plans) * len(case.shifts)
+    print(f"{len(members(case))} runs, {len(case.shifts)} of each spacing: at most about {engine.duration(core / (jobs * ranks))}, {jobs} at a time on {ranks} ranks each, "
+          "on idle cores; a run ends when its event is over")
+    finest = plans[-1]
+    print(tables.text(("wall", "front_mm", "radius_mm", "middle_mm", "struck_at_mm"), [
+        (k, case.faces()[k - 1][0], *(finest[f"wall{k}_{what}"] for what in ("radius_mm", "middle_mm", "struck_at_mm"))) for k in range(1, n + 1)]))
+    if n <= 20:
+        folder.mkdir(parents=True, exist_ok=True)
+        for path in figures.save(sketch.draw(case, finest), str(folder / "sketch.png")):
+            print(f"sketch: {path}")
+    refuse_too_large(case, plans, folder, jobs)
+    return 0
+
+
+def write(case, folder):
+    """inputs of all runs, and how to run them"""
+    for member in members(case):
+        where = folder / member_name(case, member)
+        chain.write_run(case, *member, where)
+        print(f"cd {shlex.quote(str(where))} && mpirun -np 2 lmp -in {script.BEGIN} && python3 -m hvi judge .")
+    return 0

@@ -1,0 +1,49 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""Ballistic limits over speed: those of equations, and those of simulations."""
+
+import numpy as np
+
+from .style import BODIES, STYLE, label_axes, legend, new_figure
+
+
+def _equations(ax, speeds, curves):
+    """curves of ballistic_limit() drawn; the highest of what matters"""
+    speeds, highest = np.asarray(speeds), 0.0
+    for k, (name, points) in enumerate(curves.items()):
+        d, valid = np.array([d for d, _ in points]), np.array([valid for _, valid in points])
+        color, line = BODIES[k % len(BODIES)], STYLE["line"] * (1 + 0.22 * (len(curves) - 1 - k))  # those below show beside those above
+        ax.plot(speeds, d, "--", color=color, lw=0.5 * line, alpha=0.8)
+        ax.plot(speeds, np.where(valid, d, np.nan), color=color, lw=line, label=name, solid_capstyle="butt")
+        highest = max(highest, d[speeds >= min(3.0, speeds[-1])].max())
+    if curves:
+        ax.plot([], [], "--", color="0.4", lw=0.7 * STYLE["line"], label="beyond a range of validity")
+    return highest
+
+
+def _said(ax, title, what):
+    ax.set_title(title, fontsize=STYLE["size"])
+    label_axes(ax, "speed (km/s)", what)
+    legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=4, columnspacing=1.2)
+
+
+def limit_curve(speeds, curves, points, title, what):
+    """Limits over speed, with bars from what all hold to what all fail; points: [(speed, limit, low, high), ...]; speeds, curves: as of ballistic_limit(), {} if there are none"""
+    figure, ((ax,),) = new_figure(4.4)
+    highest = _equations(ax, speeds, curves)
+    x, y, low, high = np.array(points).reshape(-1, 4).T
+    ax.errorbar(x, y, [y - low, high - y], fmt="o-", color="black", ms=5, lw=STYLE["line"], capsize=3, label="simulation")
+    ax.set(xlim=(speeds[0] - 0.3, speeds[-1] + 0.3), ylim=(0, 1.25 * max([highest, *high])))
+    _said(ax, title, what)
+    return figure
+
+
+def ballistic_limit(speeds, curves, title, point=None):
+    """Critical diameter over speed; curves: {name: [(diameter in mm, is it within the ranges of validity)]}; point: (speed, diameter) of a case"""
+    figure, ((ax,),) = new_figure(4.4)
+    highest = _equations(ax, speeds, curves)
+    if point is not None:
+        ax.plot(*point, "o", color="black", ms=5, clip_on=False, label=f"the case, {point[1]:g} mm")
+        highest = max(highest, point[1])
+    ax.set(xlim=(speeds[0], speeds[-1]), ylim=(0, 1.25 * highest))
+    _said(ax, title, "critical diameter (mm): fails above")
+    return figure

@@ -1,0 +1,90 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""Two runs side by side: result.yaml of two examples, or the same measures of two dumps."""
+
+import math
+import os
+
+from ..errors import HVIError, reading
+
+MISSING = "-"
+WIDE = 40  # characters of a text in a table
+
+
+def read_result(path):
+    """{key: value} of a result.yaml, "key: value" per line; numbers as int or float, all else as text.
+
+    What is indented belongs to the key before: a list "- text" is joined, "margins:" and "  hole_mm: 0" are margins.hole_mm.
+    """
+    if os.path.isdir(path):
+        path = os.path.join(path, "result.yaml")
+    with reading(path), open(path, encoding="utf-8") as stream:
+        lines = stream.read().splitlines()
+    result, parent = {}, None
+    for number, raw in enumerate(lines, 1):
+        line = raw.split(" #")[0].strip()
+        if not line or line.startswith("#") or line == "---":
+            continue
+        inside = raw[0] == " " and parent is not None
+        if inside and line.startswith("- "):
+            result[parent] = "; ".join(filter(None, [result.get(parent), line[2:]]))
+            continue
+        key, found, value = line.partition(":")
+        key, value = key.strip(), value.strip().strip("\"'")
+        if not found:
+            raise HVIError(f"{path}, line {number}: not key: value")
+        if not inside:
+            parent = None if value else key
+        if value:
+            result[f"{parent}.{key}" if inside else key] = _value(value)
+    if not result:
+        raise HVIError(f"{path} has no values")
+    return result
+
+
+def _value(text):
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return text
+
+
+def relative(a, b):
+    """(b - a) / |a|; 0 if they are equal, infinite if only a is 0, NaN if they are no numbers"""
+    if not (isinstance(a, (int, float)) and isinstance(b, (int, float))):
+        return math.nan
+    if a == b:
+        return 0.0
+    return (b - a) / abs(a) if a else math.copysign(math.inf, b)
+
+
+def rows(a, b):
+    """(key, value in a, value in b, difference, relative difference) of all keys, in the order of a, then what only b has.
+
+    What one does not have is MISSING; for texts the relative difference is "" if they are equal, else "differs".
+    """
+    table = []
+    for key in [*a, *(key for key in b if key not in a)]:
+        left, right = a.get(key, MISSING), b.get(key, MISSING)
+        if all(isinstance(value, (int, float)) for value in (left, right)):
+            table.append((key, left, right, right - left, relative(left, right)))
+        else:
+            table.append((key, left, right, "", "" if left == right else "differs"))
+    return table
+
+
+def cut(value):
+    """a text short enough for a table"""
+    return f"{value[:WIDE - 3]}..." if isinstance(value, str) and len(value) > WIDE else value
+
+
+def largest(table):
+    """Largest relative difference of all numbers in rows(); infinite where texts differ, a key is missing or one is NaN"""
+    sizes = [0.0]
+    for *_, change in table:
+        if change == "differs" or (isinstance(change, float) and math.isnan(change)):
+            sizes.append(math.inf)
+        elif change != "":
+            sizes.append(abs(change))
+    return max(sizes)

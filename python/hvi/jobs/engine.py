@@ -1,0 +1,440 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""Many runs of a LAMMPS input: each in its own folder, some at a time, those that are done left alone.
+
+A run is done if its folder has a complete result.yaml and its job.yaml says that input, files that it includes, variables
+and material files were the same. One that was interrupted goes on from its restart files where a second input does that. Ctrl-C ends
+what runs; what another process is still at (after kill -9 of the first) is waited for.
+"""
+
+import contextlib
+import fcntl
+import hashlib
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import yaml
+
+from .. import progress, tables
+from ..errors import HVIError, reading, writing
+from ..material.library import potentials
+from ..version import ROOT
+
+RESULT, LAST = "result.yaml", "package_version"  # what a run is for, and the last key in it: it is there if the file is complete
+PATIENCE = 10  # seconds that mpirun has to end its ranks
+FULL = 100_000  # bytes: less is a full disk
+
+
+def read_yaml(path):
+    """the mapping in a YAML file; None if there is none"""
+    try:
+        data = yaml.safe_load(path.read_text())
+    except (OSError, yaml.YAMLError, UnicodeDecodeError):
+        return None
+    return data if isinstance(data, dict) else None
+
+
+def yaml_of(mapping):
+    return yaml.safe_dump(mapping, sort_keys=False, width=1000)
+
+
+def write_yaml(path, mapping):
+    """a YAML file, whole or not at all"""
+    new = path.with_name(path.name + ".new")
+    new.write_text(yaml_of(mapping))
+    os.replace(new, path)
+
+
+def frames(folder, pattern):
+    """dumps in order of their steps"""
+    return sorted(pathlib.Path(folder).glob(pattern), key=lambda path: int(re.sub(r"\D", "", path.name) or 0))
+
+
+class Input:
+    """A LAMMPS input and what it includes, as texts: copies of them are run."""
+
+    def __init__(self, path):
+        self.path, self.texts = pathlib.Path(path).resolve(), {}
+        self.name = self.path.name
+        self._read(self.name)
+        self.known = {}  # variables that -var may set: {name: may it have several values}
+        for text in self.texts.values():
+            for name, values in re.findall(r'\bvariable\s+(\w+)\s+index\b(?=([^"#\n]*))', text):
+                self.known[name] = self.known.get(name, False) or len(values.split()) > 1
+        joined = re.sub(r"&[ \t]*\n", " ", "\n".join(self.texts.values()))
+        said = [line.split() for line in re.findall(r"^\s*hvi/variables\s+known\s(.*)", joined, re.M)]
+        if said:  # the input itself says which; what it names as optional may be lists
+            named = {name for line in said for name in line} - {"optional"}
+            optional = {name for line in said if "optional" in line for name in line[line.index("optional") + 1:]}
+            self.known = {name: name in optional or self.known.get(name, True) for name in named}
+
+    def _read(self, name):
+        with reading(f"the input {self.path.parent / name}"):
+            self.texts[name] = text = (self.path.parent / name).read_text()
+        for other in re.findall(r"^\s*include\s+([\w./-]+)\s*(?:#.*)?$", text, re.M):  # names without variables
+            if other not in self.texts:
+                self._read(other)
+
+    def checksum(self):
+        return digest("\0".join(self.texts[name] for name in sorted(self.texts)).encode())
+
+    def check(self, variables, where):
+        """LAMMPS takes any name after -var; one that the input does not know would change nothing"""
+        for name, value in variables.items():
+            if name not in self.known:
+                raise HVIError(f"{where}: {self.name} has no variable '{name}'")
+            if isinstance(value, list) and not self.known[name]:
+                raise HVIError(f"{where}: variable '{name}' of {self.name} is one value, not a list")
+
+    def copy_to(self, folder):
+        for name, text in self.texts.items():  # LAMMPS reads on while it runs
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(text)
+
+
+def digest(data):
+    return hashlib.sha256(data).hexdigest()[:16]
+
+
+def words(value):
+    """a value of a variable as LAMMPS's words: a list has a word for each"""
+    return [str(v) for v in (value if isinstance(value, list) else [value])]
+
+
+def job_name(case):
+    """a folder name from what varies: tD-0.1_v0-5000"""
+    return "_".join(re.sub(r"[^\w.+-]", "-", f"{name}-{'+'.join(words(value))}") for name, value in case.items())
+
+
+class Job:
+    """One run of an input in its own folder; goes_on: the input that goes on with it, restart: pattern of the files from which."""
+
+    def __init__(self, source, name, variables, folder, restart=None, remove=(), weight=1.0, made=None, goes_on=None):
+        self.input, self.name, self.variables, self.folder = source, name, variables, pathlib.Path(folder)
+        self.restart, self.remove, self.weight, self.goes_on = restart, remove, weight, goes_on  # weight: how much of all work this is
+        self.record = {"input": source.checksum(), "variables": variables}
+        if goes_on:
+            self.record["continue"] = goes_on.checksum()
+        self.make, meshes = made or (None, {})  # a function of path and words, {file: words}: what the run finds in its folder
+        if meshes:
+            self.record["made"] = meshes
+        if files := self._files():
+            self.record["files"] = files
+        self.process, self.lock, self.start, self.problem, self.advice, self.asked = None, None, None, "", "", False
+        self.resumed, self.saved = False, []  # if it went on, and from what
+
+    def _files(self):
+        """checksums of the files that variables name: materials, plates"""
+        found = {}
+        for word in (word for value in self.variables.values() for word in words(value)):
+            for path in (folder / word for folder in potentials()):  # an absolute path stays what it is
+                if re.search(r"\.\w*[a-z]\w*$", word) and path.is_file():
+                    found[word] = digest(path.read_bytes())
+                    break
+        return found
+
+    def result(self):
+        """the results if the job is done with these variables, input and files, else None"""
+        if not self.begun():
+            return None
+        result = read_yaml(self.folder / RESULT)
+        return result if result and LAST in result else None
+
+    def begun(self):
+        """True if it was started before, with these variables, input and files"""
+        return read_yaml(self.folder / "job.yaml") == self.record
+
+    def restart_files(self):
+        """what the run left to go on from, newest last"""
+        found = self.folder.glob(self.restart) if self.restart and self.begun() else []
+        return sorted(found, key=lambda path: path.stat().st_mtime)
+
+    def _saved(self):
+        """files with particles and their times"""
+        return sorted((path, path.stat().st_mtime_ns) for path in [*self.folder.glob("*.restart*")] or self.restart_files())
+
+    def words(self):
+        """LAMMPS's options"""
+        files = self.restart_files()
+        options = ["-in", (self.goes_on if files else self.input).name, "-log", "log.lammps"]
+        for name, value in self.variables.items():
+            options += ["-var", name, *words(value)]
+        return options + (["-var", "from", str(files[-1].relative_to(self.folder))] if files else [])
+
+    def take(self):
+        """True if no other process is at this run; from now on none can be. Processes that it starts keep the lock."""
+        self.folder.parent.mkdir(parents=True, exist_ok=True)
+        lock = os.open(self.folder.parent / f".{self.folder.name}.lock", os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            os.close(lock)
+            return False
+        self.lock = lock
+        return True
+
+    def leave(self):
+        if self.lock is not None:
+            os.close(self.lock)
+            self.lock = None
+
+    def begin(self, command):
+        """start it, in an empty folder unless it goes on; nothing left there can be taken for a result"""
+        self.resumed = bool(self.restart_files())
+        if not self.resumed:
+            shutil.rmtree(self.folder, ignore_errors=True)
+        self.saved = self._saved()
+        self.folder.mkdir(parents=True, exist_ok=True)
+        (self.folder / RESULT).unlink(missing_ok=True)
+        for source in filter(None, (self.input, self.goes_on)):
+            source.copy_to(self.folder)
+        for name, said in self.record.get("made", {}).items():
+            self.make(self.folder / name, **said)
+        (self.folder / "job.yaml").write_text(yaml.safe_dump(self.record, sort_keys=False))
+        self.launch(command)
+
+    def launch(self, command, more=False):
+        """more: what it prints is added to what there is"""
+        environment = {"LAMMPS_POTENTIALS": os.pathsep.join(map(str, potentials())), **os.environ}
+        with open(self.folder / "output.txt", "a" if more else "w") as out:
+            self.process = subprocess.Popen(command(self), cwd=self.folder, stdin=subprocess.DEVNULL, stdout=out, env=environment,
+                                            stderr=subprocess.STDOUT, start_new_session=True, pass_fds=[self.lock])
+
+    def ended(self, command, timeout):
+        """True when it is over, by itself or by the time limit; self.problem then says what is wrong"""
+        if self.start is None:
+            self.start, self.problem, self.advice = time.monotonic(), "", ""
+        late = timeout and time.monotonic() - self.start > timeout
+        if self.process is None:  # another process was at it, or it has yet to begin
+            if self.take():
+                if self.result() is None:
+                    self.begin(command)
+                    return False
+            elif late:
+                self.problem = f"another process is at it for more than {timeout:g} s"
+            else:
+                return False
+            self.leave()
+            return True
+        status = self.process.poll()
+        if status is None and not late or status == 0 and self.goes_on_now(command):
+            return False
+        if status is None:
+            end([self])
+            self.problem = f"stopped after {timeout:g} s"
+            self.advice = ("call again: it goes on from what it has saved" if self._saved() != self.saved and self.restart_files() else
+                           "it has saved nothing new, another call would come no farther: take a longer --timeout")
+        elif status != 0:
+            self.problem = said_of(status)
+        elif self.result() is None:
+            self.problem = f"no complete {RESULT}"
+        if not self.problem:
+            self.problem = self.finish()
+        if self.problem and shutil.disk_usage(self.folder).free < FULL:
+            self.advice = "the disk is full"
+        if self.problem and self.resumed and status is not None and self._saved() == self.saved:
+            for path in self.restart_files()[-1:]:  # it came no farther: what it went on from may be what is wrong, the next try takes the one before, or begins anew
+                path.unlink()
+        for pattern in [] if self.problem else self.remove:
+            for path in self.folder.glob(pattern):
+                path.unlink()
+        self.process = None
+        self.leave()
+        return True
+
+    def goes_on_now(self, command):
+        """after a call of LAMMPS that ended well: True if it was not the last of the run, and the next one has begun"""
+        return False
+
+    def finish(self):
+        """what is done with a run that has ended well; what went wrong, "" if nothing"""
+        return ""
+
+    def ask_to_end(self):
+        """once: a second signal would make mpirun leave without its ranks"""
+        if self.process is not None and not self.asked:
+            self.process.terminate()
+            self.asked = True
+
+    def kill(self):
+        """if it still runs; with its ranks, which have groups of their own and would see only later that mpirun is gone"""
+        if self.process is not None and self.process.poll() is None:
+            ranks = []
+            with contextlib.suppress(OSError):  # where there is no such file they end by themselves
+                ranks = pathlib.Path(f"/proc/{self.process.pid}/task/{self.process.pid}/children").read_text().split()
+            os.killpg(self.process.pid, signal.SIGKILL)
+            for rank in ranks:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(int(rank), signal.SIGKILL)
+            self.process.wait()
+        self.leave()
+
+    def stage(self):
+        """(part of the run that is done, words on it); here nothing is known of it"""
+        return 0.0, ""
+
+    def last_lines(self, n=8):
+        """the end of what LAMMPS and mpirun said, from the first error on if there is one"""
+        try:
+            lines = [line.rstrip() for line in (self.folder / "output.txt").read_text(errors="replace").splitlines()]
+        except OSError:
+            return []
+        lines = [line for line in lines if line]
+        frame = next((i for i, line in enumerate(lines) if re.fullmatch("-{60,}", line)), 0)  # what mpirun says after that hides why
+        lines = lines[:frame] or lines
+        errors = [i for i, line in enumerate(lines) if line.startswith("ERROR") or "*** Process received signal ***" in line]
+        return lines[max(0, errors[0] - 1):][:n] if errors else lines[-n:]
+
+
+def end(jobs):
+    """mpirun ends its ranks when it is told to; if it does not listen, or Ctrl-C is pressed again, it is killed"""
+    try:
+        for job in jobs:
+            job.ask_to_end()
+        until = time.monotonic() + PATIENCE
+        for job in jobs:
+            if job.process is not None:
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    job.process.wait(timeout=max(until - time.monotonic(), 0.0))
+    finally:
+        for job in jobs:
+            job.kill()
+
+
+class Runner:
+    """Runs jobs as the options of the command line say."""
+
+    def __init__(self, args, ranks=None, timeout=None):
+        self.jobs, self.ranks = args.jobs, args.ranks or ranks or 2
+        self.timeout, self.mpirun = args.timeout or timeout, args.mpirun
+        self.lmp = pathlib.Path(args.lmp or os.environ.get("HVI_LMP") or ROOT / "build" / "lmp")
+        if not self.lmp.is_file():
+            raise HVIError(f"{self.lmp} does not exist: run make first, or give --lmp FILE")
+        if not os.access(self.lmp, os.X_OK):
+            raise HVIError(f"{self.lmp} cannot be executed: run make first, or give --lmp FILE")
+        self.lmp = self.lmp.resolve()
+        if not shutil.which(self.mpirun):
+            raise HVIError(f"{self.mpirun} is not there: install MPI, or give --mpirun FILE")
+        if os.sep in self.mpirun:
+            self.mpirun = os.path.abspath(self.mpirun)  # runs have folders of their own
+        for ends in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C; nohup still works
+            if signal.getsignal(ends) != signal.SIG_IGN:
+                signal.signal(ends, signal.default_int_handler)
+
+    def command(self, job):
+        command = [self.mpirun, "-np", str(self.ranks), str(self.lmp), *job.words()]
+        env = ROOT / "cmake" / "env.sh"  # lets mpirun run as root, in containers, with more ranks than cores
+        return [str(env), *command] if env.is_file() else command
+
+    def show(self, jobs):
+        """what would be run"""
+        for job in jobs:
+            print(" ".join(self.command(job)))
+
+    def run(self, jobs, what, more=lambda job: []):
+        """Runs those that are not done, some at a time; returns those that failed.
+
+        more(job): jobs that follow from one that is done
+        Ctrl-C ends what runs and is passed on.
+        """
+        waiting, running, failed, over, work = list(jobs), [], [], 0, 0.0
+        start, look = time.monotonic(), 0.0
+        form = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}{postfix}"
+        with progress.bar(1, what, sys.stdout, bar_format=form) as bar:
+            try:
+                while waiting or running:
+                    while waiting and len(running) < self.jobs:
+                        job = waiting.pop(0)
+                        if job.result() is None:
+                            running.append(job)
+                        else:
+                            waiting += more(job)
+                    for job in [j for j in running if self._ended(j)]:
+                        running.remove(job)
+                        over, work = over + 1, work + job.weight
+                        if job.problem:
+                            failed.append(job)
+                        else:
+                            waiting += more(job)
+                        left = sum(j.weight for j in waiting + running)
+                        bar.write(f"[{over}/{over + len(waiting) + len(running)}] {self._line(job)}"
+                                  + (f"   about {duration((time.monotonic() - start) / work * left)} left" if left else ""))
+                    if not isinstance(bar, progress.Silent) and time.monotonic() > look:
+                        stages = [job.stage() for job in running]
+                        bar.total = work + sum(j.weight for j in waiting + running)
+                        bar.n = work + sum(part * job.weight for (part, _), job in zip(stages, running))
+                        bar.set_postfix_str("; ".join(job.name + text for (_, text), job in zip(stages, running)))
+                        look = time.monotonic() + 0.5
+                    time.sleep(0.05)
+            except KeyboardInterrupt:
+                print("interrupted: call again to go on", file=sys.stderr)
+                raise
+            finally:
+                end(running)
+        return failed
+
+    def _ended(self, job):
+        try:
+            return job.ended(self.command, self.timeout)
+        except OSError as problem:  # every other run would meet the same
+            raise HVIError(f"cannot run in {job.folder}: {problem.strerror}{f': {problem.filename}' if problem.filename else ''}; "
+                           "put that right and call again to go on") from None
+
+    def _line(self, job):
+        took = f"{time.monotonic() - job.start:.0f} s"
+        if not job.problem:
+            return f"{job.name}  ok  {took}"
+        return "\n".join([f"{job.name}  FAILED: {job.problem}{f'; {job.advice}' if job.advice else ''}  {took}", *(f"    | {line}" for line in job.last_lines()), f"    | see {job.folder}"])
+
+
+def said_of(status):
+    """an exit status in words; that of mpirun is 128 + the signal that ended a rank"""
+    number = -status if status < 0 else status - 128
+    known = {member.value: member.name for member in signal.Signals}
+    return f"exit status {status}" + (f" ({known[number]}{': out of memory?' if number == signal.SIGKILL else ''})" if number in known else "")
+
+
+def duration(seconds):
+    return f"{seconds:.0f} s" if seconds < 90 else f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+
+
+def cell(value):
+    """a variable or a result as a cell of a table"""
+    return "; ".join(map(str, value)) if isinstance(value, list) else value
+
+
+def write_table(jobs, path):
+    """A CSV file: job, variables, results of all jobs that are done."""
+    rows = [{"job": job.name, **result, **job.variables} for job in jobs if (result := job.result())]
+    columns = list(dict.fromkeys(["job", *(n for j in jobs for n in j.variables), *(n for row in rows for n in row)]))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    tables.write_csv(path, columns, [[cell(row.get(name, "")) for name in columns] for row in rows])
+
+
+@contextlib.contextmanager
+def table_of(jobs, path):
+    """write_table() at the end, of a part of the runs, too; what stopped them is what is said, not that there is no room for the table either
+
+    jobs: function without arguments
+    """
+    try:
+        yield
+    except BaseException:
+        with contextlib.suppress(OSError, HVIError):
+            write_table(jobs(), path)
+        raise
+    with writing(path):
+        write_table(jobs(), path)
+
+
+def overview(jobs, keys):
+    """A table for the eye: all jobs, with those of the keys that any of them has."""
+    results = [(job, job.result() or {}) for job in jobs]
+    shown = [key for key in keys if any(key in result for _, result in results)]
+    rows = [(job.name, "done" if result else job.problem or "not run", *(cell(result.get(key, "-")) for key in shown)) for job, result in results]
+    return tables.text(("run", "state", *shown), rows)

@@ -1,0 +1,70 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""What material files say that decides whether a body is a solid: its laws of strength, and what lets it fail under tension."""
+
+import difflib
+import re
+
+from ..errors import reading
+from . import library
+
+SOLID = "damage no spall voids"  # words of fix hvi/johnson-cook that shields take
+
+
+def strengths(path):
+    """laws of strength in a material file"""
+    with reading(path):
+        return re.findall(r"^[ \t]*strength[ \t]+([\w-]+)", path.read_text(), re.M)
+
+
+def find(reader, node, key):
+    """Reads the name of a material: a file beside that of the reader, or one of the package, without .hvi; it must have a section strength"""
+    name = reader.text(node, key)
+    known = {path.stem: path for folder in reversed(library.potentials()) for path in sorted(folder.glob("*.hvi"))}
+    solid = sorted(stem for stem, path in known.items() if strengths(path))
+    own = next((path for path in (reader.path.parent / name, reader.path.parent / f"{name}.hvi") if path.is_file()), None)
+    path = own or known.get(name.removesuffix(".hvi"))
+    if path is None:
+        reader.wrong(key, f"no material {name}{meant(name, solid)} (known: {', '.join(solid)})", node)
+    if not strengths(path):
+        reader.wrong(key, f"{path.stem} has no section strength, it would be a liquid (known: {', '.join(solid)})", node)
+    return str(own.resolve()) if own else path.name
+
+
+COMMON = {"aluminum": "Al", "aluminium": "Al", "copper": "Cu", "steel": "steel", "iron": "Fe", "titanium": "Ti", "tantalum": "Ta", "lead": "Pb", "tungsten": "W", "nickel": "Ni",
+          "plexiglass": "PMMA", "acrylic": "PMMA", "magnesium": "Mg", "beryllium": "Be", "zinc": "Zn", "silver": "Ag", "gold": "Au"}
+
+
+def meant(name, known):
+    """words on which of the known materials a name may mean"""
+    element = COMMON.get(name.lower())
+    of = [stem for stem in known if element and re.match(rf"{element}(?![a-z])", stem)]
+    near = of or difflib.get_close_matches(name, known, 1, 0.4)
+    return f"; did you mean {' or '.join(near)}?" if near else ""
+
+
+def check(case, reader):
+    """All materials must have the law of strength that the run takes: one without it would be a liquid, whatever else its file has"""
+    words = case.setting("solid").split()
+    law = next((new for old, new in zip(words, words[1:]) if old == "strength"), "johnson-cook")
+    places = [("projectile: material", case.material), *((f"wall {k}: material", wall.material) for k, wall in enumerate(case.walls, 1))]
+    laws = {name: strengths(path) for _, name in places if (path := library.path_of(name))}
+    common = sorted(set.intersection(*map(set, laws.values())) - {"none"}) if laws else []
+    for key, name in places:
+        if name not in laws or law in laws[name] or law == "none":
+            continue
+        kept = " ".join(word for k, word in enumerate(words) if word != "strength" and (k == 0 or words[k - 1] != "strength"))
+        remedy = (f"take settings: {{solid: {kept} strength {common[0]}}}, which all materials of this case have" if common else
+                  f"all materials of a case must have one law in common, and these have none: give {library.stem(name)} a section strength {law}")
+        reader.wrong(key, f"{library.stem(name)} has strength {' and '.join(laws[name])}, and the run takes {law}: it would be a liquid; {remedy}")
+
+
+def tears(name, solid):
+    """True if there is something in a material file that lets it fail under tension, with these words of fix hvi/johnson-cook"""
+    path = library.path_of(name)
+    if path is None:
+        return True  # LAMMPS says so
+    words, text = solid.split(), path.read_text(errors="replace")
+    law, damage = (next((new for old, new in zip(words, words[1:]) if old == key), preset) for key, preset in (("spall", "principal"), ("damage", "yes")))
+    section = law if law in ("voids", "tuler-butcher", "grady") else "limit"
+    return (law != "none" and re.search(rf"^[ \t]*spall[ \t]+{section}\b", text, re.M) is not None
+            or damage != "no" and re.search(r"^[ \t]*damage[ \t]", text, re.M) is not None)

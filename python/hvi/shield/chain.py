@@ -1,0 +1,205 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""A run of a shield as a chain of lmp calls, each from the restart file of the one before.
+
+A restart file that was written is always read, by the next call of the chain: so a chain that was stopped has the bits of one
+that was not. Where it stands is in chain.yaml, which names the last whole restart file; two files are written in turn.
+"""
+
+import contextlib
+import math
+import os
+import pathlib
+
+import numpy as np
+
+from ..errors import HVIError
+from ..jobs import engine
+from . import record, script, verdict
+from . import case as cases
+
+CHAIN = "chain.yaml"
+LEG = 4e8  # particle-steps between restart files: some minutes of a core
+LEGS = 50  # at most
+FRAMES, BUDGET = 20, 3e8  # frames of a film, and bytes that they may have all together
+ROW = 150  # bytes of a particle in a dump,
+RECORD = 600  # in a restart file,
+BYTES = 6100  # in memory: 8,218 MB were measured for 1.35e6 particles, of a single plate at 0.125 mm
+STEPS = 1.6  # of script.Shield.steps(), in runs of 600 to 4,000 steps
+SPEED = 6e5  # particle-steps per second of a core, in the same runs
+
+
+class Written:
+    """The inputs of a run, as engine.Job takes an input"""
+
+    name = script.BEGIN
+
+    def __init__(self, shield):
+        self.texts, self.copy_to = shield.texts(), shield.copy_to
+
+    def checksum(self):
+        return engine.digest("\0".join(self.texts.values()).encode())
+
+
+def shield_of(case, which, shift):
+    """the script.Shield of a run, with all its settings"""
+    found = script.Shield(case, which, shift, {name: case.setting(name) for name in cases.SETTINGS})
+    film = found.settings["film"]
+    if film == 0:
+        frames = max(4, min(FRAMES, int(BUDGET / (ROW * found.particles()))))
+        film = float(f"{found.geometry.tstop_us / frames:.2g}")
+    found.settings["film"] = max(film, 0)
+    return found
+
+
+def legs(shield):
+    """calls of the chain: the same for the same case, whatever the machine"""
+    return max(1, min(LEGS, round(shield.particles() * shield.steps() / LEG)))
+
+
+class Job(engine.Job):
+    """A run of a case in its own folder: legs from restart file to restart file, then its result"""
+
+    def __init__(self, case, which, shift, name, folder, weight=1.0, remove=()):
+        self.case, self.which, self.shift = case, which, shift
+        self.shield = shield_of(case, which, shift)
+        self.legs = legs(self.shield)
+        super().__init__(Written(self.shield), name, case.variables(which, shift), folder, remove=remove, weight=weight, made=(script.make, self.shield.files()))
+
+    def chain(self):
+        """{leg: calls that are done, file: restart file}"""
+        found = engine.read_yaml(self.folder / CHAIN) if self.begun() else None
+        return found if found and (self.folder / str(found.get("file"))).is_file() else {"leg": 0, "file": None}
+
+    def restart_files(self):
+        state = self.chain()
+        return [self.folder / state["file"]] if state["file"] else []
+
+    def until(self, leg):
+        return self.shield.latest_us * (leg + 1) / self.legs
+
+    def words(self):
+        state = self.chain()
+        leg = state["leg"]
+        goes_on = ["-var", "from", state["file"]] if leg else []
+        return ["-in", script.CONTINUE if leg else script.BEGIN, "-log", f"log.{leg + 1}.lammps", "-var", "until", f"{self.until(leg):.10g}", *goes_on,
+                "-var", "to", f"shield.restart.{'ab'[leg % 2]}"]
+
+    def launch(self, command, more=False):
+        if not more:
+            write_plan(self.shield, self.folder)
+        super().launch(command, more or self.chain()["leg"] > 0)
+
+    def take(self):
+        """as engine.Job; a call that went on when the front door was killed may have ended since"""
+        taken = super().take()
+        lost = (engine.read_yaml(self.folder / CHAIN) or {}).get("leg", 0) > self.chain()["leg"]  # its restart file is gone: it begins anew
+        if taken and self.begun() and self.result() is None and not lost:
+            log = self.folder / f"log.{self.chain()['leg'] + 1}.lammps"
+            if log.is_file() and "Total wall time" in log.read_text(errors="replace")[-200:]:
+                with contextlib.suppress(HVIError):  # what it has written is not there: it begins anew
+                    self.advance()
+        return taken
+
+    def goes_on_now(self, command):
+        try:
+            if not self.advance():
+                self.launch(command, more=True)
+                return True
+        except HVIError as problem:
+            print(problem)
+        return False
+
+    def advance(self):
+        """after a call: True if the run is over, and its result written"""
+        leg = self.chain()["leg"]
+        steps, history = record.rows_of(self.folder / "history.dat")
+        if history[-1, 0] >= self.until(leg) and leg + 1 < self.legs:
+            file = f"shield.restart.{'ab'[leg % 2]}"
+            if not (self.folder / file).is_file():
+                raise HVIError(f"{self.folder}: the run has written no {file}, from which it would go on")
+            engine.write_yaml(self.folder / CHAIN, {"leg": leg + 1, "file": file, "step": int(steps[-1]), "time_us": float(history[-1, 0])})
+            return False
+        write_result(self.shield, self.folder)
+        for path in (self.folder / CHAIN, *self.folder.glob("shield.restart.*")):
+            path.unlink(missing_ok=True)
+        return True
+
+    def stage(self):
+        """(part of the time that is done, words on it)"""
+        try:
+            with open(self.folder / "output.txt", "rb") as out:
+                out.seek(max(0, os.path.getsize(self.folder / "output.txt") - 20000))
+                lines = [line.split() for line in out.read().decode(errors="replace").splitlines()]
+            head = next(line for line in reversed(lines) if line[:2] == ["Step", "v_us"])
+            us = next(float(line[1]) for line in reversed(lines) if len(line) == len(head) and line[0].isdigit())
+        except (OSError, StopIteration, ValueError):
+            return 0.0, ""
+        return min(us / self.shield.geometry.tstop_us, 0.999), f" {us:.1f} us, enough are {self.shield.geometry.tstop_us:.1f}"
+
+
+def write_plan(shield, folder):
+    engine.write_yaml(pathlib.Path(folder) / "plan.yaml", plan_of(shield))
+
+
+def size_of(shield):
+    """about what a run takes: from geometry alone, before anything is made or read"""
+    count, steps, film = shield.particles(), STEPS * shield.steps(), shield.settings["film"]
+    frames = shield.geometry.tstop_us / film + 2 if film else 1
+    return {"particles": round(count), "steps": round(steps), "core_s": float(f"{count * steps / SPEED:.3g}"), "memory_MB": round(35 + BYTES * count / 1e6),
+            "disk_MB": round((frames * ROW + 4 * RECORD) * count / 1e6, 1)}
+
+
+def plan_of(shield):
+    """plan.yaml: what is run, as reports and pictures read it"""
+    g, case = shield.geometry, shield.case
+    found = {"dx_mm": case.spacings_mm[shield.which], "projectile_particles": round(shield.in_projectile() / shield.images), "projectile_across": round(2 * g.R / g.a, 1)}
+    for k, (wall, of) in enumerate(zip(g.walls, case.walls), 1):
+        found.update({f"wall{k}_{name}": value for name, value in {
+            "particles": round(math.pi * (wall.radius / wall.spacing) ** 2 * wall.layers / shield.images), "elements": int(of.method != "sph"), "layers": wall.layers,
+            "radius_mm": round(1e3 * wall.radius, 1), "middle_mm": round(1e3 * wall.middle, 1), "struck_at_mm": round(1e3 * wall.struck, 1),
+            "front_mm": float(f"{1e3 * wall.front:.6g}"), "thickness_mm": float(f"{1e3 * wall.thickness:.6g}"), "spacing_mm": float(f"{1e3 * wall.spacing:.6g}")}.items()})
+    areal = [wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])]
+    found.update({f"wall{k}_areal_density_kg_m2": round(value, 3) for k, value in enumerate(areal, 1)})
+    found.update(areal_density_kg_m2=round(sum(areal), 3), **size_of(shield))
+    of_run = {**shield.settings, "tstop": g.tstop_us, "quarter": "yes" if g.quarter else "no"}
+    return {**found, "tstop_us": g.tstop_us, "projectile_at_the_last_wall_us": g.arrival_us, "materials": [case.material, *(wall.material for wall in case.walls)],
+            "settings": {name: float(f"{value:.9g}") if isinstance(value, float) else list(value) if isinstance(value, tuple) else value for name, value in of_run.items() if value is not None}}
+
+
+def write_result(shield, folder):
+    """result.yaml, verdict first; frames before the next wall is struck as cloudK.dump"""
+    found = record.measure(shield, folder)
+    said = verdict.of_run(shield, found)
+    engine.write_yaml(pathlib.Path(folder) / "result.yaml", record.rounded({**said, **found}))
+    clouds(found, pathlib.Path(folder))
+    return found
+
+
+def clouds(found, folder):
+    """the last frame before the next wall is struck has the name cloudK.dump, too"""
+    steps, history = record.rows_of(folder / "history.dat")
+    frames = sorted((float(np.interp(int(path.name.split(".")[1]), steps, history[:, 0])), path) for path in engine.frames(folder, "film.*.dump"))
+    for k in range(1, found["walls_reached"]):
+        before = [path for us, path in frames if us <= found[f"wall{k}_until_us"] + 1e-6]
+        if before:
+            name = folder / f"cloud{k}.dump"
+            name.unlink(missing_ok=True)
+            os.link(before[-1], name)
+
+
+def write_run(case, which, shift, folder):
+    """a folder that LAMMPS alone can run: inputs, materials, meshes; the case of this run, for the verdict"""
+    shield = shield_of(case, which, shift)
+    shield.write(folder)
+    write_plan(shield, folder)
+    return shield
+
+
+def judge(folder):
+    """The result of a folder of write_run(), run by hand; result.yaml is written"""
+    folder = pathlib.Path(folder)
+    if not (folder / script.CASE).is_file():
+        raise HVIError(f"{folder} has no {script.CASE}: it is no folder of python3 -m hvi shield --write")
+    case = cases.read(folder / script.CASE)
+    write_result(shield_of(case, 0, case.shifts[0]), folder)
+    return engine.read_yaml(folder / "result.yaml")

@@ -1,0 +1,116 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""Does the wall hold?  One case at several spacings and shifts of the lattice, one verdict."""
+
+import itertools
+import math
+
+from ..errors import HVIError
+from ..jobs import engine
+from . import chain, elements, geometry
+from . import case as cases
+
+STATUS = {"holds": 0, "fails": 3, "undecided": 4}  # exit status of each verdict
+
+
+def members(case):
+    """(number of the spacing, shift) of each run of a case, coarse first"""
+    return [(which, shift) for which in range(len(case.spacings_mm)) for shift in case.shifts]
+
+
+def member_name(case, member):
+    return engine.job_name({"dx": case.spacings_mm[member[0]], "shift": member[1]})
+
+
+def job(case, member, folder, name=None, remove=()):
+    weight = (case.spacings_mm[0] / case.spacings_mm[member[0]]) ** 4  # particles and steps
+    return chain.Job(case, *member, name or member_name(case, member), folder, weight=weight, remove=remove)
+
+
+def verdict(job):
+    """(verdict, reasons, notes) of a run that is done; notes: what is doubtful in a run that fails nevertheless"""
+    result = job.result()
+    if result is None:
+        raise HVIError(f"{job.folder}: its result is gone or of another case: does another call use the same folder? Call again, or take another --runs DIR")
+    said = result.get("verdict")
+    if said not in STATUS:
+        raise HVIError(f"{job.folder / 'result.yaml'}: no verdict, holds, fails or undecided, but {said}")
+    return said, *(list(result.get(key) or []) for key in ("reasons", "notes"))
+
+
+def decide(case, said):
+    """(verdict, reasons, notes) of all runs, {member: the same of each}: undecided where they differ."""
+    def where(which):
+        return f"{case.spacings_mm[which]:g} mm"
+
+    reasons = []
+    if len(case.spacings_mm) < 2:
+        reasons.append("one spacing only: nothing says how much it matters; give spacings_mm a second, finer one")
+    per = {which: {said[which, shift][0] for shift in case.shifts} for which in range(len(case.spacings_mm))}
+    for which, found in per.items():
+        if len(found) > 1:
+            reasons.append(f"the verdict differs over the shift of the lattice at {where(which)}: " + ", ".join(
+                f"{said[which, shift][0]} with {shift:g}" for shift in case.shifts))
+    if len({frozenset(found) for found in per.values()}) > 1:
+        reasons.append("the verdict differs over the spacing: " + ", ".join(f"{' or '.join(sorted(found))} at {where(which)}" for which, found in per.items()))
+    if {"holds", "fails"} <= set.union(*per.values()):
+        reasons.append("so near the limit finer spacings_mm may decide; python3 -m hvi limit says how near it is")
+    finest = len(case.spacings_mm) - 1, case.shifts[-1]
+    texts = {}  # why runs are undecided; if all agree on another verdict, what the finest says of it
+    for member, (verdict, why, _) in said.items():
+        for text in why:
+            if verdict == "undecided" or not reasons and member == finest:
+                texts.setdefault(text, []).append(member_name(case, member))
+    told = [f"{text} ({', '.join(names)})" for text, names in texts.items()]
+    if reasons or per[0] == {"undecided"}:
+        return "undecided", reasons + told, []
+    (verdict,) = per[0]
+    notes = [f"{text} ({member_name(case, finest)})" for text in said[finest][2]]
+    return verdict, [f"all {len(said)} runs say so: spacings of {', '.join(f'{dx:g}' for dx in case.spacings_mm)} mm, "
+                     f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told], notes
+
+
+def finer(case, said, jobs):
+    """What would say more, as keys of the case: the finest spacing that can be decided and one with a layer more in the last wall, and what that costs.
+
+    said: {member: (verdict, reasons, notes)}; None if no spacing can decide
+    """
+    if case.not_modelled or "whole" in (jobs[0, case.shifts[0]].result().get("rules") or ()):
+        return None
+    last, which = case.walls[-1], len(case.spacings_mm) - 1
+    fine = (last.spacings_mm or case.spacings_mm)[-1]
+    layers = math.ceil(last.thickness_mm / fine - 0.01)
+    first = 1.0 if layers >= cases.LAYERS else last.thickness_mm / cases.LAYERS / fine
+    steps = (last.thickness_mm / n / fine for n in itertools.count(max(layers, cases.LAYERS) + 1))
+    second = next(r for r in itertools.islice(steps, 100) if r * cases.RATIO <= first and fits(case, r))
+    stay = first == 1.0 and all(said[which, shift][0] != "undecided" for shift in case.shifts)  # those of the finest need not be run again
+
+    def spacings(own):
+        return [float(f"{own[-1] * ratio:.4g}") for ratio in (first, second)]
+
+    spent = sum(jobs[which, shift].result().get("core_s", 0) for shift in case.shifts)
+    return {"spacings_mm": spacings(case.spacings_mm), **{f"wall {k}: spacings_mm": spacings(wall.spacings_mm) for k, wall in enumerate(case.walls, 1) if wall.spacings_mm},
+            "runs": len(case.shifts) * (1 if stay else 2), "core_s": float(f"{spent * (second**-4 + (0 if stay else first**-4)):.2g}")}
+
+
+def fits(case, ratio):
+    """True if walls with elements can have them with the finest spacings of a case times ratio"""
+    return all(elements.per_edge(geometry.layers(wall.thickness_mm, ratio * (wall.spacings_mm or case.spacings_mm)[-1]))
+               for wall in case.walls if wall.method != "sph")
+
+
+def said_of_finer(case, found):
+    """a line for the eye"""
+    keys = ", ".join(f"{key}: {value}" for key, value in found.items() if key.endswith("spacings_mm"))
+    more = "more runs, those of the finest spacing stay" if found["runs"] == len(case.shifts) else "runs, with the remedies above"
+    return f"next finer: {keys}: {found['runs']} {more}; about {found['core_s']:g} core-seconds"
+
+
+def shown(case):
+    """columns of the table of runs"""
+    n = len(case.walls)
+    return ["verdict", *(f"hole{k}_diameter_mm" for k in range(1, n + 1)), f"wall{n}_spall_mass_mg", "areal_density_kg_m2", "particles", "time_us", "core_s"]
+
+
+def lines(reasons, notes):
+    """for the eye"""
+    return [*(f"  - {text}" for text in reasons), *(["notes:"] if notes else []), *(f"  - {text}" for text in notes)]

@@ -1,0 +1,196 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""Does the wall hold? A table of rules on measured numbers; the same for a run and, below, for many.
+
+The wall that decides is the last one that was reached. It fails if it is perforated, or if anything behind it is apart.
+"""
+
+import dataclasses
+import math
+import types
+from typing import Callable
+
+from ..material import laws
+from . import case as cases
+
+NEEDED = cases.LAYERS  # layers of particles in the wall that decides
+SPARED = 1e-4  # of the energy of the shot: less does no harm to a wall that was not reached
+SHARE = 0.03  # of what a wall has been given: less that is still to come does not turn it
+LEAK = 1e-3  # of the energy balance
+STILL = 1.0  # percent of its momentum per us: less is no push
+BESIDE = 1e-3  # of the projectile
+FINER = 1.05  # particles that much finer than those of a wall slip through between them
+HEAT = 1e-3  # of the energy of the shot
+
+ALWAYS, UNLESS, FAILS, HOLDS, NOTE = "undecided", "undecided unless it fails", "fails", "holds", "note"
+
+
+@dataclasses.dataclass(frozen=True)
+class Rule:
+    """What a number says of the verdict.
+
+    effect: ALWAYS undecided, whatever else; UNLESS the wall fails all the same: then a note; FAILS; HOLDS (why it does); NOTE
+    when: condition on Measured; why: reason of the condition and its threshold; says: sentence of it; remedy: {key of the case: value}, what to do as words
+    """
+
+    name: str
+    effect: str
+    when: Callable
+    why: str
+    says: Callable
+    remedy: Callable = None
+    each: bool = False  # when gives the walls that it applies to, one sentence for each
+
+
+@dataclasses.dataclass(frozen=True)
+class Finding:
+    """A rule that applies to a run: its name, sentence, and remedy as keys of the case"""
+
+    name: str
+    effect: str
+    text: str
+    remedy: dict
+
+
+class Measured(types.SimpleNamespace):
+    """Numbers of a run that rules ask for: r, result.yaml's; d, number of the wall that decides"""
+
+    def of(self, key, k=None):
+        return self.r[f"wall{k or self.d}_{key}"]
+
+
+def measured(shield, result):
+    """Measured of a run; shield: its script.Shield, result: what record.measure() found"""
+    case, d, n = shield.case, result["walls_reached"], result["walls"]
+    m = Measured(r=result, d=d, n=n, case=case, shield=shield, last=d == n)
+    m.hole = result[f"hole{d}_diameter_mm"]
+    m.unknown = m.last and math.isnan(m.hole)
+    m.hole = 0.0 if math.isnan(m.hole) else m.hole
+    m.apart, m.spall = m.of("apart_mass_mg"), m.of("spall_mass_mg")
+    m.spared = max(SHARE * m.of("energy_ratio"), SPARED) if m.last else SPARED
+    m.late = not m.last and m.of("cloud_energy_ratio") > m.spared
+    m.plugged = m.last and m.hole > 0 and m.apart == 0 and result["momentum_left_ratio"] < 1e-3
+    m.off = abs(result["energy_ratio"] - 1)
+    m.missed, m.beside = max((m.of("missed_fraction", k), k) for k in range(1, d + 1))
+    walls = shield.geometry.walls
+    finest = min([shield.geometry.a, *(wall.spacing for wall in walls[:d - 1])])
+    m.sieve = walls[d - 1].spacing / finest
+    m.slips = m.last and m.hole == 0 and m.spall == 0 and m.apart > 0 and m.sieve > FINER
+    m.failed = m.last and not m.plugged and (m.hole > 0 or (m.apart > 0 and m.missed <= BESIDE and not m.slips))
+    solid = shield.settings["solid"]
+    m.solid = solid
+    m.whole = [k for k in range(1, d + 1) if not laws.tears(case.walls[k - 1].material, solid)]
+    m.ball_whole = not laws.tears(case.material, solid)
+    m.thickness = case.walls[d - 1].thickness_mm
+    m.tstop = 1.5 * max(shield.geometry.tstop_us, result["time_us"])
+    m.coarse = [k for k in range(1, d) if m.of("layers", k) < NEEDED]
+    m.torn = [k for k in range(1, d + 1) if m.of("torn", k)]
+    return m
+
+
+def tension(m, name):
+    return f"{name}, whose file has no law of spall ({m.solid}), so it does not fail in tension"
+
+
+RULES = (
+    Rule("not modelled", ALWAYS, lambda m: bool(m.case.not_modelled), "stuffing, MLI and honeycomb have no model",
+         lambda m: f"the shield has {', '.join(m.case.not_modelled)}, which is not modelled (as stuffing, MLI and honeycomb are not)",
+         lambda m: ({}, "test it, or take it out and judge what is left")),
+    Rule("late", ALWAYS, lambda m: m.late, f"the next wall is not struck yet, and {SPARED:g} of the energy of the shot harms no wall",
+         lambda m: f"the cloud of wall {m.d} has not arrived at the next wall after {m.r['time_us']:.1f} us",
+         lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
+    Rule("thin", ALWAYS, lambda m: not m.late and m.of("layers") < NEEDED, f"{NEEDED} layers are the least that bend, stretch and spall",
+         lambda m: f"wall {m.d}, which decides, has {m.of('layers')} layer(s) of particles, and {NEEDED} are needed",
+         lambda m: ({"spacings_mm": finest(m, m.d)}, f"take spacings_mm of {finest(m, m.d):.4g} or finer, or spacings and layers for this wall")),
+    Rule("leaky", ALWAYS, lambda m: m.off > LEAK, "forces that lose energy are not those of the model",
+         lambda m: f"the energy of the ledger is off by {100 * m.off:.2g} percent", lambda m: ({"settings": {"C": 0.3}}, "take settings: C smaller")),
+    Rule("tied", ALWAYS, lambda m: m.r["method"] == "tied", "its elements cannot fail",
+         lambda m: "method tied lets no element become particles", lambda m: ({"method": "hybrid"}, "take method hybrid")),
+    Rule("blunt", ALWAYS, lambda m: m.r["elements_failed_without_particles"] > 0, "they bear what they cannot bear",
+         lambda m: f"{m.r['elements_failed_without_particles']} elements that hold no particles have failed and stay",
+         lambda m: ({"hold_mm": None}, "take a larger hold_mm")),
+    Rule("torn", ALWAYS, lambda m: bool(m.torn), "debris meets nothing beyond",
+         lambda m: f"wall {m.torn[-1]} has become particles up to elements that hold none", lambda m: ({"hold_mm": None}, "take a larger hold_mm")),
+    Rule("comes", UNLESS, lambda m: m.last and m.of("still_to_come") > m.spared, f"{SHARE:g} of what the wall has been given, or {SPARED:g} of the shot",
+         lambda m: f"{100 * m.of('still_to_come'):.2g} percent of the energy of the shot are still on their way to wall {m.d}",
+         lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
+    Rule("pushed", UNLESS, lambda m: not m.late and m.of("push_percent_per_us") > STILL, f"less than {STILL:g} percent of its momentum per us is the end of the load",
+         lambda m: f"wall {m.d} is still pushed, its momentum changes by {m.of('push_percent_per_us'):.2g} percent per us",
+         lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
+    Rule("missed", UNLESS, lambda m: m.missed > BESIDE, f"{BESIDE:g} of the projectile is more than a stray particle",
+         lambda m: f"{100 * m.missed:.2g} percent of the projectile passed beside wall {m.beside}",
+         lambda m: ({f"wall {m.beside}: radius_mm": wider(m)}, f"take radius_mm of {wider(m)} for it")),
+    Rule("plugged", UNLESS, lambda m: m.plugged, "nothing came through: thin, not open",
+         lambda m: f"wall {m.d} has less than half of its mass over a width of {m.hole:.4g} mm, but nothing came through",
+         lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
+    Rule("slips", UNLESS, lambda m: m.slips, f"particles {FINER:g} times finer pass between those of the wall",
+         lambda m: f"what came through wall {m.d} may have slipped between its particles, {m.sieve:.2g} times as far apart as those of the cloud",
+         lambda m: ({"spacings_mm": None}, "take spacings that are alike")),
+    Rule("no plate", UNLESS, lambda m: m.unknown, "a hole is what a plate around it has",
+         lambda m: f"whether wall {m.d} has a hole is unknown, for no plate in one piece is left around the place that is struck",
+         lambda m: ({f"wall {m.d}: radius_mm": None}, "take a larger radius_mm for it, or smaller spacings_mm")),
+    Rule("whole", UNLESS, lambda m: m.whole, "what cannot fail in tension holds whatever comes",
+         lambda m, k: tension(m, f"wall {k} is of {m.case.walls[k - 1].material}"), each=True),
+    Rule("perforated", FAILS, lambda m: m.last and not m.plugged and m.hole > 0, "light goes through",
+         lambda m: f"wall {m.d} is perforated by a hole of {m.hole:.4g} mm"),
+    Rule("spall", FAILS, lambda m: m.last and m.spall > 0, "as ballistic-limit equations define failure",
+         lambda m: f"wall {m.d} has detached spall of {m.spall:.4g} mg"),
+    Rule("through", FAILS, lambda m: m.last and m.apart > m.spall, "as ballistic-limit equations define failure",
+         lambda m: f"{m.apart - m.spall:.4g} mg of other material came through wall {m.d}"),
+    Rule("spared", HOLDS, lambda m: not m.last and not m.late, f"{SPARED:g} of the energy of the shot harms no wall",
+         lambda m: f"what has passed wall {m.d} has {m.of('cloud_energy_ratio'):.2g} of the energy of the shot, less than {SPARED:g}"),
+    Rule("sound", HOLDS, lambda m: m.last and not m.plugged and not m.unknown and m.hole == 0 and m.apart == 0, "nothing came through",
+         lambda m: f"wall {m.d} has no hole and no detached spall"),
+    Rule("heat", NOTE, lambda m: m.r["conversion_heat_ratio"] > HEAT, "energy that is not of the impact",
+         lambda m: f"{100 * m.r['conversion_heat_ratio']:.2g} percent of the energy have become heat when elements became particles, and 0.1 are no matter",
+         lambda m: ({"core_mm": None}, "take a wider core_mm")),
+    Rule("hourglass", NOTE, lambda m: m.r["hourglass_energy_ratio"] > HEAT, "energy that is not of the impact",
+         lambda m: f"{100 * m.r['hourglass_energy_ratio']:.2g} percent of the energy are in hourglass forces of elements, and 0.1 are no matter",
+         lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
+    Rule("ball", NOTE, lambda m: m.ball_whole, "what cannot fail in tension stays in one piece", lambda m: tension(m, f"the projectile is of {m.case.material}")),
+    Rule("coarse", NOTE, lambda m: m.coarse, "the cloud is that of this wall, too",
+         lambda m, k: f"wall {k}, which does not decide, has {m.of('layers', k)} layer(s) of particles, and {NEEDED} are better for its cloud",
+         lambda m, k: ({"spacings_mm": finest(m, k)}, f"take spacings_mm of {finest(m, k):.4g} or finer, or spacings and layers for this wall"), each=True),
+)
+
+
+def finest(m, k):
+    return float(f"{m.case.walls[k - 1].thickness_mm / NEEDED:.4g}")
+
+
+def wider(m):
+    return math.ceil(1.1 * max(m.of("missed_reach_mm", m.beside), 1e3 * m.shield.geometry.walls[m.beside - 1].radius))
+
+
+def findings(m):
+    """[Finding, ...] of the rules that apply"""
+    found = []
+    for rule in RULES:
+        said = rule.when(m)
+        for words in ([(m, k) for k in said] if rule.each else [(m,)] if said else []):
+            keys, advice = rule.remedy(*words) if rule.remedy else ({}, "")
+            found.append(Finding(rule.name, rule.effect, f"{rule.says(*words)} -- {advice}" if advice else rule.says(*words), keys))
+    return found
+
+
+def of_run(shield, result):
+    """The first keys of result.yaml: verdict, reasons, notes, remedies, decided_by, margins"""
+    m = measured(shield, result)
+    found = findings(m)
+
+    def texts(*effects):
+        return [f.text for f in found if f.effect in effects]
+
+    if texts(ALWAYS):
+        verdict = "undecided"
+    elif m.failed:
+        verdict = "fails"
+    else:
+        verdict = "undecided" if texts(UNLESS) else "holds"
+    reasons = {"holds": texts(HOLDS), "fails": texts(FAILS), "undecided": texts(ALWAYS, UNLESS) + texts(FAILS, HOLDS)}[verdict]
+    notes = (texts(UNLESS) if verdict == "fails" else []) + texts(NOTE)
+    remedies = [f.remedy for f in found if f.remedy and f.effect != NOTE]
+    return {"verdict": verdict, "reasons": reasons, **({"notes": notes} if notes else {}), **({"remedies": remedies} if remedies else {}),
+            "rules": [f.name for f in found], "decided_by": "none" if m.late else f"wall{m.d}",
+            "margins": {"hole_mm": math.nan if m.unknown else m.hole, "apart_mass_mg": m.apart, "bulge_over_thickness": m.of("bulge_over_thickness"),
+                        "deepest_failed_layer": m.of("deepest_failed_layer"), "layers": m.of("layers"), "rear_plastic_strain": m.of("rear_plastic_strain"),
+                        "push_percent_per_us": m.of("push_percent_per_us"), "still_to_come": m.of("still_to_come"), "missed_fraction": m.missed}}
