@@ -96,51 +96,36 @@ void FixHVIFEM::read_options(int narg, char **arg)
       {"step", {&options.shrink, 1.0}}};
   const std::map<std::string, bool *> switches = {
       {"convert", &converts}, {"damage", &options.damage}, {"spall", &options.spall}};
-  int iarg = 3;
-  const auto needs = [&](int n) {
-    if (iarg + n >= narg)
-      utils::missing_cmd_args(FLERR, std::string("fix hvi/fem ") + arg[iarg], error);
-  };
-  while (iarg < narg) {
+  for (int iarg = 3, n; iarg < narg; iarg += n + 1) {
     const std::string key = arg[iarg];
+    n = key == "probe" ? 3 : (key == "viscosity" ? 2 : 1);
+    if (iarg + n >= narg) utils::missing_cmd_args(FLERR, "fix hvi/fem " + key, error);
+    char **const word = arg + iarg + 1;
     if (key == "nodes") {
-      needs(1);
       int lo, hi;
-      utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, lo, hi, error);
+      utils::bounds(FLERR, word[0], 1, atom->ntypes, lo, hi, error);
       std::fill(node_types.begin() + lo, node_types.begin() + hi + 1, 1);
-      iarg += 2;
     } else if (key == "probe") {
-      needs(3);
-      Probe probe = {};
-      for (int k = 0; k < 3; k++) probe.x[k] = utils::numeric(FLERR, arg[iarg + 1 + k], false, lmp);
-      probes.push_back(probe);
-      iarg += 4;
+      probes.emplace_back();
+      for (int k = 0; k < 3; k++) probes.back().x[k] = utils::numeric(FLERR, word[k], false, lmp);
     } else if (key == "local") {
-      needs(1);
-      every = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+      every = utils::inumeric(FLERR, word[0], false, lmp);
       if (every < 1) error->all(FLERR, "Fix hvi/fem local must be above 0, not {}", every);
-      iarg += 2;
     } else if (key == "viscosity") {
-      needs(2);
-      options.q1 = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-      options.q2 = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+      options.q1 = utils::numeric(FLERR, word[0], false, lmp);
+      options.q2 = utils::numeric(FLERR, word[1], false, lmp);
       if (!(options.q1 >= 0.0) || !(options.q2 >= 0.0))
         error->all(FLERR, "Fix hvi/fem viscosity must not be negative: {} {}", options.q1,
                    options.q2);
-      iarg += 3;
     } else if (switches.count(key)) {
-      needs(1);
-      *switches.at(key) = utils::logical(FLERR, arg[iarg + 1], false, lmp);
-      iarg += 2;
+      *switches.at(key) = utils::logical(FLERR, word[0], false, lmp);
     } else if (numbers.count(key)) {
-      needs(1);
       const auto &number = numbers.at(key);
-      *number.first = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+      *number.first = utils::numeric(FLERR, word[0], false, lmp);
       const double least = key == "edges" ? 1.0 : 0.0;
       if (!(*number.first >= least && *number.first <= number.second))
         error->all(FLERR, "Fix hvi/fem {} must be from {} to {}, not {}", key, least, number.second,
-                   arg[iarg + 1]);
-      iarg += 2;
+                   word[0]);
     } else
       error->all(FLERR, "Unknown fix hvi/fem keyword: {}", key);
   }

@@ -95,10 +95,10 @@ class FixHVIFEM :
   double counts[NCOUNT] = {};
 
   struct Probe {
-    double x[3];    // asked for
+    double x[3] = {};    // asked for
     static constexpr int NVALUE = 14;
-    double value[NVALUE];
-    std::int64_t id;    // of the element; 0: not known yet
+    double value[NVALUE] = {};
+    std::int64_t id = 0;    // of the element; 0: not known yet
   };
   std::vector<Probe> probes;
   bigint probed = -1;                   // step that their values are of

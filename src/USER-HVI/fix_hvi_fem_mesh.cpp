@@ -130,12 +130,9 @@ void FixHVIFEMMesh::link()
   std::sort(elements.begin(), elements.end(), [](const Element &one, const Element &two) {
     return one.id < two.id;
   });
-  const auto twice = std::adjacent_find(elements.begin(), elements.end(),
-                                        [](const Element &one, const Element &two) {
-                                          return one.id == two.id;
-                                        });
-  if (twice != elements.end())
-    error->one(FLERR, "Fix hvi/fem: two elements have the ID {}", twice->id);
+  for (std::size_t e = 1; e < elements.size(); e++)
+    if (elements[e].id == elements[e - 1].id)
+      error->one(FLERR, "Fix hvi/fem: two elements have the ID {}", elements[e].id);
   next.assign(elements.size(), -1);
   read_head.clear();
   std::fill_n(head.begin(), atom->nlocal, -1);

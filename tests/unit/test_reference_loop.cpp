@@ -5,6 +5,7 @@
 
 #include "hvi_kernel.h"
 #include "hvi_sph_reference.h"
+#include "hvi_sph_sweep.h"
 
 #include <algorithm>
 #include <cmath>

@@ -39,14 +39,13 @@ struct alignas(64) SphState {
   double p;    // pressure
   double c;    // speed of sound
   double rho;
-  double
-      body;    // the type, and RUBBLE added to it where a solid has failed: one number for vectors
+  double body;    // its type, with RUBBLE added where a solid has failed: one number, for vectors
 
   int type() const { return static_cast<int>(body); }
   bool is_rubble() const { return body != type(); }
 };
 
-// the forces: what its neighbors do to it
+// the forces: what its neighbors do to it; drho of solids is written between the sweeps, too
 
 struct alignas(64) SphRates {
   static constexpr int FORCE = 3, WITH_POWER = 4;    // its first numbers

@@ -9,7 +9,10 @@
 #ifndef LMP_HVI_SPH_REFERENCE_H
 #define LMP_HVI_SPH_REFERENCE_H
 
-#include "hvi_sph_sweep.h"
+#include "hvi_sph_work.h"
+
+#include <memory>
+#include <string>
 
 namespace HVI {
 
