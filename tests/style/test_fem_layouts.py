@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hvi.mesh import block
+from hvi.model.mesh import block
 from fem_scenes import DX, EDGE, J, MASS, OPEN, P, STATE, TOTAL, VOIDS, laws, plate, read_state, start, strike, strike_plate
 
 FAILS = "strain 0.1"  # the first elements become particles at step 27

@@ -20,7 +20,7 @@ from . import script
 WALL = """coming_mass coming_energy push momentum energy plastic_power passed_mass passed_momentum passed_energy tip failed_depth rear_strain missed_mass missed_reach
     far_free mass held_mass cloud_mass cloud_momentum cloud_energy front_velocity cloud_length cloud_diameter cloud_ratio fragments largest_mass largest_velocity pieces_apart
     largest_apart_mass apart_mass spall_mass apart_number bulge body_mass hole_found hole_diameter hole_min hole_max plane_found plane_diameter plane_x plane_y""".split()
-BOOK = 31  # entries of compute hvi/energy
+BOOK = 32  # entries of compute hvi/energy
 ARRIVE = 6  # widest spacings before a wall: what comes so near has arrived
 NOTHING = 1e-99
 
