@@ -52,7 +52,7 @@ def test_restart_keeps_a_mass_that_was_changed(lmp, root, tmp_path):
 
 
 def test_without_it_a_density_must_be_given(lmp, root):
-    assert "density 0" in run(lmp, root, COEFF.format("") + "\nmass 1 2.7e-6", expect_fail=True).log
+    assert "has no density at step" in run(lmp, root, COEFF.format("") + "\nmass 1 2.7e-6", expect_fail=True).log
 
 
 FILE = "pair_coeff 1 1 file Al6061-T6.hvi "
