@@ -426,6 +426,7 @@ void FixHVIFEM::end_of_step()
 
 void FixHVIFEM::post_run()
 {
+  at_end = false;
   if (shown == update->ntimestep) return;
   show_particles();
   if (every > 0) list_elements();

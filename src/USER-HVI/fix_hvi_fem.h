@@ -84,7 +84,7 @@ class FixHVIFEM :
   double shortest = HVI::NO_BOUND;    // stable step of elements of this rank
   double smallest = 0.0;    // edge of a cube as large as the smallest element at the start of a run
   bool goes_on = false;     // at the start of a run: all is as the last one has left it
-  bool at_end = false;      // of a step, and not in its middle
+  bool at_end = false;      // of a step of a run: elements and their nodes are known
   bigint shown = -1;        // step that output sees particles and energies of
   std::vector<std::array<double, 3>> node_forces;
 

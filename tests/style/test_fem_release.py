@@ -76,6 +76,15 @@ def test_probes_of_two_walls(lmp):
     assert thermo["f_wall[2][9]"][0] / thermo["f_wall[1][9]"][0] == pytest.approx(2, rel=1e-12)
 
 
+def test_probes_in_the_middle_of_a_step(lmp):
+    """fix balance asks for them when particles are about to go to other ranks, one of which has no elements: they are those that were known last"""
+    block(8, 1, 1, 0.5e-3, n=0, type=2, node_type=3).write("bar.data", 2703.0)
+    ask = "variable v equal f_wall[1][9]\nvariable w atom 1+0*v_v\ncomm_style tiled\nfix even all balance 1 1.0 rcb weight var w\ntimestep"
+    text = BARS.replace("boundary      s s s", "boundary      f f f\nprocessors    2 1 1").replace("thermo_style  custom step", "thermo_style  custom step v_v").replace("timestep", ask)
+    thermo = lmp(text + "run 3\nrun 3", nranks=2, timeout=60).thermo
+    assert thermo["v_v"][-1] == pytest.approx(thermo["f_wall[1][9]"][-1], rel=1e-12) and thermo["Step"][-1] == 6
+
+
 def test_probes_stay_over_a_restart(lmp):
     """where elements have moved by more than their length"""
     block(8, 1, 1, 0.5e-3, n=0, type=2, node_type=3).write("bar.data", 2703.0)
