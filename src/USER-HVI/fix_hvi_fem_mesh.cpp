@@ -61,7 +61,7 @@ bigint FixHVIFEMMesh::count() const
 }
 
 /* ----------------------------------------------------------------------
-   After particles have been exchanged: which elements are here, and who owns their nodes and embedded particles
+   After particles have been exchanged: which elements are here, and which ranks own their nodes and embedded particles
 ------------------------------------------------------------------------- */
 
 void FixHVIFEMMesh::connect()

@@ -21,7 +21,7 @@ namespace LAMMPS_NS {
    Rows of numbers of particles, brought to ranks that ask for them by ID, wherever their owners are, and back:
    nodes to elements, forces to nodes.  No ghosts are needed, so no cutoff need reach across an element.
 
-     connect()   after each exchange of particles: who owns what this rank wants
+     connect()   after each exchange of particles: which ranks own what this one wants
      gather()    from owners to the slots, in the order of the IDs wanted; one particle may have several
      scatter()   from slots to owners
 

@@ -183,7 +183,7 @@ HVI_INLINE Vec hex_bulk_viscosity(const Vec &rho, const Vec &c, const Vec &V, co
    so that motions that are linear in x have q' = 0, of whatever element.  The drag is that of LULESH
    (LLNL-CODE-461231).  Q turns with the spin W, by the midpoint rule: L and v of the middle of the
    step, x, B and V of its end.  c is the speed of longitudinal waves.  Where stiff is 0, Q is too: what
-   it held is left to whoever took the power.
+   it held is left to the caller, which took the power.
 
    Adds to f.  Returns the power taken from the corners, with the mean of Q before and after the step: a force
    works on the velocities of the middles of both steps beside it, and the sum over steps is then
