@@ -280,18 +280,18 @@ void FixHVIFEMMesh::remove_nodes()
 
 int FixHVIFEMMesh::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {
-  for (int k = 0; k < n; k++) std::copy_n(&halo[width * list[k]], width, buf + width * k);
+  for (int k = 0; k < n; k++) std::copy_n(halo.data() + width * list[k], width, buf + width * k);
   return n * width;
 }
 
 void FixHVIFEMMesh::unpack_forward_comm(int n, int first, double *buf)
 {
-  std::copy_n(buf, n * width, &halo[width * first]);
+  std::copy_n(buf, n * width, halo.data() + width * first);
 }
 
 int FixHVIFEMMesh::pack_reverse_comm(int n, int first, double *buf)
 {
-  std::copy_n(&halo[width * first], n * width, buf);
+  std::copy_n(halo.data() + width * first, n * width, buf);
   return n * width;
 }
 
