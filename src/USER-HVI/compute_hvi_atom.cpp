@@ -37,7 +37,7 @@ static constexpr double COST_AT_REST =
 static const char *const NAMES[] = {
     "p",          "e",       "T",     "c",           "h",        "eps",  "epsdot", "damage",
     "initiation", "spalled", "voids", "void_damage", "fragsize", "vm",   "sxx",    "syy",
-    "szz",        "sxy",     "sxz",   "syz",         "asleep",   "cost", "nbonds"};
+    "szz",        "sxy",     "sxz",   "syz",         "asleep",   "cost", "body",   "nbonds"};
 
 /* ---------------------------------------------------------------------- */
 
@@ -88,6 +88,8 @@ void ComputeHVIAtom::find_sources()
   for (const Value v : values) {
     if (v != BONDS && !store)
       error->all(FLERR, "Compute hvi/atom {} needs pair style hvi/sph", NAMES[v]);
+    if (v == BODY && !integrator)
+      error->all(FLERR, "Compute hvi/atom {} needs fix hvi/sph, which keeps it", NAMES[v]);
     if (v >= EPS && v < MISES && !strength)
       error->all(FLERR, "Compute hvi/atom {} needs fix hvi/johnson-cook", NAMES[v]);
     if (v == LENGTH && store->fields.settings.variable && !integrator)
@@ -101,6 +103,7 @@ double ComputeHVIAtom::value_of(Value value, int i) const
 {
   if (value == BONDS) return nbonds[i];
   if (value == ASLEEP) return store->fields.asleep(i) ? 1.0 : 0.0;
+  if (value == BODY) return integrator->body(i);
   if (value == COST)
     return store->fields.asleep(i) || store->fields.is_idle(i) ? COST_AT_REST : 1.0;
 

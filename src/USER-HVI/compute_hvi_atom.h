@@ -55,6 +55,7 @@ class ComputeHVIAtom : public Compute {
     SYZ,    // of solids
     ASLEEP,
     COST,
+    BODY,
     BONDS
   };
 

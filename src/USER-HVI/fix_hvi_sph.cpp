@@ -104,6 +104,7 @@ constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
     {"new_rho", RATES, offsetof(Extra, new_rho)},
     {"step", RATES, offsetof(Extra, step)},
     {"frozen", RATES, offsetof(Extra, frozen)},
+    {"body", RATES, offsetof(Extra, body)},
 
     // 0 between steps, or made anew when a run begins
     {nullptr, 0, offsetof(Extra, drho)},
@@ -171,8 +172,8 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
   }
 
   time_integrate = 1;
-  comm_border = 1;
-  comm_forward = 1;
+  comm_border = 2;
+  comm_forward = 2;
   scalar_flag = vector_flag = 1;
   size_vector = atom->ntypes;
   global_freq = 1;
@@ -322,7 +323,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
   MPI_Allreduce(&longest, &last, 1, MPI_DOUBLE, MPI_MAX, world);
   due = false;
   comm->forward_comm();
-  if (set.variable) comm->forward_comm(this);
+  if (set.variable) tell_ghosts();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -630,6 +631,7 @@ void FixHVISPH::let_go(int i, double de)
   e.drho = 0.0;
   e.de = de;
   e.old_drho = NAN;
+  if (!has_body(i)) e.body = 0.0;    // of what hangs on elements
   e.new_rho = e.rates_rho = atom->rho[i];
   e.rates_esph = atom->esph[i];
 }
@@ -733,19 +735,25 @@ void FixHVISPH::reflect()
 }
 
 /* ----------------------------------------------------------------------
-   the constant of variable h goes to new ghosts
+   the constant of variable h and the label of the body go to new ghosts
 ------------------------------------------------------------------------- */
 
 int FixHVISPH::pack_border(int n, int *list, double *buf)
 {
-  for (int i = 0; i < n; i++) buf[i] = extra[list[i]].hscale;
-  return n;
+  for (int i = 0; i < n; i++) {
+    buf[2 * i] = extra[list[i]].hscale;
+    buf[2 * i + 1] = extra[list[i]].body;
+  }
+  return 2 * n;
 }
 
 int FixHVISPH::unpack_border(int n, int first, double *buf)
 {
-  for (int i = 0; i < n; i++) extra[first + i].hscale = buf[i];
-  return n;
+  for (int i = 0; i < n; i++) {
+    extra[first + i].hscale = buf[2 * i];
+    extra[first + i].body = buf[2 * i + 1];
+  }
+  return 2 * n;
 }
 
 int FixHVISPH::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)

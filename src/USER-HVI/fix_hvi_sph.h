@@ -45,6 +45,7 @@ struct HVISPHExtra {
   double x_before[3] = {0.0, 0.0,
                         0.0};    // place at the end of the last step, if another fix moves it
   double frozen = 0.0;           // 1: takes no part any more
+  double body = -1.0;            // of solids: label of what hangs together; -1: none yet
   double new_rho =
       0.0;              // density at the end of the step that led to the last forces; 0: of a fluid
   double step = 0.0;    // that ended with the last forces; 0: none
@@ -109,7 +110,14 @@ class FixHVISPH :
   double sleep() const { return quiet; }    // differences that count as none; 0: nothing sleeps
   bool relative_lists() const { return relative; }
   bool is_new(int i) const { return extra[i].hscale == 0.0; }    // in no run before
-  double hscale(int i) const { return extra[i].hscale; }         // owned and ghost particles
+
+  // owned and ghost particles: constant of variable h; label of its body, which the scheme of solids makes
+
+  double hscale(int i) const { return extra[i].hscale; }
+  bool has_body(int i) const { return extra[i].body >= 0.0; }
+  int64_t body(int i) const { return has_body(i) ? extra[i].body : 0; }
+  void set_body(int i, int64_t label) { extra[i].body = label; }
+  void tell_ghosts() { comm->forward_comm(this); }
 
   // in the middle of a step esph is ahead of the velocity
 

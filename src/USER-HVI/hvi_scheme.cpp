@@ -186,7 +186,7 @@ void HVIScheme::gather_records()
     s.vy = vest[i][1];
     s.vz = vest[i][2];
     s.rho = rho[i];
-    s.body = itype;
+    s.body = HVI::SphState::code(itype);
     s.c = std::sqrt(gather(i, known, s));
     double &most = has_neighbor[i] ? fastest : alone;
     if (!(s.c <= most * place.h)) most = s.c / place.h;
@@ -205,7 +205,7 @@ void HVIScheme::take_out(int i)
     no_answer(i, atom->rho[i]);
   const double *const x = atom->x[i], h = set.h[atom->type[i]];
   fields.view().place[i] = {x[0] + AWAY * h, x[1] + AWAY * h, x[2] + AWAY * h, h};
-  fields.view().state[i] = {0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, (double) atom->type[i]};
+  fields.view().state[i] = {0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, HVI::SphState::code(atom->type[i])};
   if (fields.view().traction) fields.view().traction[i] = {};
 }
 

@@ -22,6 +22,8 @@
 #include "hvi_inverse.h"
 #include "hvi_sph_solid.h"
 #include "math_special.h"
+#include "neigh_list.h"
+#include "update.h"
 
 #include <cmath>
 
@@ -34,7 +36,8 @@ using HVI::VelocityGradient;
 /* ---------------------------------------------------------------------- */
 
 HVISchemeSolid::HVISchemeSolid(LAMMPS *lmp, const HVIPairTables &tables) :
-    HVIScheme(lmp, tables), strength(FixHVIJohnsonCook::find(lmp)), mesh(HVI::find_mesh(lmp))
+    HVIScheme(lmp, tables), strength(FixHVIJohnsonCook::find(lmp)), mesh(HVI::find_mesh(lmp)),
+    components(world)
 {
   int terms = HVI::SPH_SOLID;
   if (set.riemann)
@@ -43,6 +46,9 @@ HVISchemeSolid::HVISchemeSolid(LAMMPS *lmp, const HVIPairTables &tables) :
     terms |= HVI::SPH_DENSITY;
   if (set.laws.art_eps > 0.0) terms |= HVI::SPH_ARTSTRESS;
   if (strength->can_fail()) terms |= HVI::SPH_BODIES;
+  if (atom->ntypes > HVI::SphState::MOST_TYPES)
+    error->all(FLERR, "Pair hvi/sph: solids have at most {} types, not {}",
+               HVI::SphState::MOST_TYPES, atom->ntypes);
   all_sums = true;              // M
   choose(terms, set.energy);    // without energy a stress leaves no trace in it
 }
@@ -72,6 +78,7 @@ HVIScheme::Traffic HVISchemeSolid::traffic() const
 void HVISchemeSolid::evaluate()
 {
   start();                // records of particles, ghosts and images; active particles
+  label_bodies();         // now and then: what has come apart
   sum_gradients();        // sums over neighbors: L, M, nu
   correct_gradients();    // L M^-1 of the middle of the step
   advance();              // density, pressure, elements, stress: t -> t + dt
@@ -124,8 +131,78 @@ double HVISchemeSolid::gather(int i, const EosState &eos, HVI::SphState &s)
   }
   s.w = T.volume * eos.width;
   s.p = T.p;
-  if (limit.p_min == 0.0 && limit.shear == 0.0) s.body += HVI::SphState::RUBBLE;
+  s.body = HVI::SphState::code(atom->type[i], integrator->body(i),
+                               limit.p_min == 0.0 && limit.shear == 0.0);
   return eos.csq + 4.0 / 3.0 * limit.shear / s.rho;
+}
+
+/* ----------------------------------------------------------------------
+   Sound particles within reach of each other are one body if they have been one before: what has come apart has
+   another label and does not heal where it meets again.  Crack faces within a body do.  The label is the lowest ID;
+   0 of what hangs on elements, whose particles hang together in any case: their IDs here are below all others.
+   A restart finds labels as they are, and makes new ones in the same steps.
+------------------------------------------------------------------------- */
+
+void HVISchemeSolid::label_bodies()
+{
+  static constexpr int EVERY = 100;
+  if (!(terms() & HVI::SPH_BODIES)) return;
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  if (integrator->is_due()) {
+    if (update->ntimestep % EVERY != 0) return;
+  } else {    // in a setup
+    int anew = 0, any;
+    for (int i = 0; i < nlocal; i++)
+      if (is_ours(i) && !is_embedded(i) && !integrator->has_body(i)) anew = 1;
+    MPI_Allreduce(&anew, &any, 1, MPI_INT, MPI_MAX, world);
+    if (!any) return;
+  }
+
+  const HVI::SphView &records = work.records;
+  const auto is_sound = [&](int i) {
+    return is_ours(i) && !records.state[i].is_rubble();
+  };
+  tagint here = 0, highest;
+  for (int i = 0; i < nlocal; i++) here = MAX(here, atom->tag[i]);
+  MPI_Allreduce(&here, &highest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  std::vector<int64_t> ids(nlocal, 0);
+  for (int i = 0; i < nlocal; i++)
+    if (is_sound(i)) ids[i] = is_embedded(i) ? atom->tag[i] : (int64_t) highest + atom->tag[i];
+
+  components.start(ids, nall);
+  const NeighList &list = *pairs.style->list;
+  for (int ii = 0; ii < list.inum; ii++) {
+    const int i = list.ilist[ii];
+    if (!is_sound(i)) continue;
+    const HVI::SphPlace &pi = records.place[i];
+    for (int jj = 0; jj < list.numneigh[i]; jj++) {
+      const int j = list.firstneigh[i][jj] & NEIGHMASK;
+      if (!is_sound(j) || pairs.tension[atom->type[i]][atom->type[j]] == 0.0 ||
+          integrator->body(i) != integrator->body(j))
+        continue;
+      const HVI::SphPlace &pj = records.place[j];
+      const double reach = set.support * MAX(pi.h, pj.h);
+      const double dx = pi.x - pj.x, dy = pi.y - pj.y, dz = pi.z - pj.z;
+      if (dx * dx + dy * dy + dz * dz < reach * reach) components.join(i, j);
+    }
+  }
+  components.finish([this](HVI::Components::Node *node) {
+    forward(node, sizeof(*node) / sizeof(double));
+  });
+
+  for (int i = 0; i < nlocal; i++) {
+    const int64_t lowest = ids[i] ? components.component(i).id : 0;
+    if (ids[i])
+      integrator->set_body(i, lowest > highest ? lowest - highest : 0);
+    else if (is_ours(i) && !integrator->has_body(i))
+      integrator->set_body(i, 0);
+  }
+  integrator->tell_ghosts();
+  for (int i = 0; i < nall; i++)
+    if (is_ours(i))
+      records.state[i].body =
+          HVI::SphState::code(atom->type[i], integrator->body(i), records.state[i].is_rubble());
+  if (set.mirror.planes) images.fill(set.mirror, records);
 }
 
 /* ---------------------------------------------------------------------- */

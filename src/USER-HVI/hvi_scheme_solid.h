@@ -9,6 +9,7 @@
 #ifndef LMP_HVI_SCHEME_SOLID_H
 #define LMP_HVI_SCHEME_SOLID_H
 
+#include "hvi_components.h"
 #include "hvi_mesh.h"
 #include "hvi_scheme.h"
 
@@ -41,6 +42,9 @@ class HVISchemeSolid : public HVIScheme {
   double gather(int, const EosState &, HVI::SphState &) override;
   void forces_done() override;
 
+  HVI::Components components;    // of sound matter
+
+  void label_bodies();
   void sum_gradients();
   void correct_gradients();
   void advance();

@@ -575,7 +575,7 @@ void PairHVISPH::setup()
   report.reverse = force->newton_pair ? traffic.all_reverse : 0;
   if (lists->in_charge()) report.forward += FixHVILists::SENT;
   if (integrator) {
-    report.border = 1;
+    report.border = 2;
     report.kept_bytes += integrator->bytes_per_particle();
     report.unmoved.resize(atom->nlocal);
     for (int i = 0; i < atom->nlocal; i++) report.unmoved[i] = integrator->is_new(i);

@@ -99,7 +99,9 @@ State::State(const std::string &kernel, int scene, int dim, bool planes, bool el
     s.w = between(random, 0.7, 1.3);
     s.p = between(random, -1, 1.5);
     s.c = between(random, 1, 3);
-    s.body = type[i] + (scene & S && between(random, 0, 1) < 0.3 ? SphState::RUBBLE : 0.0);
+    const bool rubble = scene & S && between(random, 0, 1) < 0.3;
+    s.body =
+        SphState::code(type[i], scene & S && between(random, 0, 1) < 0.4 ? 4000000000 : 0, rubble);
     if (elements && i % 3 == 0) embedded[i] = 1 + i % 2;
   }
 
@@ -329,7 +331,7 @@ TEST(ReferenceLoop, IsThatOfVectorsWithMoreTerms)
           s.tables[1][i][j] = s.laws.b;
           s.tables[2][i][j] = 1.0;
         }
-      for (SphState &state : s.state) state.body = state.type();
+      for (SphState &state : s.state) state.body = SphState::code(state.type());
     }
     Found want = run(*loop, s);
     s.scene |= vectors->scene() & B;

@@ -68,7 +68,7 @@ inline bool sph_fluid(int i, const SphPlace &pi, const SphState *state, int n, c
     Vec a = zero + laws.a, b = zero + laws.b, bonded = one, acts = one, stretch = one;
     if (SCENE & SPH_BODIES) {
       for (int k = 0; k < LANES; k++) {
-        const int jtype = static_cast<int>(second[3][k]);
+        const int jtype = SphState::type_of(second[3][k]);
         a[k] = laws.row_a[jtype];
         b[k] = laws.row_b[jtype];
         bonded[k] = laws.row_tension[jtype];

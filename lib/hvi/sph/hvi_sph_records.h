@@ -12,6 +12,8 @@
 #include "hvi_inverse.h"
 #include "hvi_vector.h"
 
+#include <cstdint>
+
 // the records of SPH particles: what the loops over pairs read and add to; no LAMMPS in here
 
 namespace HVI {
@@ -32,17 +34,28 @@ struct alignas(32) SphPlace {
 // filled: what its neighbors must know, one cache line
 
 struct alignas(64) SphState {
-  static constexpr double RUBBLE = 0.5;
-
   double vx, vy, vz;
   double w;    // weight in sums over neighbors: the volume m/rho, in solids times (rho/rho0)^(1/3)
   double p;    // pressure
   double c;    // speed of sound
   double rho;
-  double body;    // its type, with RUBBLE added where a solid has failed: one number, for vectors
+  double body;    // see code()
 
-  int type() const { return static_cast<int>(body); }
-  bool is_rubble() const { return body != type(); }
+  // one number, for vectors: label of the body that it is part of, its type, and whether it is a solid that failed
+
+  static constexpr int MOST_TYPES = 1023;
+
+  static double code(int type, int64_t label = 0, bool rubble = false)
+  {
+    return static_cast<double>((label << 11) + 2 * type + rubble);
+  }
+  static int64_t label_of(double code) { return static_cast<int64_t>(code) >> 11; }
+  static int type_of(double code) { return (static_cast<int64_t>(code) >> 1) & MOST_TYPES; }
+  static bool is_rubble(double code) { return static_cast<int64_t>(code) & 1; }
+
+  int64_t label() const { return label_of(body); }
+  int type() const { return type_of(body); }
+  bool is_rubble() const { return is_rubble(body); }
 };
 
 // the forces: what its neighbors do to it; drho of solids is written between the sweeps, too

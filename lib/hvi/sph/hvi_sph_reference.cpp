@@ -437,15 +437,18 @@ namespace {
   }
 
   /* ----------------------------------------------------------------------
-     Solids (Howto_sph, Solids that bear their stress at faces).  What hangs together, sound particles of types with
-     tension between them, and how much of the rest counts: all of it under pressure, or while it comes
+     Solids (Howto_sph, Solids that bear their stress at faces).  What hangs together, sound particles of one body and
+     of types with tension between them, and how much of the rest counts: all of it under pressure, or while it comes
      nearer, and of rubble in rubble; smoothly to nothing within LITTLE of rho c^2, and of c
   ------------------------------------------------------------------------- */
 
   double Reference::bonded(const Pair &pair) const
   {
     if (!has(SPH_BODIES)) return 1.0;
-    return pair.tied && !pair.si.is_rubble() && !pair.sj.is_rubble() ? 1.0 : 0.0;
+    return pair.tied && !pair.si.is_rubble() && !pair.sj.is_rubble() &&
+            pair.si.label() == pair.sj.label()
+        ? 1.0
+        : 0.0;
   }
 
   double Reference::touching(const Pair &pair) const

@@ -19,12 +19,12 @@ namespace HVI {
 // its density, w_j/w_i: see PairHVISPH::find_weights()
 
 template <int SCENE>
-inline void sph_spacings(const SphRows &laws, const Vec &type_j, Vec &ratio, Vec &weight)
+inline void sph_spacings(const SphRows &laws, const Vec &body_j, Vec &ratio, Vec &weight)
 {
   ratio = weight = Vec{} + 1.0;
   if (SCENE & SPH_SPACINGS)
     for (int k = 0; k < LANES; k++) {
-      const int jtype = static_cast<int>(type_j[k]);
+      const int jtype = SphState::type_of(body_j[k]);
       ratio[k] = laws.row_ratio[jtype];
       weight[k] = laws.row_weight[jtype];
     }
@@ -228,7 +228,7 @@ inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const 
     Vec stretch = u;
     if (SCENE & SPH_BODIES) {
       Vec bonded;
-      for (int k = 0; k < LANES; k++) bonded[k] = laws.row_tension[static_cast<int>(second[3][k])];
+      for (int k = 0; k < LANES; k++) bonded[k] = laws.row_tension[SphState::type_of(second[3][k])];
       const Vec acts = pstar > 0.0 ? one : bonded;
       pstar *= acts;
       delta *= acts;

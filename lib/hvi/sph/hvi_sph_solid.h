@@ -17,27 +17,27 @@
 namespace HVI {
 
 /* ----------------------------------------------------------------------
-   Who hangs together: bodies with tension between them, as far as they are sound, by SphState::body.
+   What hangs together: sound particles of one body, as SphState::body says, and of types with tension between them.
 ------------------------------------------------------------------------- */
 
 struct SphBonds {
   Vec bonded = {};    // 1: hang together
   Vec rubble = {};    // 1: would, but both have failed
   double sound;
+  int64_t label;
   const double *tension;    // by type of the neighbor
 
   SphBonds(const SphState &i, const double *tension_in) :
-      sound(i.is_rubble() ? 0.0 : 1.0), tension(tension_in)
+      sound(i.is_rubble() ? 0.0 : 1.0), label(i.label()), tension(tension_in)
   {
   }
   inline void find(const Vec &body_j)
   {
     for (int k = 0; k < LANES; k++) {
-      const int jtype = static_cast<int>(body_j[k]);
-      const double both = body_j[k] == jtype ? sound : 0.0;
-      const double neither = body_j[k] == jtype ? 0.0 : 1.0 - sound;
-      bonded[k] = tension[jtype] * both;
-      rubble[k] = tension[jtype] * neither;
+      const double tied = tension[SphState::type_of(body_j[k])];
+      const bool failed = SphState::is_rubble(body_j[k]);
+      bonded[k] = !failed && SphState::label_of(body_j[k]) == label ? tied * sound : 0.0;
+      rubble[k] = failed ? tied * (1.0 - sound) : 0.0;
     }
   }
 
@@ -195,7 +195,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
       bonds.find(second[3]);
       bonded = bonds.bonded;
       for (int k = 0; k < LANES; k++) {
-        const int jtype = static_cast<int>(second[3][k]);
+        const int jtype = SphState::type_of(second[3][k]);
         a[k] = laws.row_a[jtype];
         b[k] = laws.row_b[jtype];
       }

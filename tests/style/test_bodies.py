@@ -1,0 +1,111 @@
+"""Sound matter that has come apart does not heal where it meets again: it is another body, as if of another type."""
+
+import numpy as np
+import pytest
+from fem_scenes import ALUMINUM, EDGE, plate, start
+
+DX = 1e-3
+BLOCKS = """units si
+newton {newton}
+atom_style sph
+atom_modify map yes
+boundary {boundary}
+lattice sc 1e-3 origin 0.5 0.5 0.5
+region box block {low} 8 -8 8 -14 14
+create_box 2 box
+region lower block {low} 3 -3 3 -6 0
+region upper block {low} 3 -3 3 {gap} {top}
+create_atoms 1 region lower
+create_atoms {type} region upper
+mass * 2.703e-6
+set group all sph/rho 2703.0
+group upper region upper
+pair_style hvi/sph cubic dissipation riemann {pair}
+pair_coeff * * file {file} h 1.3e-3
+{tension}
+fix move all hvi/sph
+fix solid all hvi/johnson-cook damage yes spall pressure
+fix step all hvi/dt 0.4
+neighbor 0.3e-3 bin
+compute s all hvi/atom p sxx syy szz sxy sxz syz body
+variable up equal vcm(upper,z)
+thermo_style custom step time v_up
+thermo_modify format float %.15g
+"""
+OUT = "write_dump all custom {} id x y z vx vy vz c_s[*] modify sort id format float %.17g\n"
+APART = "velocity upper set 0 0 {} units box\n"
+
+
+def blocks(newton="on", type=1, gap=2, mirror=False):
+    text = BLOCKS.format(file=ALUMINUM, newton=newton, type=type, gap=gap, top=gap + 6, low=0 if mirror else -3, pair="mirror x 0 lo" if mirror else "",
+                         tension="pair_coeff 1 2 tension no" if type == 2 else "", boundary="f s s" if mirror else "s s s")
+    return text.replace("block -3 8", "block -8 8")
+
+
+def rows(path):
+    table = np.loadtxt(path.read_text().split("ITEM: ATOMS")[1].splitlines()[1:])
+    return table[:, 1:-1], table[:, -1].astype(int)
+
+
+def same(path, other, close=1e-11):
+    (a, _), (b, _) = rows(path), rows(other)
+    for k in range(a.shape[1]):
+        scale = np.abs(b[:, k]).max()
+        assert np.abs(a[:, k] - b[:, k]).max() <= close * scale, (k, np.abs(a[:, k] - b[:, k]).max(), scale)
+
+
+@pytest.mark.parametrize("mirror", [False, True])
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
+def test_two_pieces_of_one_type(lmp, tmp_path, nranks, newton, mirror):
+    """They meet, and part again, as two types without tension do: the same bits on one rank"""
+    for type in (1, 2):
+        lmp(blocks(newton, type, mirror=mirror) + APART.format(-300.0) + "run 500\n" + OUT.format(f"{type}.dump"), nranks=nranks if type == 1 else 1)
+    same(tmp_path / "1.dump", tmp_path / "2.dump", 0.0 if nranks == 1 else 1e-6)
+    state, label = rows(tmp_path / "1.dump")
+    half = len(label) // 2
+    assert set(label[:half]) == {1} and set(label[half:]) == {half + 1}
+    assert state[half:, 5].mean() - state[:half, 5].mean() > 20.0  # they have come apart again
+
+
+def test_one_piece(lmp, tmp_path):
+    """What begins as one is one: the halves hold each other back"""
+    lmp(blocks(gap=0) + APART.format(20.0) + "run 200\n" + OUT.format("one.dump"))
+    state, label = rows(tmp_path / "one.dump")
+    assert set(label) == {1}
+    assert abs(state[len(label) // 2:, 5].mean()) < 19.0
+
+
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "off")])
+def test_does_not_heal(lmp, tmp_path, nranks, newton):
+    """Halves that have been apart when labels were made are two bodies from then on, also when they are put back, and after a restart"""
+    text = blocks(newton, gap=0)
+    move = "displace_atoms upper move 0 0 {} units box\nrun {}\n"
+    apart = text + "timestep 1e-9\nunfix step\nrun 50\n" + move.format(5 * DX, 20)
+    lmp(apart + OUT.format("early.dump"), nranks=nranks)
+    assert set(rows(tmp_path / "early.dump")[1]) == {1}  # labels are of the first step still: one body, whose parts are far from each other
+    lmp(apart + "run 40\nwrite_restart apart.restart\n" + move.format(-5 * DX, 0) + OUT.format("back.dump") + APART.format(20.0) + "run 20\n" + OUT.format("straight.dump"), nranks=nranks)
+    label = rows(tmp_path / "back.dump")[1]
+    half = len(label) // 2
+    assert set(label[:half]) == {1} and set(label[half:]) == {half + 1}
+    assert rows(tmp_path / "straight.dump")[0][half:, 5].mean() == pytest.approx(20.0, rel=1e-6)  # nothing holds it
+    head = text[text.index("pair_style"):]
+    again = "units si\n" + f"newton {newton}\natom_modify map yes\nread_restart apart.restart\n" + head + "timestep 1e-9\nunfix step\nrun 0\n" + move.format(-5 * DX, 0)
+    lmp(again + APART.format(20.0) + "run 20\n" + OUT.format("again.dump"), nranks=nranks)
+    same(tmp_path / "again.dump", tmp_path / "straight.dump", 1e-9)
+    assert (rows(tmp_path / "again.dump")[1] == label).all()
+
+
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "off")])
+def test_hangs_on_elements(lmp, tmp_path, nranks, newton):
+    """What hangs on elements has the label 0; a piece beside them its own"""
+    mesh = plate()
+    piece = np.array([[0.25, 0.25, 3.0], [0.75, 0.25, 3.0]]) * EDGE
+    mesh.free = np.concatenate([mesh.free, piece])
+    mesh.free_type = np.concatenate([mesh.free_type, [2, 2]])
+    mesh.free_volume = np.concatenate([mesh.free_volume, [mesh.free_volume[0]] * 2])
+    text = start(mesh, newton=newton, spall="pressure") + "compute s all hvi/atom body\nrun 0\n"
+    lmp(text + "group held type 2\nwrite_dump held custom e.dump id z z z z z z c_s modify sort id\n", nranks=nranks)
+    z, label = rows(tmp_path / "e.dump")
+    beside = z[:, 0] > 2 * EDGE
+    assert beside.sum() == 2 and len(set(label[beside])) == 1 and (label[beside] > 0).all()
+    assert (label[~beside] == 0).all()
