@@ -19,7 +19,7 @@ namespace LAMMPS_NS {
 
 /* ----------------------------------------------------------------------
    What computes that measure bodies have in common: which owned particles count.
-   Those of the group do, or those that a compute chooses which has one of its own;
+   Those of the group do, or those chosen by the compute that owns this one (hvi/wall);
    nodes of elements never do.
 ------------------------------------------------------------------------- */
 

@@ -25,6 +25,9 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
+static constexpr double RESTART_FORMAT =
+    -1.0;    // below all time steps, which files without one begin with
+
 enum { MAXIMUM, CONTACT, SPRING, APPROACH, GROWING, SIGNAL, NLIMITER };
 
 /* ---------------------------------------------------------------------- */
@@ -227,10 +230,10 @@ double FixHVIDt::compute_vector(int n)
 void FixHVIDt::write_restart(FILE *fp)
 {
   if (comm->me) return;
-  const double list[4] = {update->dt, (double) limiter, (double) laststep, first};
+  const double list[5] = {RESTART_FORMAT, update->dt, (double) limiter, (double) laststep, first};
   const int size = sizeof(list);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(list, sizeof(double), 4, fp);
+  fwrite(list, sizeof(double), 5, fp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -238,10 +241,12 @@ void FixHVIDt::write_restart(FILE *fp)
 void FixHVIDt::restart(char *buf)
 {
   const double *const list = (double *) buf;
-  update->dt = list[0];
+  if (list[0] != RESTART_FORMAT)
+    error->all(FLERR, "Fix hvi/dt: the restart file is of another version of the package");
+  update->dt = list[1];
   update->dt_default = 0;
-  limiter = static_cast<int>(list[1]);
-  laststep = static_cast<bigint>(list[2]);
-  first = list[3];
+  limiter = static_cast<int>(list[2]);
+  laststep = static_cast<bigint>(list[3]);
+  first = list[4];
   restored = 1;
 }

@@ -58,7 +58,7 @@ class FixHVIFEM :
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  // output, fix_hvi_fem_output.cpp
+  // output
 
   double compute_scalar() override { return total; }
   double compute_vector(int) override;
@@ -107,7 +107,7 @@ class FixHVIFEM :
 
   void read_options(int, char **);
 
-  // the start of a run, fix_hvi_fem_start.cpp
+  // the start of a run
 
   void find_laws();
   void start_elements();

@@ -96,7 +96,7 @@ class FixHVIFEMMesh : public Fix {
   }
   bigint count() const;    // on all ranks
 
-  // fix_hvi_fem_mesh_files.cpp: particles that migrate, restart files and data files
+  // particles that migrate, restart files and data files
 
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;

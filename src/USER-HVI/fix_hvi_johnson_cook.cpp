@@ -15,6 +15,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix_hvi_sph.h"
 #include "fix_hvi_store.h"
 #include "force.h"
 #include "group.h"
@@ -465,9 +466,11 @@ void FixHVIJohnsonCook::start(int i, bool anew)
 
 void FixHVIJohnsonCook::begin_step()
 {
-  for (int i = 0; i < atom->nlocal; i++)
-    if (const HVI::SolidModel *const model = of(i))
+  for (int i = 0; i < atom->nlocal; i++) {
+    const HVI::SolidModel *const model = of(i);
+    if (model && !FixHVISPH::is_frozen(atom->rho[i]))
       model->begin_step(extra[i], model->own_limit() ? input(i) : HVI::SolidInput());
+  }
   in_setup = false;
 }
 
@@ -491,7 +494,9 @@ void FixHVIJohnsonCook::advance(double dt)
   };
   for (int i = 0; i < atom->nlocal; i++) {
     const HVI::SolidModel *const model = of(i);
-    if (!model || failed(i) || (atom->mask[i] & store->embedded)) continue;
+    if (!model || failed(i) || (atom->mask[i] & store->embedded) ||
+        FixHVISPH::is_frozen(atom->rho[i]))
+      continue;
     if (store->fields.asleep(i)) {
       extra[i].rate = 0.0;
       continue;

@@ -286,7 +286,8 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
     const int itype = atom->type[i];
     if (!has_material(i)) continue;
     Extra &e = extra[i];
-    if (atom->rho[i] == 0.0 && e.mark == 0 && store->materials.entry(itype).volume > 0.0)
+    if (atom->rho[i] == 0.0 && e.mark == 0 && e.frozen == 0.0 &&
+        store->materials.entry(itype).volume > 0.0)
       atom->rho[i] = store->materials.of(itype)->eos->rho0();
     if (e.hscale == 0.0) {
       if (set.variable && !(atom->rho[i] > 0.0))
@@ -574,14 +575,15 @@ void FixHVISPH::tighten(HVI::TimeStepBounds &bounds)
 }
 
 /* ----------------------------------------------------------------------
-   In the middle of a step: what is extrapolated is taken back.  All ranks see it in the density of ghosts.
+   In the middle of a step, for its density rho: the extrapolation of energy is undone.  A density of 0 marks the
+   particle, and reaches its ghosts with the next communication.  What is not finite is an error of its own.
 ------------------------------------------------------------------------- */
 
-bool FixHVISPH::freeze(int i)
+bool FixHVISPH::freeze(int i, double rho)
 {
   if (most_frozen == 0 || !integrates(i) || is_frozen(atom->rho[i])) return false;
   Extra &e = extra[i];
-  if (!std::isfinite(atom->rho[i]) || !std::isfinite(atom->esph[i])) return false;
+  if (!std::isfinite(rho) || !std::isfinite(atom->esph[i])) return false;
   atom->esph[i] -= e.de;
   atom->rho[i] = e.new_rho = e.drho = e.de = 0.0;
   e.old_drho = NAN;
@@ -640,7 +642,7 @@ void FixHVISPH::let_go(int i, double de)
    What forces work on the velocity of the end of the step beyond what they did on the extrapolated
    one.  Over all particles that is the same of pairs, so it can be taken from a particle's own energy.
    A half kick gives dt/2 F.v and, at the end of a step less, at the beginning more, dt^2/8 F^2/m,
-   which only cancels if the step is the same: what is left is taken, too.  Then the total energy is
+   which cancel if the steps are equal: the rest is taken from the particle's energy, too.  Then the total energy is
    kept to round-off, but for dt^2/8 F^2/m of the moment.  The first is of SPH forces only, for others
    work on v itself; F in the second is all of the force.
 ------------------------------------------------------------------------- */

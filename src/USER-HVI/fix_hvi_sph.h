@@ -96,7 +96,7 @@ class FixHVISPH :
   // Keyword bad: a particle that no equation of state answers for takes no part from now on: its density is 0, its
   // momentum and energy stay.  False: that is an error.
 
-  bool freeze(int i);
+  bool freeze(int i, double rho);
   bool may_send_away() const override { return deletes_frozen; }
   bool is_to_go(int i) const override { return has_frozen(i); }
   bool has_frozen(int i) const { return extra[i].frozen != 0.0; }

@@ -29,11 +29,12 @@ class EnergyCarrier {
   virtual double internal_energy(int /*i*/) const { return 0.0; }
   virtual double plastic_work(int /*i*/) const { return 0.0; }
 
-  // particles that are taken out with the next lists, as those beyond a fixed face; is there such a one ever?
-
-  virtual bool may_send_away() const { return false; }
-  virtual bool is_to_go(int /*i*/) const { return false; }
   virtual double void_work(int /*i*/) const { return 0.0; }
+
+  // whether particle i is to be removed with the next lists, as if beyond a fixed face; whether any ever can be
+
+  virtual bool is_to_go(int /*i*/) const { return false; }
+  virtual bool may_send_away() const { return false; }
 
   // of a pair that is torn apart, which types and distance say all about: below which squared
   // distance it has energy, that energy, and the force divided by distance

@@ -86,7 +86,7 @@ bigint HVILeavers::pick(bool at_faces)
   for (int i = 0; i < atom->nlocal; i++)
     if (next < leaving.size() && leaving[next] == i)
       next++;
-    else if (beyond(i, depth))
+    else if (!send_away.empty() || beyond(i, depth))
       near.push_back(i);
   return number;
 }

@@ -18,8 +18,8 @@
 namespace LAMMPS_NS {
 
 /* ----------------------------------------------------------------------
-   Particles beyond a fixed face of the box, about to be lost: counts up what
-   leaves with them and takes them out.  Needs neither ghosts nor a neighbor
+   Particles about to be removed, beyond a fixed face of the box or sent away by
+   an EnergyCarrier: counts up what leaves with them and takes them out.  Needs neither ghosts nor a neighbor
    list: a rank sees all leavers near its own particles, if any style can tear
    pairs or bonds apart.
 ------------------------------------------------------------------------- */

@@ -43,6 +43,9 @@ HVIScheme::HVIScheme(LAMMPS *lmp, const HVIPairTables &pairs_in) :
 
 void HVIScheme::choose(int terms, bool may_be_inactive)
 {
+  if (atom->ntypes > HVI::SphState::MOST_TYPES)
+    error->all(FLERR, "Pair style hvi/sph has at most {} types, not {}", HVI::SphState::MOST_TYPES,
+               atom->ntypes);
   if (set.variable) terms |= HVI::SPH_OWN_H;
   int first = 0;
   for (int i = 1; i <= atom->ntypes; i++) {
@@ -127,7 +130,7 @@ double HVIScheme::mass(int i) const
   return atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
 }
 
-bool HVIScheme::is_ours(int i) const
+bool HVIScheme::has_record(int i) const
 {
   return pairs.is_ours[atom->type[i]] && !fields.is_idle(i) && !FixHVISPH::is_frozen(atom->rho[i]);
 }
@@ -201,7 +204,8 @@ void HVIScheme::gather_records()
 void HVIScheme::take_out(int i)
 {
   static constexpr double AWAY = 1.0e6;
-  if (i < atom->nlocal && !(integrator && (integrator->has_frozen(i) || integrator->freeze(i))))
+  if (i < atom->nlocal &&
+      !(integrator && (integrator->has_frozen(i) || integrator->freeze(i, atom->rho[i]))))
     no_answer(i, atom->rho[i]);
   const double *const x = atom->x[i], h = set.h[atom->type[i]];
   fields.view().place[i] = {x[0] + AWAY * h, x[1] + AWAY * h, x[2] + AWAY * h, h};
@@ -227,8 +231,9 @@ void HVIScheme::no_answer(int i, double rho) const
 }
 
 /* ----------------------------------------------------------------------
-   What counts as undisturbed, in parts of the speed of sound c: differences of velocity; of density;
-   of energy the root, for that of a stress goes with its square, so that it need not be asked for.
+   What counts as undisturbed, in parts eps of the speed of sound c: velocities that differ by eps c, densities by
+   eps rho0, energies per mass up to eps^2 c^2.  The energy of a stress goes with its square, so the bound on energy
+   is one on stress.
 ------------------------------------------------------------------------- */
 
 void HVIScheme::find_quiet(bool can)
@@ -410,7 +415,7 @@ void HVIScheme::unpack_reverse(int n, const int *list, const double *buf)
 
 /* ----------------------------------------------------------------------
    Shortest h/(c + approach + viscosity), from the last forces.  A pair that is not yet within reach is
-   not seen: it comes no deeper in a step than forces rise slowly.  What they reach with variable h is
+   not seen: the step lets it come so deep in the kernel only that forces are still small.  With variable h the reach is
    that of now: how fast h shrinks is limited by signals.  Those that are not in adjacent
    cells are farther apart by a skin at least.
 ------------------------------------------------------------------------- */
@@ -440,7 +445,7 @@ std::string HVIScheme::fastest_signal() const
   int most = -1;
   double rate = 0.0;
   for (int i = 0; i < (int) has_neighbor.size(); i++) {
-    if (!is_ours(i) || !has_neighbor[i]) continue;
+    if (!has_record(i) || !has_neighbor[i]) continue;
     const double here = records.state[i].c / records.place[i].h;
     if (here <= rate) continue;
     most = i;

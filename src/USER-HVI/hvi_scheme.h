@@ -117,19 +117,21 @@ class HVIScheme : protected Pointers {
   void choose(int terms, bool may_be_inactive = true);
   void start();    // images, inactive particles, records of owned particles, ghosts and images
   double mass(int i) const;
-  bool is_ours(int i) const;    // and not idle: has a record
-  bool is_active(int i) const { return is_ours(i) && !fields.asleep(i); }
+  bool has_record(int i) const;    // of this style, and neither idle nor frozen
+  bool is_active(int i) const { return has_record(i) && !fields.asleep(i); }
   void take_out(int i);
   [[noreturn]] void no_answer(int i, double rho) const;
   template <class Record> void forward(Record *, int number = Record::SENT, int first = 0);
   template <class Record> void reverse(Record *, int number = Record::SENT);
 
-  // Undisturbed matter is left out.  Differences that count as none: of velocity, in all (NO_BOUND: nothing is left
-  // out) and of density, relative; by type its density (0: never undisturbed) and energy per mass
+  // Undisturbed matter is left out: what counts as undisturbed
 
   struct {
-    double v = HVI::NO_BOUND, rho_part = 0.0;
-    std::vector<double> rho, e;
+    double v =
+        HVI::NO_BOUND;    // the most that velocities may differ by; NO_BOUND: nothing is left out
+    double rho_part = 0.0;      // the most that densities may, over that at rest
+    std::vector<double> rho;    // by type: density at rest; 0: never undisturbed
+    std::vector<double> e;      // by type: the most energy per mass
   } quiet;
   bool all_sums = false;    // particles have sums over all of their neighbors, be these inactive
 

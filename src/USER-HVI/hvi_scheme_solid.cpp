@@ -46,9 +46,6 @@ HVISchemeSolid::HVISchemeSolid(LAMMPS *lmp, const HVIPairTables &tables) :
     terms |= HVI::SPH_DENSITY;
   if (set.laws.art_eps > 0.0) terms |= HVI::SPH_ARTSTRESS;
   if (strength->can_fail()) terms |= HVI::SPH_BODIES;
-  if (atom->ntypes > HVI::SphState::MOST_TYPES)
-    error->all(FLERR, "Pair hvi/sph: solids have at most {} types, not {}",
-               HVI::SphState::MOST_TYPES, atom->ntypes);
   all_sums = true;              // M
   choose(terms, set.energy);    // without energy a stress leaves no trace in it
 }
@@ -153,14 +150,14 @@ void HVISchemeSolid::label_bodies()
   } else {    // in a setup
     int anew = 0, any;
     for (int i = 0; i < nlocal; i++)
-      if (is_ours(i) && !is_embedded(i) && !integrator->has_body(i)) anew = 1;
+      if (has_record(i) && !is_embedded(i) && !integrator->has_body(i)) anew = 1;
     MPI_Allreduce(&anew, &any, 1, MPI_INT, MPI_MAX, world);
     if (!any) return;
   }
 
   const HVI::SphView &records = work.records;
   const auto is_sound = [&](int i) {
-    return is_ours(i) && !records.state[i].is_rubble();
+    return has_record(i) && !records.state[i].is_rubble();
   };
   tagint here = 0, highest;
   for (int i = 0; i < nlocal; i++) here = MAX(here, atom->tag[i]);
@@ -194,12 +191,12 @@ void HVISchemeSolid::label_bodies()
     const int64_t lowest = ids[i] ? components.component(i).id : 0;
     if (ids[i])
       integrator->set_body(i, lowest > highest ? lowest - highest : 0);
-    else if (is_ours(i) && !integrator->has_body(i))
+    else if (has_record(i) && !integrator->has_body(i))
       integrator->set_body(i, 0);
   }
   integrator->tell_ghosts();
   for (int i = 0; i < nall; i++)
-    if (is_ours(i))
+    if (has_record(i))
       records.state[i].body =
           HVI::SphState::code(atom->type[i], integrator->body(i), records.state[i].is_rubble());
   if (set.mirror.planes) images.fill(set.mirror, records);
@@ -363,8 +360,18 @@ void HVISchemeSolid::advance()
     double csq;
     if (eos.evaluate(T.rho, atom->esph[i] / mass(i), T.p, csq))
       continue;    // what of p is borne is known with the stress
-    if (!integrator->freeze(i)) no_answer(i, T.rho);
-    T = {};
+    if (!integrator->freeze(i, T.rho)) no_answer(i, T.rho);
+
+    // its stress is gone; its volume and velocity are still those that ghosts have
+
+    SphTraction gone = {};
+    gone.vx = T.vx;
+    gone.vy = T.vy;
+    gone.vz = T.vz;
+    gone.volume = T.volume;
+    T = gone;
+    if (records.push) records.push[i] = {};
+    if (records.art) records.art[i] = {};
   }
   if (mesh) mesh->advance();
   if (integrator->is_due()) strength->advance(integrator->step());
@@ -442,7 +449,7 @@ void HVISchemeSolid::artificial_stress()
   const HVI::SphView &records = work.records;
   const HVI::SphLaws &laws = set.laws;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_ours(i)) continue;
+    if (!has_record(i)) continue;
     const int itype = atom->type[i];
     const HVI::Deviator T = HVI::tensile_part(records.traction[i].p, strength->stress(i).S);
     double f = 0.0;

@@ -64,6 +64,8 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
   for (int i = 0; i < nlocal; i++) {
     const int itype = atom->type[i];
     if (!is_ours[itype]) continue;
+    const bool anew = unmoved.empty() ? update->ntimestep == 0 : unmoved[i];
+    if (!anew && atom->rho[i] == 0.0) continue;    // frozen
     double *const s = &sum[NSUM * itype], *const e = &least[NEXTREME * itype];
     const HVI::Materials::Entry &entry = store->materials.entry(itype);
     const double rho0 = entry.material->eos->rho0();
@@ -72,7 +74,7 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     s[NUMBER] += 1.0;
     s[MASS] += atom->rmass ? atom->rmass[i] : atom->mass[itype];
     s[DENSITY] += rho;
-    if (unmoved.empty() ? update->ntimestep == 0 : unmoved[i]) {
+    if (anew) {
       s[NEW] += 1.0;
       if (rho0 > 0.0 && std::fabs(rho / rho0 - 1.0) > RATIO_OFF) s[FAR] += 1.0;
     }

@@ -42,7 +42,8 @@
 using namespace LAMMPS_NS;
 
 static constexpr double BIG = 1.0e100;
-static constexpr double SKIN_OF_SPACING = 0.7;           // see choose_skin()
+static constexpr int RESTART_FORMAT = 1001;       // more than what files without one begin with
+static constexpr double SKIN_OF_SPACING = 0.7;    // see choose_skin()
 static constexpr char OWNER[] = "pair style hvi/sph";    // of materials
 static constexpr double FAR_MASS = 1.5;        // times that of the spacing: another material's
 static constexpr double H_OF_SPACING = 1.2;    // smoothing length in spacings: see Howto_choose
@@ -906,6 +907,7 @@ void PairHVISPH::read_restart(FILE *fp)
 
 void PairHVISPH::write_restart_settings(FILE *fp)
 {
+  fwrite(&RESTART_FORMAT, sizeof(int), 1, fp);
   write_text(fp, set.kernel);
   write_text(fp, set.text);
   const HVI::SphLaws &laws = set.laws;
@@ -925,9 +927,14 @@ void PairHVISPH::write_restart_settings(FILE *fp)
 void PairHVISPH::read_restart_settings(FILE *fp)
 {
   set = HVI::SphSettings();
+  int format = 0;
+  if (comm->me == 0) utils::sfread(FLERR, &format, sizeof(int), 1, fp, nullptr, error);
+  MPI_Bcast(&format, 1, MPI_INT, 0, world);
+  if (format != RESTART_FORMAT)
+    error->all(FLERR, "Pair hvi/sph: the restart file is of another version of the package");
   set.kernel = read_text(fp, comm->me, world, error);
   set.text = read_text(fp, comm->me, world, error);
-  int flags[7];
+  int flags[8];
   double values[13];
   if (comm->me == 0) {
     utils::sfread(FLERR, flags, sizeof(int), 7, fp, nullptr, error);

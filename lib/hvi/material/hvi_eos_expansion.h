@@ -23,8 +23,8 @@ namespace HVI {
 
      p = f(x) p1,   f = 1 - (1 - x)^2 [1 + (2 - h) x],   h = H/G(0), 3 at most
 
-   f(1) = 1 and f'(1) = 0, so that p, c and Gamma join those in compression.  Where p1 is 0, at the energy
-   e0(x), p is, and tension stays as it is.  f' >= 0, so c^2 > 0 where p1 rises with density.  f = h x
+   f(1) = 1 and f'(1) = 0, so that p, c and Gamma join those in compression.  p is 0 where p1 is, at the
+   energy e0(x), and p1 < 0 is left as it is.  f' >= 0, so c^2 > 0 where p1 rises with density.  f = h x
    in thin matter, which is a gas with Gamma = H,
 
      p = H rho (e - e0(0)),   H = 2/3

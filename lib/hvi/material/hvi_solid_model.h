@@ -124,7 +124,7 @@ class SolidModel {
   static bool started(const SolidState &s) { return s.before.shear != UNSEEN; }
 
   // Laws that take time share numbers of the state.  What one of them has begun there that this model, or a
-  // liquid (nullptr), would drop or take for its own; nullptr: nothing.  Rubble is rubble by any law.
+  // liquid (nullptr), would ignore or misread; nullptr: nothing.  Rubble is rubble by any law.
 
   struct Begun {
     const char *what, *law;

@@ -23,8 +23,8 @@ namespace HVI {
    undisturbed and have one velocity.  All that can act on a particle is in its own cell and the
    adjacent ones, so nothing does, and wherever something comes near it wakes before that acts.
 
-   Who is awake may need those who sleep: sums over all neighbors, such as M of gradient corrected,
-   lack none of them only if all cells next to one with somebody awake are gone through.
+   Active particles may need inactive ones: sums over all neighbors, such as M of solids, lack none of
+   them only if all cells next to one with an active particle are gone through.
 ------------------------------------------------------------------------- */
 
 class Sleep {

@@ -11,7 +11,7 @@
 
 #include "hvi_sph_riemann.h"
 
-// solids with gradient corrected: forces that bear full stress where neighbors are missing.  The
+// solids, with corrected gradients: forces that bear full stress where neighbors are missing.  The
 // equations are in doc/src/Howto_sph.rst
 
 namespace HVI {
