@@ -316,9 +316,10 @@ void FixHVIFEM::advance()
       advance_batch(batch, due);
     for (int lane = 0; lane < batch.n; lane++) {
       Element &one = batch.element[lane];
-      one.kick = 0.0;
       if (!(one.stable >= shortest)) shortest = one.stable;
-      if (goes_on || one.stable_at_start > 0.0) continue;
+      if (goes_on) continue;
+      one.kick = 0.0;
+      if (one.stable_at_start > 0.0) continue;
       one.stable_at_start = one.stable;
       one.shared = HVI::shared_corners(nodes_of(e + lane));
     }
