@@ -409,6 +409,23 @@ void FixHVIFEM::final_integrate()
   dt_last = update->dt;
   for (std::size_t e = 0; e < elements.size(); e++)
     mechanics.second_half(elements[e], steps[e], dt_last);
+  if (is_looked_at()) show_particles();
+}
+
+/* ----------------------------------------------------------------------
+   By fixes at the end of this step, before this one may have its turn: LAMMPS's read particles, or have computes read
+   them, and do not say so before; those of this package do not.
+------------------------------------------------------------------------- */
+
+bool FixHVIFEM::is_looked_at() const
+{
+  for (int n = 0; n < modify->nfix; n++) {
+    const Fix *const other = modify->fix[n];
+    if ((modify->fmask[n] & END_OF_STEP) && update->ntimestep % other->nevery == 0 &&
+        strncmp(other->style, "hvi/", 4) != 0)
+      return true;
+  }
+  return false;
 }
 
 /* ----------------------------------------------------------------------

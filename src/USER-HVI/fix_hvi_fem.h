@@ -121,6 +121,7 @@ class FixHVIFEM :
   void release();
   void advance_batch(HVI::ElementBatch &, bool due) const;
   void bring_forces();
+  bool is_looked_at() const;
   void show_particles();
   void find_probes();
   void read_probes();
