@@ -699,6 +699,49 @@ double FixHVIFEM::void_work(int i) const
 }
 
 /* ----------------------------------------------------------------------
+   Lists leave out pairs of embedded particles.  First nodes are owned here: others, and particles, hang on them.
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::join(HVI::Components &components, const std::vector<std::int64_t> &id, int first,
+                     bool failed_alone)
+{
+  const auto counts = of_embedded.gather([&id](int i) {
+    return id[i];
+  });
+  std::vector<char> holds(elements.size());
+  for (std::size_t e = 0; e < elements.size(); e++)
+    holds[e] = elements[e].n == 0 && !(failed_alone && elements[e].solid.failed());
+  for (std::size_t k = 0; k < counts.size(); k++)
+    if (counts[k] > 0) holds[embedded[k].element] = 1;
+
+  const auto hang = [&](const Element &one, std::int64_t tag, int slot) {
+    const int i = of_nodes.local(tag);
+    components.join(of_nodes.local(one.node[0]), i >= 0 && i < atom->nlocal ? i : first + slot);
+  };
+  for (std::size_t e = 0; e < elements.size(); e++)
+    for (int a = 1; a < CORNERS && holds[e]; a++)
+      hang(elements[e], elements[e].node[a], number(e, a));
+  for (std::size_t k = 0; k < embedded.size(); k++) {
+    const Element &one = elements[embedded[k].element];
+    if (holds[embedded[k].element]) hang(one, one.first + embedded[k].cell, of_nodes.size() + k);
+  }
+}
+
+void FixHVIFEM::copy(HVI::Components::Node *node, int first)
+{
+  for (HVITagExchange *const here : {&of_nodes, &of_embedded}) {
+    here->gather(
+        [node](int i) {
+          return node[i];
+        },
+        [&](int k, const HVI::Components::Node &there) {
+          node[first + k] = there;
+        });
+    first += here->size();
+  }
+}
+
+/* ----------------------------------------------------------------------
    Sums over ranks: the numbers of elements that have become particles, and why; heat of that, hourglass energy of all,
    elements without particles that have failed, internal energy, smallest step
 ------------------------------------------------------------------------- */
