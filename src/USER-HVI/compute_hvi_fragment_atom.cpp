@@ -29,6 +29,7 @@
 #include "thermo.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -165,8 +166,9 @@ void ComputeHVIFragmentAtom::compute_peratom()
   }
 
   find_fragments(nullptr);
-  for (int i = 0; i < atom->nlocal; i++)
-    fragment[i] = static_cast<double>(std::abs(components.component(i).id));
+  std::vector<int64_t> lowest;
+  name_found(lowest);
+  std::copy(lowest.begin(), lowest.end(), fragment);
 }
 
 /* ----------------------------------------------------------------------
@@ -195,14 +197,21 @@ void ComputeHVIFragmentAtom::find_fragments(Region *region)
       if (strength ? strength->failed(i) : !(d[i] < 1.0)) id[i] = -id[i];
   }
 
-  components.start(id, nlocal + atom->nghost);
+  HVI::Mesh *const mesh = mode == BONDS ? nullptr : HVI::find_mesh(lmp);
+  const int nall = nlocal + atom->nghost;
+  std::vector<int64_t> vertex = id;
+  for (int i = 0; mesh && i < nlocal; i++)
+    if (mesh->is_node(atom->type[i])) vertex[i] = HVI::Mesh::node_id(atom->tag[i]);
+  components.start(vertex, nall + (mesh ? mesh->copies() : 0));
   if (mode == BONDS)
     join_bonds();
   else
-    join_close();
-  components.finish([this](HVI::Components::Node *n) {
+    join_close(mesh);
+  if (mesh) mesh->join(components, id, nall, damage);
+  components.finish([this, mesh, nall](HVI::Components::Node *n) {
     node = n;
     comm->forward_comm(this);
+    if (mesh) mesh->copy(n, nall);
   });
 }
 
@@ -253,9 +262,11 @@ void ComputeHVIFragmentAtom::join_bonds()
   }
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   nodes of elements are vertices, too, but hold nothing by distance
+------------------------------------------------------------------------- */
 
-void ComputeHVIFragmentAtom::join_close()
+void ComputeHVIFragmentAtom::join_close(const HVI::Mesh *mesh)
 {
   comm->forward_comm();    // ghosts are behind if the box has changed since
   neighbor->build_one(list);
@@ -271,7 +282,9 @@ void ComputeHVIFragmentAtom::join_close()
       const double delx = x[i][0] - x[j][0];
       const double dely = x[i][1] - x[j][1];
       const double delz = x[i][2] - x[j][2];
-      if (delx * delx + dely * dely + delz * delz < cutsq) components.join(i, j);
+      if (delx * delx + dely * dely + delz * delz < cutsq &&
+          !(mesh && mesh->is_node(atom->type[j])))
+        components.join(i, j);
     }
   }
 }

@@ -17,6 +17,7 @@ ComputeStyle(hvi/fragment/atom,ComputeHVIFragmentAtom);
 
 #include "compute_hvi_matter.h"
 #include "hvi_components.h"
+#include "hvi_mesh.h"
 
 namespace LAMMPS_NS {
 
@@ -71,7 +72,7 @@ class ComputeHVIFragmentAtom : public ComputeHVIMatter {
 
   const double *find_damage() const;
   void join_bonds();
-  void join_close();
+  void join_close(const HVI::Mesh *);
 };
 
 }    // namespace LAMMPS_NS

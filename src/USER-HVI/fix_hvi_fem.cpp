@@ -316,9 +316,10 @@ void FixHVIFEM::advance()
       advance_batch(batch, due);
     for (int lane = 0; lane < batch.n; lane++) {
       Element &one = batch.element[lane];
-      one.kick = 0.0;
       if (!(one.stable >= shortest)) shortest = one.stable;
-      if (goes_on || one.stable_at_start > 0.0) continue;
+      if (goes_on) continue;
+      one.kick = 0.0;
+      if (one.stable_at_start > 0.0) continue;
       one.stable_at_start = one.stable;
       one.shared = HVI::shared_corners(nodes_of(e + lane));
     }
@@ -408,6 +409,23 @@ void FixHVIFEM::final_integrate()
   dt_last = update->dt;
   for (std::size_t e = 0; e < elements.size(); e++)
     mechanics.second_half(elements[e], steps[e], dt_last);
+  if (is_looked_at()) show_particles();
+}
+
+/* ----------------------------------------------------------------------
+   By fixes at the end of this step, before this one may have its turn: LAMMPS's read particles, or have computes read
+   them, and do not say so before; those of this package do not.
+------------------------------------------------------------------------- */
+
+bool FixHVIFEM::is_looked_at() const
+{
+  for (int n = 0; n < modify->nfix; n++) {
+    const Fix *const other = modify->fix[n];
+    if ((modify->fmask[n] & END_OF_STEP) && update->ntimestep % other->nevery == 0 &&
+        strncmp(other->style, "hvi/", 4) != 0)
+      return true;
+  }
+  return false;
 }
 
 /* ----------------------------------------------------------------------
@@ -678,6 +696,49 @@ double FixHVIFEM::void_work(int i) const
     sum += one.mass * one.solid.voids.work;
   });
   return sum;
+}
+
+/* ----------------------------------------------------------------------
+   Lists leave out pairs of embedded particles.  First nodes are owned here: others, and particles, hang on them.
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::join(HVI::Components &components, const std::vector<std::int64_t> &id, int first,
+                     bool failed_alone)
+{
+  const auto counts = of_embedded.gather([&id](int i) {
+    return id[i];
+  });
+  std::vector<char> holds(elements.size());
+  for (std::size_t e = 0; e < elements.size(); e++)
+    holds[e] = elements[e].n == 0 && !(failed_alone && elements[e].solid.failed());
+  for (std::size_t k = 0; k < counts.size(); k++)
+    if (counts[k] > 0) holds[embedded[k].element] = 1;
+
+  const auto hang = [&](const Element &one, std::int64_t tag, int slot) {
+    const int i = of_nodes.local(tag);
+    components.join(of_nodes.local(one.node[0]), i >= 0 && i < atom->nlocal ? i : first + slot);
+  };
+  for (std::size_t e = 0; e < elements.size(); e++)
+    for (int a = 1; a < CORNERS && holds[e]; a++)
+      hang(elements[e], elements[e].node[a], number(e, a));
+  for (std::size_t k = 0; k < embedded.size(); k++) {
+    const Element &one = elements[embedded[k].element];
+    if (holds[embedded[k].element]) hang(one, one.first + embedded[k].cell, of_nodes.size() + k);
+  }
+}
+
+void FixHVIFEM::copy(HVI::Components::Node *node, int first)
+{
+  for (HVITagExchange *const here : {&of_nodes, &of_embedded}) {
+    here->gather(
+        [node](int i) {
+          return node[i];
+        },
+        [&](int k, const HVI::Components::Node &there) {
+          node[first + k] = there;
+        });
+    first += here->size();
+  }
 }
 
 /* ----------------------------------------------------------------------

@@ -68,6 +68,9 @@ class FixHVIFEM :
   double void_work(int) const override;
 
   bool is_node(int itype) const override { return node_types[itype]; }
+  int copies() const override { return of_nodes.size() + of_embedded.size(); }
+  void join(HVI::Components &, const std::vector<std::int64_t> &, int, bool) override;
+  void copy(HVI::Components::Node *, int) override;
   void tighten(HVI::TimeStepBounds &) override;
   bool at_hand() const override { return true; }
 
@@ -121,6 +124,7 @@ class FixHVIFEM :
   void release();
   void advance_batch(HVI::ElementBatch &, bool due) const;
   void bring_forces();
+  bool is_looked_at() const;
   void show_particles();
   void find_probes();
   void read_probes();

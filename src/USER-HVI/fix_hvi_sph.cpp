@@ -323,6 +323,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
   }
   MPI_Allreduce(&longest, &last, 1, MPI_DOUBLE, MPI_MAX, world);
   due = false;
+  in_setup = true;
   comm->forward_comm();
   if (set.variable) tell_ghosts();
 }
@@ -337,6 +338,7 @@ void FixHVISPH::setup(int /*vflag*/)
     checked = 1;
   }
   stepping = 1;
+  in_setup = false;
   swiftest = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!integrates(i)) continue;

@@ -119,9 +119,13 @@ class FixHVISPH :
   void set_body(int i, int64_t label) { extra[i].body = label; }
   void tell_ghosts() { comm->forward_comm(this); }
 
-  // in the middle of a step esph is ahead of the velocity
+  // in the middle of a step esph is ahead of the velocity; in a setup it waits while forces are asked for
 
-  double internal_energy(int i) const override { return -extra[i].de; }
+  double internal_energy(int i) const override
+  {
+    const double waiting = in_setup && integrates(i) ? extra[i].rates_esph - atom->esph[i] : 0.0;
+    return waiting - extra[i].de;
+  }
 
  private:
   using Extra = HVISPHExtra;
@@ -137,6 +141,7 @@ class FixHVISPH :
   double last;                      // step, of which forces are the end
   bool due;                         // density and stress of solids are those of its begin
   std::vector<double> setup_rho;    // in a setup: of the rates that forces are asked for
+  bool in_setup = false;            // in it: rho and esph of particles are these
   int stepping;                     // in a run, so that the state is the one the last step left
   int wallbit;                      // groups of particles that are meant to be integrated by nobody
   int follow;       // particles outside the group are moved by fixes that do not know vest

@@ -9,7 +9,11 @@
 #ifndef LMP_HVI_MESH_H
 #define LMP_HVI_MESH_H
 
+#include "hvi_components.h"
 #include "hvi_interface.h"
+
+#include <cstdint>
+#include <vector>
 
 namespace HVI {
 
@@ -27,6 +31,20 @@ class Mesh {
   // step, and with them state, density and pressure of the particles they hold
 
   virtual void advance() = 0;
+
+  // What hangs together by elements, collective: an element holds its particles and nodes if one of
+  // its particles has an id above 0; one without particles does, unless failed ones are alone and it
+  // has failed.  Vertices are owned particles, nodes with their node_id(), and from first on copies
+  // of what elements of this rank have.
+
+  virtual int copies() const = 0;
+  virtual void join(Components &, const std::vector<std::int64_t> &id, int first,
+                    bool failed_alone) = 0;
+  virtual void copy(Components::Node *, int first) = 0;    // to these copies from their owners
+
+  // above those of all particles: a component is named by one of these, if it has any
+
+  static std::int64_t node_id(std::int64_t tag) { return INT64_MAX - tag; }
 };
 
 // what has elements; null: there are none

@@ -161,3 +161,18 @@ def test_a_run_that_ends_early(lmp):
     lmp(early)
     lmp(whole("run 23\n" + STATE.format("right")))
     same(read_state("early"), read_state("right"))
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_books_that_begin_late(lmp, nranks):
+    """compute hvi/energy of a run that goes on: its first total is what the first line says, with energies of particles and elements as they are, not
+    as forces are asked for"""
+    text = whole("run 20\n")
+    book = next(line for line in text.splitlines() if line.startswith("compute book"))
+    shown = [line for line in text.splitlines() if line.startswith(("thermo_style", "thermo_modify"))]
+    early = lmp(text + "run 5\n", nranks=nranks).runs[1]
+    text = "\n".join(line for line in text.splitlines() if line not in (book, *shown))
+    late = lmp(text + "\n" + "\n".join([book, *shown]) + "\nrun 5\n", nranks=nranks).thermo
+    assert np.array_equal(early["c_book[8]"], late["c_book[8]"]) and early["f_wall[10]"][0] > 0 and early["Dt"].min() > 0
+    assert late["c_book[9]"][0] == pytest.approx(1.0, abs=1e-14)
+    assert late["c_book[9]"][-1] == pytest.approx(late["c_book[8]"][-1] / late["c_book[8]"][0], abs=1e-14)

@@ -138,3 +138,12 @@ def test_heat_of_particles_that_are_integrated(lmp, tmp_path, nranks):
             want.append(heats[some].sum() if fix == groups else heats.sum())
     found = [r["c_book[28]"][-1] / 1e-9 for r in lmp(text, nranks=nranks).runs]
     assert found == pytest.approx(want, rel=1e-6)
+
+
+@pytest.mark.parametrize("words", ["", "dissipation riemann"])
+def test_books_that_begin_late(lmp, tmp_path, words):
+    """compute hvi/energy defined between two runs: its first total is that of its first line"""
+    text = scene(blocks(), tmp_path / "s.data", PAIR.format(words)) + "fix step all hvi/dt 0.1\nrun 60\n" + LEDGER + "run 20\n"
+    t = lmp(text).thermo
+    assert t["c_book[2]"][0] > 0.01 * t["c_book[1]"][0] and np.ptp(t["c_book[2]"]) > 1e-3 * t["c_book[2]"][0]
+    assert np.abs(t["c_book[9]"] * t["c_book[8]"][0] / t["c_book[8]"] - 1).max() < 1e-14
