@@ -37,7 +37,7 @@ using HVI::VelocityGradient;
 
 HVISchemeSolid::HVISchemeSolid(LAMMPS *lmp, const HVIPairTables &tables) :
     HVIScheme(lmp, tables), strength(FixHVIJohnsonCook::find(lmp)), mesh(HVI::find_mesh(lmp)),
-    components(world)
+    can_fail(strength->can_fail()), components(world)
 {
   int terms = HVI::SPH_SOLID;
   if (set.riemann)
@@ -45,7 +45,7 @@ HVISchemeSolid::HVISchemeSolid(LAMMPS *lmp, const HVIPairTables &tables) :
   else if (set.density)
     terms |= HVI::SPH_DENSITY;
   if (set.laws.art_eps > 0.0) terms |= HVI::SPH_ARTSTRESS;
-  if (strength->can_fail()) terms |= HVI::SPH_BODIES;
+  if (can_fail) terms |= HVI::SPH_BODIES;
   all_sums = true;              // M
   choose(terms, set.energy);    // without energy a stress leaves no trace in it
 }
@@ -137,7 +137,8 @@ double HVISchemeSolid::gather(int i, const EosState &eos, HVI::SphState &s)
    Sound particles within reach of each other are one body if they have been one before: what has come apart has
    another label and does not heal where it meets again.  Crack faces within a body do.  The label is the lowest ID;
    0 of what hangs on elements, whose particles hang together in any case: their IDs here are below all others.
-   A restart finds labels as they are, and makes new ones in the same steps.
+   A restart finds labels as they are, and makes new ones in the same steps.  What no law lets fail parts where
+   particles clump only, which heals: then labels are those of the start.
 ------------------------------------------------------------------------- */
 
 void HVISchemeSolid::label_bodies()
@@ -146,7 +147,7 @@ void HVISchemeSolid::label_bodies()
   if (!(terms() & HVI::SPH_BODIES)) return;
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   if (integrator->is_due()) {
-    if (update->ntimestep % EVERY != 0) return;
+    if (!can_fail || update->ntimestep % EVERY != 0) return;
   } else {    // in a setup
     int anew = 0, any;
     for (int i = 0; i < nlocal; i++)

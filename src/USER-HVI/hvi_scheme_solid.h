@@ -42,6 +42,7 @@ class HVISchemeSolid : public HVIScheme {
   double gather(int, const EosState &, HVI::SphState &) override;
   void forces_done() override;
 
+  const bool can_fail;           // by a law
   HVI::Components components;    // of sound matter
 
   void label_bodies();

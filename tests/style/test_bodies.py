@@ -109,3 +109,12 @@ def test_hangs_on_elements(lmp, tmp_path, nranks, newton):
     beside = z[:, 0] > 2 * EDGE
     assert beside.sum() == 2 and len(set(label[beside])) == 1 and (label[beside] > 0).all()
     assert (label[~beside] == 0).all()
+
+
+def test_without_a_law_of_failure(lmp, tmp_path):
+    """What no law lets fail is parted by clumps of particles only: two pieces at the start are two bodies, a piece that comes apart stays one"""
+    text = blocks(gap=0).replace("damage yes spall pressure", "damage no spall none") + "pair_coeff 1 2 tension no\ntimestep 1e-9\nunfix step\n"
+    lmp(text + "run 0\ndisplace_atoms upper move 0 0 5e-3 units box\nrun 150\n" + OUT.format("apart.dump"))
+    assert set(rows(tmp_path / "apart.dump")[1]) == {1}
+    lmp(blocks().replace("damage yes spall pressure", "damage no spall none") + "pair_coeff 1 2 tension no\nrun 0\n" + OUT.format("two.dump"))
+    assert len(set(rows(tmp_path / "two.dump")[1])) == 2

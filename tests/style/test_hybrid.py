@@ -114,7 +114,7 @@ def test_as_without(lmp, tmp_path, material, kind, nranks):
     assert len(found) == len(cases)
     for k, case in enumerate(cases):
         assert all(found[k][name] == table[name] for name in ("style", "rows", "terms")), case
-        assert found[k]["sent"] == (table["sent"] if case[1] == "on" else [table["sent"][0], 0, 1]), case
+        assert found[k]["sent"] == (table["sent"] if case[1] == "on" else [table["sent"][0], 0, 2]), case
         got = read(tmp_path / f"f{k}")
         close({name: a[:n] for name, a in got.items()}, want, case)
         if case[0][1] in alone:
