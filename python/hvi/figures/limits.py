@@ -47,3 +47,39 @@ def ballistic_limit(speeds, curves, title, point=None):
     ax.set(xlim=(speeds[0], speeds[-1]), ylim=(0, 1.25 * highest))
     _said(ax, title, "critical diameter (mm): fails above")
     return figure
+
+
+def limit_brackets(brackets, rows, equations):
+    """Limits over the middle of what shots bracket, over speed: bars of the shots, points of the simulation, and of equations
+
+    brackets: [shield.brackets.Bracket, ...]; rows: Found.row() of each; equations: {bracket: {name: (limit, ...)}}. Above 1 is safe on both kinds: limits on a
+    diameter are turned over.
+    """
+    figure, ((ax,),) = new_figure(4.4)
+    where = {one.name: k for k, one in enumerate(sorted(brackets, key=lambda one: one.shot.speed_km_s))}
+
+    def ratio(one, limit):
+        return limit / one.middle if one.on == "wall" else one.middle / limit
+
+    for one in brackets:
+        edges = sorted(ratio(one, edge) for edge in (one.low, one.high))
+        ax.fill_between([where[one.name] - 0.4, where[one.name] + 0.4], *edges, color="0.8", lw=0, label="shots: the limit is here" if where[one.name] == 0 else None)
+    for k, name in enumerate(dict.fromkeys(name for one in equations.values() for name in one)):
+        points = [(where[one.name] + 0.05 * (k - 2), ratio(one, equations[one.name][name][0])) for one in brackets if name in equations[one.name]]
+        ax.plot(*zip(*points), "_", color=BODIES[k % len(BODIES)], ms=9, mew=2, label=name)
+    number = sorted({row["across"] for row in rows})
+    for k, across in enumerate(number):
+        points = []
+        for one in brackets:
+            found = [ratio(one, row["limit"]) for row in rows if row["bracket"] == one.name and row["across"] == across and row["limit"]]
+            if found:
+                mean = sum(found) / len(found)
+                points.append((where[one.name] + 0.12 * (k - 0.5 * (len(number) - 1)), mean, mean - min(found), max(found) - mean))
+        if points:
+            x, y, low, high = zip(*points)
+            ax.errorbar(x, y, [low, high], fmt="osD^v"[k % 5], color="black", mfc="white" if k else "black", ms=6, capsize=3, label=f"simulation, {across:g} across")
+    ax.axhline(1.0, color="0.4", lw=0.5 * STYLE["line"])
+    ax.set_xticks(list(where.values()), [f"{name}\n{one.shot.speed_km_s:g}" for name, one in sorted(((one.name, one) for one in brackets), key=lambda pair: where[pair[0]])])
+    _said(ax, "Limits of shields: simulation and equations over what shots bracket", "limit over the measured one: safe above 1")
+    label_axes(ax, "bracket, speed (km/s)", "limit over the measured one: safe above 1")
+    return figure

@@ -115,7 +115,7 @@ class Study:
             "finer": (lambda node, key: reader.mapping(node, key, {
                 "factor": (reader.number(above=0, below=1), REQUIRED), "shots": (names, REQUIRED)}), None),
             "shifts": (reader.several(reader.number(least=0, below=1), distinct=True), (0.0,)),
-            "settings": (lambda node, key: cases.read_settings(reader, node, key), {}), "materials": (self._table(reader), REQUIRED), "stand_ins": (self._table(reader), {})})
+            "settings": (lambda node, key: cases.read_settings(reader, node, key), {}), "materials": (material_table(reader), REQUIRED), "stand_ins": (material_table(reader), {})})
         self.path, self.name, self.rule, self.shifts, self.settings = path, path.stem, data["spacing"], data["shifts"], data["settings"]
         self.materials, self.stand_ins = {**data["materials"], **data["stand_ins"]}, data["stand_ins"]
         if both := sorted(set(data["materials"]) & set(self.stand_ins)):
@@ -130,34 +130,40 @@ class Study:
                 if alloy not in self.materials:
                     raise HVIError(f"{reader.path}: shot {shot.name}: no material for {alloy}; give it one in materials, or in stand_ins if it is of another alloy")
 
-    @staticmethod
-    def _table(reader):
-        """{alloy: material file}"""
-        def read(node, key):
-            try:
-                pairs = [(str(name.value), value) for name, value in node.value]
-            except (TypeError, ValueError):
-                reader.wrong(key, "must be 'alloy: material' lines", node)
-            return {name: laws.find(reader, value, f"{key}: {name}") for name, value in pairs}
-        return read
-
     def case(self, shot):
-        """A shot as a case of hvi shield: the projectile and wall 1 at one spacing, the rear wall no coarser than ratio times that."""
-        rule = self.rule
-        near = min(shot.diameter_mm / rule["across"], shot.bumper_mm / rule["bumper_layers"], shot.wall_mm / rule["wall_layers"])
-        far = min(shot.wall_mm / rule["wall_layers"], rule["ratio"] * near)
         factors = [1.0, self.factor] if shot.name in self.finer else [1.0]
-        first, last = (tuple(round(dx * factor, 4) for factor in factors) for dx in (near, far))
-        ball, bumper, wall = (self.materials[alloy] for alloy in shot.alloys())
-        case = cases.Case(name=shot.folder, projectile=Projectile(ball, diameter_mm=shot.diameter_mm), speed_km_s=shot.speed_km_s, angle_deg=shot.angle_deg,
-                          walls=(cases.Wall(shot.bumper_mm, bumper, spacings_mm=first, method="sph"),
-                                 cases.Wall(shot.wall_mm, wall, gap_mm=shot.gap_mm, spacings_mm=last, method="sph", yield_ksi=shot.yield_ksi)),
-                          spacings_mm=first, shifts=self.shifts, settings=self.settings)
+        return case_of(shot, self.rule, self.materials, self.shifts, self.settings, f"{self.path}: shot {shot.name}", factors)
 
-        def wrong(key, text):
-            raise HVIError(f"{self.path}: shot {shot.name}: {key}: {text}")
-        case.check(wrong)
-        return case
+
+def material_table(reader):
+    """reads {alloy: material file}"""
+    def read(node, key):
+        try:
+            pairs = [(str(name.value), value) for name, value in node.value]
+        except (TypeError, ValueError):
+            reader.wrong(key, "must be 'alloy: material' lines", node)
+        return {name: laws.find(reader, value, f"{key}: {name}") for name, value in pairs}
+    return read
+
+
+def case_of(shot, rule, materials, shifts, settings, where, factors=(1.0,)):
+    """A shot as a case of hvi shield: the projectile and wall 1 at one spacing, the rear wall no coarser than ratio times that.
+
+    rule: across, bumper_layers, wall_layers, ratio; materials: {alloy: material}; where: what messages begin with; factors: of the spacings
+    """
+    near = min(shot.diameter_mm / rule["across"], shot.bumper_mm / rule["bumper_layers"], shot.wall_mm / rule["wall_layers"])
+    far = min(shot.wall_mm / rule["wall_layers"], rule["ratio"] * near)
+    first, last = (tuple(round(dx * factor, 4) for factor in factors) for dx in (near, far))
+    ball, bumper, wall = (materials[alloy] for alloy in shot.alloys())
+    case = cases.Case(name=shot.folder, projectile=Projectile(ball, diameter_mm=shot.diameter_mm), speed_km_s=shot.speed_km_s, angle_deg=shot.angle_deg,
+                      walls=(cases.Wall(shot.bumper_mm, bumper, spacings_mm=first, method="sph"),
+                             cases.Wall(shot.wall_mm, wall, gap_mm=shot.gap_mm, spacings_mm=last, method="sph", yield_ksi=shot.yield_ksi)),
+                      spacings_mm=first, shifts=shifts, settings=settings)
+
+    def wrong(key, text):
+        raise HVIError(f"{where}: {key}: {text}")
+    case.check(wrong)
+    return case
 
 
 def named(shots, names, where):
