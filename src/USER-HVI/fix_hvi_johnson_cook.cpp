@@ -15,7 +15,6 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "fix_hvi_sph.h"
 #include "fix_hvi_store.h"
 #include "force.h"
 #include "group.h"
@@ -468,7 +467,7 @@ void FixHVIJohnsonCook::begin_step()
 {
   for (int i = 0; i < atom->nlocal; i++) {
     const HVI::SolidModel *const model = of(i);
-    if (model && !FixHVISPH::is_frozen(atom->rho[i]))
+    if (model && !HVI::SphFields::is_frozen(atom->rho[i]))
       model->begin_step(extra[i], model->own_limit() ? input(i) : HVI::SolidInput());
   }
   in_setup = false;
@@ -495,7 +494,7 @@ void FixHVIJohnsonCook::advance(double dt)
   for (int i = 0; i < atom->nlocal; i++) {
     const HVI::SolidModel *const model = of(i);
     if (!model || failed(i) || (atom->mask[i] & store->embedded) ||
-        FixHVISPH::is_frozen(atom->rho[i]))
+        HVI::SphFields::is_frozen(atom->rho[i]))
       continue;
     if (store->fields.asleep(i)) {
       extra[i].rate = 0.0;

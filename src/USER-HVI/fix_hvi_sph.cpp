@@ -370,7 +370,7 @@ static double changed(double rho, double change)
 
 static void extrapolate(double &rho, double half, double &more)
 {
-  if (FixHVISPH::is_frozen(rho)) return;
+  if (HVI::SphFields::is_frozen(rho)) return;
   const double change = half + more, end = changed(rho, change);
   if (change < -0.5 * rho) more = end - changed(rho, half);
   rho = end;
@@ -496,8 +496,9 @@ void FixHVISPH::final_integrate()
 
       // what is not by L is interface density dissipation
 
-      if (!is_frozen(rho[i])) rho[i] = changed(e.new_rho, dtv * (atom->drho[i] - by_L));
-    } else if (!is_frozen(rho[i]))
+      if (!HVI::SphFields::is_frozen(rho[i]))
+        rho[i] = changed(e.new_rho, dtv * (atom->drho[i] - by_L));
+    } else if (!HVI::SphFields::is_frozen(rho[i]))
       rho[i] = changed(rho[i], dtf * atom->drho[i] - e.drho);
     note_change(i);
     esph[i] += dtf * gain - e.de;
@@ -567,7 +568,8 @@ double FixHVISPH::compute_vector(int n)
 void FixHVISPH::note_change(int i)
 {
   const double rho = extra[i].rates_rho;
-  if (!is_frozen(rho)) swiftest = std::max(swiftest, std::fabs(atom->drho[i]) / rho);
+  if (!HVI::SphFields::is_frozen(rho))
+    swiftest = std::max(swiftest, std::fabs(atom->drho[i]) / rho);
 }
 
 void FixHVISPH::tighten(HVI::TimeStepBounds &bounds)
@@ -583,7 +585,7 @@ void FixHVISPH::tighten(HVI::TimeStepBounds &bounds)
 
 bool FixHVISPH::freeze(int i, double rho)
 {
-  if (most_frozen == 0 || !integrates(i) || is_frozen(atom->rho[i])) return false;
+  if (most_frozen == 0 || !integrates(i) || HVI::SphFields::is_frozen(atom->rho[i])) return false;
   Extra &e = extra[i];
   if (!std::isfinite(rho) || !std::isfinite(atom->esph[i])) return false;
   atom->esph[i] -= e.de;

@@ -100,7 +100,6 @@ class FixHVISPH :
   bool may_send_away() const override { return deletes_frozen; }
   bool is_to_go(int i) const override { return has_frozen(i); }
   bool has_frozen(int i) const { return extra[i].frozen != 0.0; }
-  static bool is_frozen(double rho) { return rho == 0.0; }
 
   // density changes by half in a step at most
 

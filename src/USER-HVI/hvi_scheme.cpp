@@ -132,7 +132,8 @@ double HVIScheme::mass(int i) const
 
 bool HVIScheme::has_record(int i) const
 {
-  return pairs.is_ours[atom->type[i]] && !fields.is_idle(i) && !FixHVISPH::is_frozen(atom->rho[i]);
+  return pairs.is_ours[atom->type[i]] && !fields.is_idle(i) &&
+      !HVI::SphFields::is_frozen(atom->rho[i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -167,7 +168,7 @@ void HVIScheme::gather_records()
       const HVI::Eos &eos = *store->materials.of(itype)->eos;
       known.rho = rho[i];
       known.e = e;
-      if (FixHVISPH::is_frozen(rho[i]) || !std::isfinite(e) ||
+      if (HVI::SphFields::is_frozen(rho[i]) || !std::isfinite(e) ||
           !eos.evaluate(rho[i], e, known.p, known.csq)) {
         known.rho = NAN;
         take_out(i);
@@ -273,7 +274,7 @@ void HVIScheme::find_inactive()
   cells.start(motion);
   for (int i = 0; i < nall; i++) {
     const int itype = atom->type[i];
-    if (!pairs.is_ours[itype] || FixHVISPH::is_frozen(atom->rho[i])) continue;
+    if (!pairs.is_ours[itype] || HVI::SphFields::is_frozen(atom->rho[i])) continue;
     bool undisturbed =
         std::fabs(atom->rho[i] - quiet.rho[itype]) <= quiet.rho_part * quiet.rho[itype] &&
         std::fabs(atom->esph[i]) <= mass(i) * quiet.e[itype] && quiet.rho[itype] > 0.0;

@@ -32,8 +32,19 @@ const Section JC = {"strength",
                      {"m", 1.7},
                      {"epsdot0", 1.0},
                      {"Tref", 300.0},
-                     {"Tm", 775.0}}};
-const double JC_VALUES[] = {26e9, 369e6, 684e6, 0.73, 0.0083, 1.7, 1.0, 300.0, 775.0};
+                     {"Tm", 775.0},
+                     {"D", 0.0},
+                     {"p", 1.0}}};
+const double JC_VALUES[] = {26e9, 369e6, 684e6, 0.73, 0.0083, 1.7, 1.0, 300.0, 775.0, 0.0, 1.0};
+const double DRAGGED[] = {26e9, 369e6, 684e6, 0.73, 0.0083, 1.7, 1.0, 300.0, 775.0, 5e4, 2.5};
+
+Section dragged()
+{
+  Section section = JC;
+  section.values["D"] = 5e4;
+  section.values["p"] = 2.5;
+  return section;
+}
 const Section SG = {"strength",
                     "steinberg-guinan",
                     {{"G0", 27.6e9},
@@ -145,6 +156,21 @@ TEST(JohnsonCook, SlowRates)
   for (double rate : {0.0, 1e-9, 0.5, 1.0}) EXPECT_EQ(law->yield(0.0, rate, at(300.0)), y);
   EXPECT_GT(law->yield(0.0, 1.01, at(300.0)), y);
   EXPECT_EQ(law->yield(0.0, NONE, at(300.0)), y);    // without rate terms
+}
+
+// with the term of Cowper and Symonds beside the logarithm
+
+TEST(JohnsonCook, Dragged)
+{
+  auto law = made(dragged()), plain = made(JC);
+  const double y = 369e6;
+  EXPECT_EQ(law->yield(0.0, NONE, at(300.0)), y);    // without rate terms
+  EXPECT_EQ(law->yield(0.0, 0.0, at(300.0)), y);
+  EXPECT_NEAR(law->yield(0.0, 5e4, at(300.0)), plain->yield(0.0, 5e4, at(300.0)) + y, 1.0);
+  EXPECT_NEAR(law->yield(0.0, 32 * 5e4, at(300.0)) - plain->yield(0.0, 32 * 5e4, at(300.0)), 4 * y,
+              1.0);    // 32^(1/2.5) = 4
+  EXPECT_NEAR(law->yield(0.0, 0.1, at(300.0)) / y, 1.0 + std::pow(2e-6, 0.4), 1e-12);
+  EXPECT_EQ(law->yield(0.1, 1e6, at(775.0)), 0.0);
 }
 
 TEST(SteinbergGuinan, Values)
@@ -523,7 +549,7 @@ TEST(RadialReturn, ManyAtATime)
   auto uniform = [&](double a, double b) {
     return std::uniform_real_distribution<double>(a, b)(random);
   };
-  for (const Section &section : {JC, SG, CS, ZA_CU, ZA_FE, PERFECT}) {
+  for (const Section &section : {JC, dragged(), SG, CS, ZA_CU, ZA_FE, PERFECT}) {
     auto law = made(section);
     SCOPED_TRACE(law->name());
     for (int k = 0; k < 20000; k++) {
@@ -567,19 +593,24 @@ TEST(RadialReturn, ManyAtATime)
 
 TEST(RadialReturn, JohnsonCookFindsIt)
 {
-  const StrengthJohnsonCook jc = StrengthJohnsonCook::make(JC_VALUES);
   const Vec zero = {};
-  for (double trial = 300e6; trial < 1e11; trial *= 1.3)
-    for (double eps : {0.0, 1e-9, 1e-4, 0.1, 3.0})
-      for (double dt : {0.0, 1e-12, 1e-9, 1e-7, 1e-4, 1.0})
-        for (double factor : {0.0, 1e-3, 1.0}) {
-          const Vec y = jc.solve(zero + trial, zero + 26e9, zero + factor, zero + eps, dt);
-          const double x = std::max((trial - y[0]) / 78e9, 0.0);    // not precise for small ones
-          EXPECT_NEAR(
-              y[0], std::min(trial, factor * jc.flow(eps + x, dt > 0.0 ? x / dt : NONE, at(300.0))),
-              1e-9 * trial)
-              << trial << " " << eps << " " << dt << " " << factor;
-        }
+  for (const double *values : {JC_VALUES, DRAGGED}) {
+    const StrengthJohnsonCook jc = StrengthJohnsonCook::make(values);
+    for (double trial = 300e6; trial < 1e11; trial *= 1.3)
+      for (double eps : {0.0, 1e-9, 1e-4, 0.1, 3.0})
+        for (double dt : {0.0, 1e-12, 1e-9, 1e-7, 1e-4, 1.0})
+          for (double factor : {0.0, 1e-3, 1.0}) {
+            const Vec y = jc.solve(zero + trial, zero + 26e9, zero + factor, zero + eps, dt);
+            const double x = std::max((trial - y[0]) / 78e9, 0.0);    // not precise for small ones
+            const double rate = dt > 0.0 ? x / dt : NONE;
+            const double steep = values[9] > 0.0 && dt > 0.0 && x > 0.0
+                ? 1.0 + factor * jc.flow(eps + x, rate, at(300.0)) / (x * 78e9)
+                : 1.0;    // by how much an error of y in x comes back
+            EXPECT_NEAR(y[0], std::min(trial, factor * jc.flow(eps + x, rate, at(300.0))),
+                        1e-9 * trial * steep)
+                << trial << " " << eps << " " << dt << " " << factor;
+          }
+  }
 }
 
 // hard cases end, and with sense

@@ -287,7 +287,9 @@ TEST(Path, UniaxialStrain)
                    {"m", 1.0},
                    {"epsdot0", 1.0},
                    {"Tref", 300.0},
-                   {"Tm", 900.0}});
+                   {"Tm", 900.0},
+                   {"D", 0.0},
+                   {"p", 1.0}});
   for (double sign : {1.0, -1.0})
     for (int steps : {1, 3, 50}) {
       const State y = walk(*law, path(uniaxial(sign), 0.2, {}, 0.0), steps);
@@ -314,7 +316,9 @@ TEST(Path, Cyclic)
                    {"m", 1.0},
                    {"epsdot0", 1.0},
                    {"Tref", 300.0},
-                   {"Tm", 900.0}});
+                   {"Tm", 900.0},
+                   {"D", 0.0},
+                   {"p", 1.0}});
   for (int steps : {1, 7, 40}) {
     Path p = path(uniaxial(1.0), 0.1, {}, 0.0);
     double sign = 1.0, s = 0.0, eps = 0.0;    // s along the direction of the first way
@@ -382,7 +386,9 @@ TEST(Path, JohnsonCook)
                    {"m", m},
                    {"epsdot0", 2.0},
                    {"Tref", 300.0},
-                   {"Tm", 900.0}});
+                   {"Tm", 900.0},
+                   {"D", 0.0},
+                   {"p", 1.0}});
   const Path paths[] = {
       path(shear(20.0), 0.02, pure_shear(0.45), 0.02, 350.0, heating),
       path(uniaxial(-20.0), 0.02, {-0.3, 0.15, 0.15, 0.0, 0.0, 0.0}, 0.02, 350.0, heating),
@@ -521,7 +527,9 @@ TEST(Path, AdiabaticShear)
                    {"m", 1.0},
                    {"epsdot0", 1.0},
                    {"Tref", 300.0},
-                   {"Tm", 900.0}});
+                   {"Tm", 900.0},
+                   {"D", 0.0},
+                   {"p", 1.0}});
   VelocityGradient L = {};
   L.xy = L.yx = 10.0;    // pure shear: no spin
   const Path p = path(L, 0.1, pure_shear(A), 0.0, 300.0, heating);

@@ -20,20 +20,29 @@ namespace HVI {
      Y = (A + B eps^n) (1 + C ln(epsdot/epsdot0)) (1 - T*^m)
      T* = (T - Tref)/(Tm - Tref) in [0, 1]
 
-   G is constant below Tm.  The factor of the rate is not below 1.
+   G is constant below Tm.  The factor of the rate is not below 1.  With D it has one term more, that of Cowper &
+   Symonds, Brown University, Technical Report 28 (1957), for rates at which dislocations are dragged:
+
+     1 + C ln(epsdot/epsdot0) + (epsdot/D)^(1/p)
 ------------------------------------------------------------------------- */
 
 struct StrengthJohnsonCook {
   static constexpr const char *name = "johnson-cook";
   static constexpr Parameter params[] = {
-      {"G", PRESSURE, POSITIVE, REQUIRED},     {"A", PRESSURE, POSITIVE, REQUIRED},
-      {"B", PRESSURE, NOT_NEGATIVE, REQUIRED}, {"n", NUMBER, NOT_NEGATIVE, REQUIRED},
-      {"C", NUMBER, NOT_NEGATIVE, REQUIRED},   {"m", NUMBER, POSITIVE, REQUIRED},
-      {"epsdot0", RATE, POSITIVE, 1.0},        {"Tref", TEMPERATURE, POSITIVE, REQUIRED},
+      {"G", PRESSURE, POSITIVE, REQUIRED},
+      {"A", PRESSURE, POSITIVE, REQUIRED},
+      {"B", PRESSURE, NOT_NEGATIVE, REQUIRED},
+      {"n", NUMBER, NOT_NEGATIVE, REQUIRED},
+      {"C", NUMBER, NOT_NEGATIVE, REQUIRED},
+      {"m", NUMBER, POSITIVE, REQUIRED},
+      {"epsdot0", RATE, POSITIVE, 1.0},
+      {"Tref", TEMPERATURE, POSITIVE, REQUIRED},
       {"Tm", TEMPERATURE, POSITIVE, REQUIRED},
+      {"D", RATE, NOT_NEGATIVE, 0.0},
+      {"p", NUMBER, POSITIVE, 1.0},
   };
 
-  double G, A, B, n, C, m, epsdot0, Tref, Tm;
+  double G, A, B, n, C, m, epsdot0, Tref, Tm, D, p;
 
   static std::string problem(const double *v) { return v[8] > v[7] ? "" : "Tm must be above Tref"; }
 
@@ -49,6 +58,8 @@ struct StrengthJohnsonCook {
     law.epsdot0 = v[6];
     law.Tref = v[7];
     law.Tm = v[8];
+    law.D = v[9];
+    law.p = v[10];
     return law;
   }
 
@@ -65,8 +76,11 @@ struct StrengthJohnsonCook {
   double flow(double eps, double rate, const Conditions &) const
   {
     const double y = A + B * std::pow(eps, n);
-    if (!(rate > epsdot0)) return y;
-    return y * (1.0 + (C > 0.0 ? C * std::log(rate / epsdot0) : 0.0));
+    if (!(rate > 0.0)) return y;
+    double factor = 1.0;
+    if (C > 0.0 && rate > epsdot0) factor += C * std::log(rate / epsdot0);
+    if (is_dragged()) factor += std::pow(rate / D, 1.0 / p);
+    return y * factor;
   }
 
   /* ----------------------------------------------------------------------
@@ -83,14 +97,22 @@ struct StrengthJohnsonCook {
     Vec end = trial > y0 ? unknown : trial;
     Vec x = (trial - y0) / G3;
     const double c = dt > 0.0 ? C : 0.0;
+    const bool dragged = dt > 0.0 && is_dragged();
     Vec L = c > 0.0 ? log(x * (1.0 / dt / epsdot0)) : zero;
+    Vec drag = dragged ? exp(log(x * (1.0 / dt / D)) * (1.0 / p)) : zero;
     for (int k = 0; k < 30; k++) {
       const Vec strain = eps + x, G3x = G3 * x;
       const Vec hard = factor * B * power(strain);
       const Vec y = factor * A + hard;    // and its derivatives to ln x
       const Vec y1 = n * hard * x / strain, y2 = y1 * (eps + n * x) / strain;
       const Vec c1 = L > 0.0 ? zero + c : zero, R = 1.0 + c1 * L;
-      const Vec Y = y * R, Y1 = y1 * R + y * c1, Y2 = y2 * R + 2.0 * y1 * c1;
+      Vec Y = y * R, Y1 = y1 * R + y * c1, Y2 = y2 * R + 2.0 * y1 * c1;
+      if (dragged) {
+        const Vec drag1 = drag * (1.0 / p);
+        Y += y * drag;
+        Y1 += y1 * drag + y * drag1;
+        Y2 += y2 * drag + 2.0 * y1 * drag1 + y * drag1 * (1.0 / p);
+      }
       const Vec slope = 1.0 / (G3x + Y1);
       const Vec newton = (trial - G3x - Y) * slope;
       const Vec bend = 1.0 + 0.5 * newton * (G3x + Y2) * slope;
@@ -100,11 +122,13 @@ struct StrengthJohnsonCook {
       if (sum(end) == sum(end)) break;
       x *= exp(step);
       L += step;
+      if (dragged) drag *= exp(step * (1.0 / p));
     }
     return end;
   }
 
  private:
+  bool is_dragged() const { return D > 0.0; }
   Vec power(const Vec &x) const    // x^n
   {
     const Vec zero = {};

@@ -99,6 +99,9 @@ class SphFields {
   double divergence(int i) const { return traction[i].div; }
   const double *own_force(int i) const { return &rates[i].fx; }
   bool asleep(int i) const { return (std::size_t) i < sleepers.size() && sleepers[i]; }
+
+  static bool is_frozen(double rho) { return rho == 0.0; }    // takes no part: fix hvi/sph bad
+
   // of particles in elements, owned and ghosts: their type, else 0; whether nothing acts on them.  Empty:
   // there are no elements
 
