@@ -29,6 +29,7 @@ COMMANDS = {
     "cloud": "size and velocity of the debris cloud in every frame, as compute hvi/cloud measures it",
     "fragments": "table of the fragments of a frame, as compute hvi/fragment makes it, and N(>m)",
     "hole": "the hole in a plate, as compute hvi/hole measures it: diameters, center, area",
+    "crater": "the crater in a thick target: depth, diameter, profile",
     "map": "axial velocity against position, as a map of mass (phase) or of its mean (field)",
     "view": "particles from the side, colored by type, fragment, velocity or any column",
     "plate": "a plate for SPH: lattice in layers, each turned by its angle, coarser outward, as a LAMMPS data file",

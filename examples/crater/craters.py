@@ -1,0 +1,84 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""Craters beside the fit of Cour-Palais: runs in.crater for each row of craters.csv that has no depth yet, and writes what is found into it.
+
+    python3 craters.py                # runs what is left, one rank each, writes craters.csv
+    python3 craters.py --table        # only prints the table
+"""
+
+import argparse
+import csv
+import os
+import pathlib
+import subprocess
+import time
+
+import hvi
+from hvi import tables
+from hvi.analysis import crater
+from hvi.material.library import path_of
+from hvi.shield import ble
+from hvi.version import ROOT
+
+HERE = pathlib.Path(__file__).resolve().parent
+TABLE = HERE / "craters.csv"
+DEEP = 3.5  # thickness and radius of the target, in depths of the fit
+TSTOP = 3.0  # us per mm of its depth
+GIVEN = ("projectile", "target", "D_mm", "km_s", "across", "rate_D", "rate_p")  # rate_D, 1/s, and rate_p: keys D and p of strength johnson-cook, of both
+FOUND = ("depth_mm", "diameter_mm", "volume_mm3", "fit_mm", "error_percent", "particles", "core_s")
+
+
+def read():
+    with open(TABLE, newline="") as table:
+        return list(csv.DictReader(table))
+
+
+def fit(row):
+    """mm: Cour-Palais, Howto_ble; the wall is thick"""
+    (rho_p, *_), (rho_t, _, sound, hardness) = (ble.properties(row[name]) for name in ("projectile", "target"))
+    P = 5.24 * (0.1 * float(row["D_mm"])) ** (19 / 18) * hardness**-0.25 * (rho_p / rho_t) ** 0.5 * (float(row["km_s"]) / sound) ** (2 / 3)  # cm
+    return 10 * P
+
+
+def material(folder, name, row):
+    """a copy of the material file with the row's term of the rate"""
+    text = path_of(f"{name}.hvi").read_text()
+    if float(row["rate_D"]):
+        head, _, rest = text.partition("strength johnson-cook\n")
+        text = f"{head}strength johnson-cook\n  D {row['rate_D']}\n  p {row['rate_p']}\n{rest}"
+    (folder / f"{name}.hvi").write_text(text)
+
+
+def run(row, folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in {row["projectile"], row["target"]}:
+        material(folder, name, row)
+    depth, dx = fit(row), float(row["D_mm"]) / float(row["across"])
+    values = {"dx": dx, "v0": 1000 * float(row["km_s"]), "D": row["D_mm"], "deep": round(DEEP * depth, 1), "wide": round(DEEP * depth, 1), "tstop": round(TSTOP * depth, 1),
+              "frame": 1000, "material_p": f"{row['projectile']}.hvi", "material_t": f"{row['target']}.hvi"}
+    words = [word for name, value in values.items() for word in ("-var", name, str(value))]
+    start = time.time()
+    with open(folder / "screen", "w") as screen:
+        subprocess.run([ROOT / "cmake" / "env.sh", ROOT / "build" / "lmp", "-in", HERE / "in.crater", *words], cwd=folder, check=True, stdout=screen,
+                       env={**os.environ, "LAMMPS_POTENTIALS": str(folder)})
+    frame = hvi.Dump(folder / "crater.dump")[0]
+    found = crater.measure(frame, 1e-3 * dx, [2])
+    row.update(depth_mm=f"{1e3 * found.depth:.3f}", diameter_mm=f"{1e3 * found.diameter:.3f}", volume_mm3=f"{1e9 * found.volume:.1f}", fit_mm=f"{depth:.3f}",
+               error_percent=f"{100 * (1e3 * found.depth / depth - 1):+.1f}", particles=len(hvi.Dump(folder / "crater.dump", mirror="none")[0]), core_s=f"{time.time() - start:.0f}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--table", action="store_true")
+    args = parser.parse_args()
+    rows = read()
+    for number, row in enumerate(rows, 1):
+        if row.get("depth_mm") or args.table:
+            continue
+        run(row, HERE / "runs" / str(number))
+        tables.write_csv(TABLE, (*GIVEN, *FOUND), [[row.get(name) or "" for name in (*GIVEN, *FOUND)] for row in rows])
+        print(number, row["depth_mm"], row["error_percent"], flush=True)
+    print(tables.text((*GIVEN, *FOUND), [[row.get(name) or "" for name in (*GIVEN, *FOUND)] for row in rows]))
+
+
+if __name__ == "__main__":
+    main()
