@@ -138,7 +138,7 @@ def result(**changed):
     ({"wall2_apart_mass_mg": 2.0}, "fails", ["through"]), ({"wall2_apart_mass_mg": 2.0, "wall2_missed_fraction": 0.01, "wall2_missed_reach_mm": 40.0}, "undecided", ["missed", "through"]),
     ({"wall2_layers": 2, "hole2_diameter_mm": 3.0, "wall2_apart_mass_mg": 2.0}, "undecided", ["thin", "perforated", "through"]),
     ({"hole2_diameter_mm": 3.0}, "undecided", ["plugged"]), ({"hole2_diameter_mm": math.nan}, "undecided", ["no plate"]),
-    ({"wall2_still_to_come": 0.0091}, "undecided", ["comes", "sound"]), ({"wall2_still_to_come": 0.0089}, "holds", ["sound"]),
+    ({"wall2_still_to_come": 0.00911}, "undecided", ["comes", "sound"]), ({"wall2_still_to_come": 0.00909}, "holds", ["sound"]),
     ({"wall2_push_percent_per_us": 1.1}, "undecided", ["pushed", "sound"]), ({"energy_ratio": 0.998}, "undecided", ["leaky", "sound"]),
     ({"wall2_push_percent_per_us": 1.1, "wall2_apart_mass_mg": 2.0}, "fails", ["pushed", "through"]),
     ({"walls_reached": 1}, "undecided", ["late"]), ({"walls_reached": 1, "wall1_cloud_energy_ratio": 5e-5}, "holds", ["spared"]),
@@ -161,6 +161,11 @@ def test_whole_walls_and_what_is_not_modelled(tmp_path):
     found = verdict.of_run(shield, result())
     assert found["verdict"] == "undecided" and found["rules"] == ["not modelled", "whole", "sound"]
     assert any(text.startswith("wall 2 is of Ti-6Al-4V.hvi, whose file has no law of spall (damage no spall voids)") for text in found["reasons"])
+
+
+def test_what_ends_a_run_does_not_leave_it_undecided():
+    """what may still be on its way when the event is over is what the verdict spares: else a run ends between the two"""
+    assert (script.OVER["share"], script.OVER["coming"]) == (verdict.SHARE, verdict.SPARED)
 
 
 def test_names_of_rules_are_unique():

@@ -66,7 +66,7 @@ def measured(shield, result):
     m.unknown = m.last and math.isnan(m.hole)
     m.hole = 0.0 if math.isnan(m.hole) else m.hole
     m.apart, m.spall = m.of("apart_mass_mg"), m.of("spall_mass_mg")
-    m.spared = max(SHARE * m.of("energy_ratio"), SPARED) if m.last else SPARED
+    m.spared = SHARE * m.of("energy_ratio") + SPARED if m.last else SPARED  # as script.OVER ends a run
     m.late = not m.last and m.of("cloud_energy_ratio") > m.spared
     m.plugged = m.last and m.hole > 0 and m.apart == 0 and result["momentum_left_ratio"] < 1e-3
     m.off = abs(result["energy_ratio"] - 1)
@@ -110,7 +110,7 @@ RULES = (
          lambda m: ({"hold_mm": None}, "take a larger hold_mm")),
     Rule("torn", ALWAYS, lambda m: bool(m.torn), "debris meets nothing beyond",
          lambda m: f"wall {m.torn[-1]} has become particles up to elements that hold none", lambda m: ({"hold_mm": None}, "take a larger hold_mm")),
-    Rule("comes", UNLESS, lambda m: m.last and m.of("still_to_come") > m.spared, f"{SHARE:g} of what the wall has been given, or {SPARED:g} of the shot",
+    Rule("comes", UNLESS, lambda m: m.last and m.of("still_to_come") > m.spared, f"{SHARE:g} of what the wall has been given, and {SPARED:g} of the shot",
          lambda m: f"{100 * m.of('still_to_come'):.2g} percent of the energy of the shot are still on their way to wall {m.d}",
          lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
     Rule("pushed", UNLESS, lambda m: not m.late and m.of("push_percent_per_us") > STILL, f"less than {STILL:g} percent of its momentum per us is the end of the load",
