@@ -16,7 +16,7 @@ SUMMARY = ("", "brackets", "mean |error| %", "mean error %", "least error %")
 
 def add_arguments(parser):
     parser.add_argument("study", metavar="STUDY.yaml", help="which list of brackets, how many particles across, the rule of spacings")
-    parser.add_argument("--only", nargs="+", metavar="NAME", help="only these brackets of it")
+    parser.add_argument("--only", nargs="+", metavar="NAME", help="run only these brackets; the table has all")
     parser.add_argument("--equations", action="store_true", help="the equations alone, nothing is run")
     running.add_runs(parser)
 
@@ -48,11 +48,10 @@ def save(folder, study, found, equations):
 
 def main(args):
     study = brackets.Study(args.study)
-    if args.only:
-        known = {one.name: one for one in study.brackets}
-        if unknown := [name for name in args.only if name not in known]:
-            raise HVIError(f"--only: no bracket {unknown[0]} (known: {', '.join(known)})")
-        study.brackets = [known[name] for name in dict.fromkeys(args.only)]
+    known = {one.name: one for one in study.brackets}
+    if unknown := [name for name in args.only or () if name not in known]:
+        raise HVIError(f"--only: no bracket {unknown[0]} (known: {', '.join(known)})")
+    chosen = set(args.only or known)
     for alloy in sorted({alloy for one in study.brackets for alloy in one.shot.alloys()} & set(study.stand_ins)):
         print(f"stand-in: {alloy} is computed as {study.stand_ins[alloy]}")
     folder = args.runs.resolve() / study.name
@@ -66,7 +65,7 @@ def main(args):
         return 0
     folder.mkdir(parents=True, exist_ok=True)
     found = [brackets.Found(study, one, across, shift, folder / one.name) for across in sorted(study.across) for shift in study.shifts for one in study.brackets]
-    first = {job.name: (one, job) for one in found for job in one.more()}
+    first = {job.name: (one, job) for one in found for job in one.more() if one.bracket.name in chosen}  # of the others what was run before
     if args.dry_run:
         engine.Runner(args).show([job for _, job in first.values()])
         return 0
@@ -80,7 +79,7 @@ def main(args):
         save(folder, study, found, equations)
         return new
 
-    print(f"{study.name}: {len(study.brackets)} brackets, {len(study.across)} spacings, {len(study.shifts)} shifts; {len(first)} runs to begin with", flush=True)
+    print(f"{study.name}: {len(chosen)} brackets, {len(study.across)} spacings, {len(study.shifts)} shifts; {len(first)} runs to begin with", flush=True)
     runner = engine.Runner(args)
     try:
         failed = runner.run([job for _, job in first.values()], study.name, more)
