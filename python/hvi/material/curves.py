@@ -133,6 +133,8 @@ def yield_stress(law, v, eps, rate, T=300.0, p=0.0, eta=1.0):
     hard = np.zeros(eps.shape)
     if law == "johnson-cook":
         faster = 1.0 + v["C"] * np.log(np.maximum(rate / v["epsdot0"], 1.0))
+        if v.get("D"):
+            faster = faster + (rate / v["D"]) ** (1.0 / v["p"])
         hard = (v["A"] + v["B"] * eps ** v["n"]) * faster * (1.0 - np.clip((T - v["Tref"]) / (v["Tm"] - v["Tref"]), 0.0, 1.0) ** v["m"])
     elif law == "steinberg-guinan":
         stiff = np.maximum(1.0 + v["A"] * p / eta ** (1.0 / 3.0) - v["B"] * (T - 300.0), 0.0)

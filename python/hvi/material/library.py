@@ -50,7 +50,7 @@ LAWS = {
                                 f"Ecv specific_energy +; alpha number + 5; beta number + 5; {HEAT}; {T0}"),
     ("eos", "table"): (),
     ("strength", "johnson-cook"): _keys("G pressure +; A pressure +; B pressure 0+; n number 0+; C number 0+; m number +; epsdot0 rate + 1; "
-                                        "Tref temperature +; Tm temperature +"),
+                                        "Tref temperature +; Tm temperature +; D rate 0+ 0; p number + 1"),
     ("strength", "steinberg-guinan"): _keys("G0 pressure +; Y0 pressure +; Ymax pressure +; beta number 0+; n number 0+; A per_pressure 0+; "
                                             "B per_temperature 0+; Tm0 temperature +; g0 number 0+; a number 0+"),
     ("strength", "cowper-symonds"): _keys("G pressure +; Y0 pressure +; D rate +; p number +"),
