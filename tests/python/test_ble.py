@@ -237,7 +237,7 @@ def test_published_shots(root, capsys):
     numbers = {line.split()[0]: list(map(int, re.findall(r"(?<= )\d+(?=  )", line)))[:4] for line in out.splitlines()[2:]}
     assert set(numbers) == set(DOUBLE)
     for name, (pp, pn, nn, np) in numbers.items():
-        assert pp + pn + nn + np == 80 and pp + pn == 37 and pp + nn >= 0.7 * 80, name
+        assert pp + pn + nn + np == 80 and pp + pn == 41 and pp + nn >= 0.7 * 80, name
 
 
 # ---------------------------------------------------------------------- beside simulations
