@@ -1,7 +1,7 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """Craters beside the fit of Cour-Palais: runs in.crater for each row of craters.csv that has no depth yet, and writes what is found into it.
 
-    python3 craters.py                # runs what is left, one rank each, writes craters.csv
+    python3 craters.py [--ranks R]    # runs what is left, writes craters.csv
     python3 craters.py --table        # only prints the table
 """
 
@@ -48,7 +48,7 @@ def material(folder, name, row):
     (folder / f"{name}.hvi").write_text(text)
 
 
-def run(row, folder):
+def run(row, folder, ranks):
     folder.mkdir(parents=True, exist_ok=True)
     for name in {row["projectile"], row["target"]}:
         material(folder, name, row)
@@ -58,23 +58,24 @@ def run(row, folder):
     words = [word for name, value in values.items() for word in ("-var", name, str(value))]
     start = time.time()
     with open(folder / "screen", "w") as screen:
-        subprocess.run([ROOT / "cmake" / "env.sh", ROOT / "build" / "lmp", "-in", HERE / "in.crater", *words], cwd=folder, check=True, stdout=screen,
+        subprocess.run([ROOT / "cmake" / "env.sh", "mpirun", "-np", str(ranks), ROOT / "build" / "lmp", "-in", HERE / "in.crater", *words], cwd=folder, check=True, stdout=screen,
                        env={**os.environ, "LAMMPS_POTENTIALS": str(folder)})
     frame = hvi.Dump(folder / "crater.dump")[0]
     found = crater.measure(frame, 1e-3 * dx, [2])
     row.update(depth_mm=f"{1e3 * found.depth:.3f}", diameter_mm=f"{1e3 * found.diameter:.3f}", volume_mm3=f"{1e9 * found.volume:.1f}", fit_mm=f"{depth:.3f}",
-               error_percent=f"{100 * (1e3 * found.depth / depth - 1):+.1f}", particles=len(hvi.Dump(folder / "crater.dump", mirror="none")[0]), core_s=f"{time.time() - start:.0f}")
+               error_percent=f"{100 * (1e3 * found.depth / depth - 1):+.1f}", particles=len(hvi.Dump(folder / "crater.dump", mirror="none")[0]), core_s=f"{ranks * (time.time() - start):.0f}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--ranks", type=int, default=1)
     args = parser.parse_args()
     rows = read()
     for number, row in enumerate(rows, 1):
         if row.get("depth_mm") or args.table:
             continue
-        run(row, HERE / "runs" / str(number))
+        run(row, HERE / "runs" / str(number), args.ranks)
         tables.write_csv(TABLE, (*GIVEN, *FOUND), [[row.get(name) or "" for name in (*GIVEN, *FOUND)] for row in rows])
         print(number, row["depth_mm"], row["error_percent"], flush=True)
     print(tables.text((*GIVEN, *FOUND), [[row.get(name) or "" for name in (*GIVEN, *FOUND)] for row in rows]))

@@ -135,7 +135,7 @@ double HVISchemeSolid::gather(int i, const EosState &eos, HVI::SphState &s)
 
 /* ----------------------------------------------------------------------
    Sound particles within reach of each other are one body if they have been one before: what has come apart has
-   another label and does not heal where it meets again.  Crack faces within a body do.  The label is the lowest ID;
+   another label and does not heal where it meets again.  Crack faces within a body do heal.  The label is the lowest ID;
    0 of what hangs on elements, whose particles hang together in any case: their IDs here are below all others.
    A restart finds labels as they are, and makes new ones in the same steps.  What no law lets fail parts where
    particles clump only, which heals: then labels are those of the start.

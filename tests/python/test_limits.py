@@ -46,7 +46,7 @@ def test_list_of_the_example():
 def test_equations_of_the_example():
     """what the equations of the literature miss the brackets by, as counted elsewhere: Reimerdes 7, JSC 11, modJSC 12, NNO 16, CK01 26 %"""
     study = brackets.Study(EXAMPLE)
-    mean = {who: 100 * value for who, _, value, *_ in brackets.summary([], {one.name: brackets.equations(study, one) for one in study.brackets})}
+    mean = {name: 100 * value for name, _, value, *_ in brackets.summary([], {one.name: brackets.equations(study, one) for one in study.brackets})}
     for name, percent in (("Reimerdes", 7), ("JSC", 11), ("modJSC", 12), ("NNO", 16), ("CK01", 26)):
         assert mean[name] == pytest.approx(percent, abs=0.6)
 

@@ -1,5 +1,7 @@
 """Sound matter that has come apart does not heal where it meets again: it is another body, as if of another type."""
 
+import struct
+
 import numpy as np
 import pytest
 from fem_scenes import ALUMINUM, EDGE, plate, start
@@ -82,7 +84,7 @@ def test_does_not_heal(lmp, tmp_path, nranks, newton):
     move = "displace_atoms upper move 0 0 {} units box\nrun {}\n"
     apart = text + "timestep 1e-9\nunfix step\nrun 50\n" + move.format(5 * DX, 20)
     lmp(apart + OUT.format("early.dump"), nranks=nranks)
-    assert set(rows(tmp_path / "early.dump")[1]) == {1}  # labels are of the first step still: one body, whose parts are far from each other
+    assert set(rows(tmp_path / "early.dump")[1]) == {1}  # no labels were made since the first step
     lmp(apart + "run 40\nwrite_restart apart.restart\n" + move.format(-5 * DX, 0) + OUT.format("back.dump") + APART.format(20.0) + "run 20\n" + OUT.format("straight.dump"), nranks=nranks)
     label = rows(tmp_path / "back.dump")[1]
     half = len(label) // 2
@@ -109,6 +111,26 @@ def test_hangs_on_elements(lmp, tmp_path, nranks, newton):
     beside = z[:, 0] > 2 * EDGE
     assert beside.sum() == 2 and len(set(label[beside])) == 1 and (label[beside] > 0).all()
     assert (label[~beside] == 0).all()
+
+
+def test_types_that_labels_have_room_for(lmp):
+    """a number says type and label: more types than it has room for are refused"""
+    text = blocks().replace("create_box 2 box", "create_box 1024 box")
+    assert lmp(text + "run 0\n", expect_fail=True).error.startswith("Pair style hvi/sph has at most 1023 types, not 1024")
+
+
+@pytest.mark.parametrize("old, new, message", [
+    (struct.pack("<ii", 1001, 5) + b"cubic", struct.pack("<ii", 1000, 5) + b"cubic", "Pair hvi/sph: the restart file is of another version of the package"),
+    (struct.pack("<id", 40, -1.0), struct.pack("<id", 40, 1e-9), "Fix hvi/dt: the restart file is of another version of the package")])
+def test_restart_files_of_another_version(lmp, tmp_path, old, new, message):
+    """files from before these numbers were there are refused, not misread"""
+    lmp(blocks() + "run 1\nwrite_restart now.restart\n")
+    data = (tmp_path / "now.restart").read_bytes()
+    assert data.count(old) == 1
+    (tmp_path / "old.restart").write_bytes(data.replace(old, new))
+    text = blocks()
+    again = "units si\natom_modify map yes\nread_restart old.restart\n" + text[text.index("pair_style"):] if message.startswith("Fix") else "atom_modify map yes\nread_restart old.restart\n"
+    assert lmp(again + "run 0\n", expect_fail=True).error.startswith(message)
 
 
 def test_without_a_law_of_failure(lmp, tmp_path):

@@ -26,7 +26,7 @@ def percent(error):
 
 
 def said_of(summary):
-    return [(who, n, *(f"{100 * value:.1f}" if n else "-" for value in values)) for who, n, *values in summary]
+    return [(name, n, *(f"{100 * value:.1f}" if n else "-" for value in values)) for name, n, *values in summary]
 
 
 def save(folder, study, found, equations):

@@ -198,10 +198,10 @@ def equations(study, bracket):
 
 
 def summary(rows, of_equations):
-    """[(who, brackets, mean |error|, mean error, least error)]; of_equations: {bracket: equations()}"""
-    def line(who, errors):
+    """[(name of the simulation or equation, brackets, mean |error|, mean error, least error)]; of_equations: {bracket: equations()}"""
+    def line(name, errors):
         n = len(errors)
-        return (who, n, *((sum(map(abs, errors)) / n, sum(errors) / n, min(errors)) if n else (math.nan,) * 3))
+        return (name, n, *((sum(map(abs, errors)) / n, sum(errors) / n, min(errors)) if n else (math.nan,) * 3))
 
     across = sorted({row["across"] for row in rows})
     found = []
