@@ -287,6 +287,13 @@ void FixHVIJohnsonCook::make_models()
   bool takes_time = options.spall == HVI::Spall::VOIDS ||
       options.spall == HVI::Spall::TULER_BUTCHER;
   bool anywhere = false, here = false, liquids = false;
+
+  // "damage yes" is for materials that have a law of it; who names a law means all of them
+
+  bool ductile = !options.damage_law.empty();
+  for (int itype = 1; itype <= atom->ntypes; itype++)
+    if (const HVI::Material *const material = store->materials.of(itype))
+      ductile = ductile || material->section("damage", "");
   for (int itype = 1; itype <= atom->ntypes; itype++) {
     const HVI::Material *const material = store->materials.of(itype);
     if (!material || material->is_liquid()) continue;
@@ -297,15 +304,21 @@ void FixHVIJohnsonCook::make_models()
     anywhere = true;
     here = here || inside[itype];
     std::string problem;
-    models[itype] = HVI::SolidModel::make(*material, options, problem);
+    HVI::SolidOptions own = options;
+    own.damage = options.damage && (!ductile || !options.damage_law.empty() || material->section("damage", ""));
+    models[itype] = HVI::SolidModel::make(*material, own, problem);
     if (!models[itype])
       error->all(FLERR, "Fix hvi/johnson-cook: material {} (type {}) {}", material->name, itype,
                  problem);
     takes_time = takes_time || models[itype]->softens();
-    if (options.spall == HVI::Spall::NONE || models[itype]->spall_limited() || warned[itype])
-      continue;
+    if (warned[itype]) continue;
     warned[itype] = 1;
-    if (comm->me == 0)
+    if (comm->me == 0 && options.damage && !own.damage)
+      error->warning(FLERR,
+                     "Fix hvi/johnson-cook: material {} (type {}) has no section damage and does "
+                     "not fail by plastic strain",
+                     material->name, itype);
+    if (comm->me == 0 && options.spall != HVI::Spall::NONE && !models[itype]->spall_limited())
       error->warning(FLERR,
                      "Fix hvi/johnson-cook: material {} (type {}) has no section spall {} and "
                      "does not spall",

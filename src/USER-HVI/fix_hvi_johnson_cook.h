@@ -96,7 +96,7 @@ class FixHVIJohnsonCook :
   HVI::SolidOptions options;
   std::vector<std::unique_ptr<HVI::SolidModel>> models;    // of types; null: no solid
   std::vector<bigint> inside, outside;                     // of the group: particles of types
-  std::vector<int> warned;                                 // of types that do not spall
+  std::vector<int> warned;                                 // of types that lack a law
 
   class FixHVIStore *store;
   bool in_setup;    // nothing has been advanced in this run yet

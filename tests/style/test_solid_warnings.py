@@ -10,6 +10,7 @@ OUTSIDE = "are not in group "
 NO_FIX = "has strength, but there is no fix hvi/johnson-cook"
 LEFT_OUT = "particles with a material are integrated by no fix"
 SPALL = "has no section spall limit and does not spall"
+TOUGH = "has no section damage and does not fail by plastic strain"
 
 
 def without(text, *kinds):
@@ -26,7 +27,7 @@ def without(text, *kinds):
 @pytest.fixture
 def files(tmp_path):
     text = MATERIAL.format(sigma_p=3.0)
-    for name, content in (("metal", text), ("water", without(text, "strength", "damage", "spall")), ("soft", without(text, "spall")),
+    for name, content in (("metal", text), ("water", without(text, "strength", "damage", "spall")), ("soft", without(text, "spall")), ("tough", without(text, "damage")),
                           ("declared", without(text, "strength", "damage", "spall") + "strength none\n")):
         (tmp_path / f"{name}.hvi").write_text(content)
     return tmp_path
@@ -52,6 +53,16 @@ def test_a_material_without_the_section(lmp, files):
     # of another group: its own business
     r = lmp(head(files, two="water", jc="metal hvi/johnson-cook", groups="group metal type 1\n") + "run 1\n")
     assert not r.warnings, r.warnings
+
+
+def test_a_material_without_damage(lmp, files):
+    """damage yes is for those that have a law of it, if any has; a law by its name is for all; others are said once"""
+    text = head(files, two="tough", jc="all hvi/johnson-cook damage {}")
+    r = lmp(text.format("yes") + "compute damage all hvi/atom damage\nrun 20\ndump d all custom 1 d.* type c_damage\nrun 1\n")
+    assert said(r, TOUGH) == [w for w in r.warnings if f"tough.hvi (type 2) {TOUGH}" in w] and len(said(r, TOUGH)) == 1, r.warnings
+    rows = np.loadtxt(files / "d.21", skiprows=9)
+    assert rows[rows[:, 0] == 1, 1].max() > 0 and rows[rows[:, 0] == 2, 1].max() == 0
+    assert "tough.hvi (type 2) has no section damage johnson-cook; use damage no" in lmp(text.format("johnson-cook") + "run 0\n", expect_fail=True).error
 
 
 def test_declared_liquids_are_as_others(lmp, files):

@@ -188,7 +188,7 @@ std::string Header::read(const std::vector<std::string> &words, const std::strin
 const Section *Material::section(const std::string &kind, const std::string &law) const
 {
   for (const Section &s : sections)
-    if (s.kind == kind && s.law == law) return &s;
+    if (s.kind == kind && (law.empty() || s.law == law)) return &s;
   return nullptr;
 }
 

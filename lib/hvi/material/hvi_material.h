@@ -35,7 +35,7 @@ class Material {
   bool liquid = false;              // bears no shear, whatever its file says
   std::uint64_t checksum = 0;       // of all numbers of its file, and of the table; 0: no file
 
-  // null if the file does not describe that law
+  // null if the file does not describe that law; "": any law of that kind, the first
 
   const Section *section(const std::string &kind, const std::string &law) const;
 

@@ -7,7 +7,7 @@ import re
 from ..errors import reading
 from . import library
 
-SOLID = "damage no spall voids"  # words of fix hvi/johnson-cook that shields take
+SOLID = "damage yes spall voids"  # words of fix hvi/johnson-cook that shields take
 
 
 def strengths(path):
@@ -58,13 +58,15 @@ def check(case, reader):
         reader.wrong(key, f"{library.stem(name)} has strength {' and '.join(laws[name])}, and the run takes {law}: it would be a liquid; {remedy}")
 
 
-def tears(name, solid):
-    """True if there is something in a material file that lets it fail under tension, with these words of fix hvi/johnson-cook"""
+def lacking(name, solid):
+    """Kinds of law, spall and damage, that these words of fix hvi/johnson-cook ask for and a material file has not; spall if they ask for neither"""
     path = library.path_of(name)
     if path is None:
-        return True  # LAMMPS says so
+        return []  # LAMMPS says so
     words, text = solid.split(), path.read_text(errors="replace")
     law, damage = (next((new for old, new in zip(words, words[1:]) if old == key), preset) for key, preset in (("spall", "principal"), ("damage", "yes")))
-    section = law if law in ("voids", "tuler-butcher", "grady") else "limit"
-    return (law != "none" and re.search(rf"^[ \t]*spall[ \t]+{section}\b", text, re.M) is not None
-            or damage != "no" and re.search(r"^[ \t]*damage[ \t]", text, re.M) is not None)
+    if law == "none" and damage == "no":
+        return ["spall"]
+    sections = {"spall": law if law in ("voids", "tuler-butcher", "grady") else "limit", "damage": r"[\w-]+" if damage == "yes" else damage}
+    asked = {"spall": law != "none", "damage": damage != "no"}
+    return [kind for kind, section in sections.items() if asked[kind] and not re.search(rf"^[ \t]*{kind}[ \t]+{section}(?![\w-])", text, re.M)]

@@ -78,8 +78,8 @@ def measured(shield, result):
     m.failed = m.last and not m.plugged and (m.hole > 0 or (m.apart > 0 and m.missed <= BESIDE and not m.slips))
     solid = shield.settings["solid"]
     m.solid = solid
-    m.whole = [k for k in range(1, d + 1) if not laws.tears(case.walls[k - 1].material, solid)]
-    m.ball_whole = not laws.tears(case.material, solid)
+    m.whole = [(k, kind) for k in range(1, d + 1) for kind in laws.lacking(case.walls[k - 1].material, solid)]
+    m.ball_whole = laws.lacking(case.material, solid)
     m.thickness = case.walls[d - 1].thickness_mm
     m.tstop = 1.5 * max(shield.geometry.tstop_us, result["time_us"])
     m.coarse = [k for k in range(1, d) if m.of("layers", k) < NEEDED]
@@ -87,8 +87,11 @@ def measured(shield, result):
     return m
 
 
-def tension(m, name):
-    return f"{name}, whose file has no law of spall ({m.solid}), so it does not fail in tension"
+HOW = {"spall": "in tension", "damage": "by plastic strain"}  # what fails by a law of that kind
+
+
+def lacks(m, name, kind):
+    return f"{name}, whose file has no law of {kind} ({m.solid}), so it does not fail {HOW[kind]}"
 
 
 RULES = (
@@ -128,8 +131,8 @@ RULES = (
     Rule("no plate", UNLESS, lambda m: m.unknown, "a hole is what a plate around it has",
          lambda m: f"whether wall {m.d} has a hole is unknown, for no plate in one piece is left around the place that is struck",
          lambda m: ({f"wall {m.d}: radius_mm": None}, "take a larger radius_mm for it, or smaller spacings_mm")),
-    Rule("whole", UNLESS, lambda m: m.whole, "what cannot fail in tension holds whatever comes",
-         lambda m, k: tension(m, f"wall {k} is of {m.case.walls[k - 1].material}"), each=True),
+    Rule("whole", UNLESS, lambda m: m.whole, "what cannot fail in tension holds whatever comes, and what cannot by plastic strain two thirds too long",
+         lambda m, found: lacks(m, f"wall {found[0]} is of {m.case.walls[found[0] - 1].material}", found[1]), each=True),
     Rule("perforated", FAILS, lambda m: m.last and not m.plugged and m.hole > 0, "light goes through",
          lambda m: f"wall {m.d} is perforated by a hole of {m.hole:.4g} mm"),
     Rule("spall", FAILS, lambda m: m.last and m.spall > 0, "as ballistic-limit equations define failure",
@@ -146,7 +149,7 @@ RULES = (
     Rule("hourglass", NOTE, lambda m: m.r["hourglass_energy_ratio"] > HEAT, "energy that is not of the impact",
          lambda m: f"{100 * m.r['hourglass_energy_ratio']:.2g} percent of the energy are in hourglass forces of elements, and 0.1 are no matter",
          lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
-    Rule("ball", NOTE, lambda m: m.ball_whole, "what cannot fail in tension stays in one piece", lambda m: tension(m, f"the projectile is of {m.case.material}")),
+    Rule("ball", NOTE, lambda m: m.ball_whole, "what cannot fail stays in one piece", lambda m, kind: lacks(m, f"the projectile is of {m.case.material}", kind), each=True),
     Rule("coarse", NOTE, lambda m: m.coarse, "the cloud is that of this wall, too",
          lambda m, k: f"wall {k}, which does not decide, has {m.of('layers', k)} layer(s) of particles, and {NEEDED} are better for its cloud",
          lambda m, k: ({"spacings_mm": finest(m, k)}, f"take spacings_mm of {finest(m, k):.4g} or finer, or spacings and layers for this wall"), each=True),
