@@ -304,7 +304,7 @@ def test_too_large(folder, capsys, text, message, words):
 def test_undecided_runs_and_what_is_not_modelled(folder, capsys, monkeypatch):
     monkeypatch.setenv("FAKE_UNSURE", "9")
     assert front("shield") == 4
-    assert "verdict: undecided\n  - 1 percent of the energy of the shot are still on their way to wall 2 -- take settings: {tstop: 143.8} (dx-0.4_shift-0.0, " in capsys.readouterr().out
+    assert "verdict: undecided\n  - 1 percent of the energy of the shot are still on their way to wall 2 at 95.9 us, the end at the latest -- take settings: {tstop: 143.8} (dx-0.4_shift-0.0, " in capsys.readouterr().out
     monkeypatch.delenv("FAKE_UNSURE")
     (folder / "emi.yaml").write_text(CASE + "not_modelled: [MLI, honeycomb]\n")
     assert front("shield") == 4
@@ -317,7 +317,7 @@ def test_notes_are_not_causes(folder, capsys, monkeypatch):
     assert front("shield") == 3
     causes = ["all 4 runs say so: spacings of 0.4, 0.2 mm, 2 shifts of the lattice", "wall 2 is perforated by a hole of 5 mm (dx-0.2_shift-0.5)",
               "wall 2 has detached spall of 4 mg (dx-0.2_shift-0.5)"]
-    notes = ["1 percent of the energy of the shot are still on their way to wall 2 -- take settings: {tstop: 143.8} (dx-0.2_shift-0.5)",
+    notes = ["1 percent of the energy of the shot are still on their way to wall 2 at 95.9 us, the end at the latest -- take settings: {tstop: 143.8} (dx-0.2_shift-0.5)",
              "12 percent of the projectile passed beside wall 2 -- take radius_mm of 66 for it (dx-0.2_shift-0.5)"]
     assert "\n".join(["verdict: fails", *(f"  - {text}" for text in causes), "notes:", *(f"  - {text}" for text in notes), "table: "]) in capsys.readouterr().out
     saved = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())

@@ -39,7 +39,7 @@ def test_limit_with_an_undecided_region(folder, capsys, monkeypatch):
     assert found["undecided"] == [4.2, 5.2]  # holds up to 4.2 at least at all, fails beyond 4 + 0.4 + 0.05 + 0.73 at all
     assert re.search(r"^ *0.2 +0 +4.2 +4.3 to 4.9 +5 ", out, re.M)
     assert "dx-0.2_shift-0.0_D-4.3" in found["undecided_runs"] and "dx-0.2_shift-0.0_D-4.2" not in found["undecided_runs"]
-    assert re.search(r"undecided: dx-0.2_shift-0.0_D-4.3\n  - 1 percent of the energy of the shot are still on their way to wall 2 -- take settings: {tstop: [\d.]+}\n", out)
+    assert re.search(r"undecided: dx-0.2_shift-0.0_D-4.3\n  - 1 percent of the energy of the shot are still on their way to wall 2 at [\d.]+ us, the end at the latest -- take settings: {tstop: [\d.]+}\n", out)
 
 
 @pytest.mark.parametrize("words, limit", [(("thickness2", "--from", "1.2", "--to", "3.2", "--step", "0.2"), 1.9), (("D",), 4.25)])

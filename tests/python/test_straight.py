@@ -124,23 +124,32 @@ def test_rows_after_a_restart_count_once(tmp_path):
 
 def result(**changed):
     """of two walls of which the second holds"""
-    found = {"walls": 2, "walls_reached": 2, "time_us": 30.0, "energy_ratio": 1.0, "method": "sph", "elements_failed_without_particles": 0, "momentum_left_ratio": 0.0,
+    found = {"walls": 2, "walls_reached": 2, "time_us": 30.0, "energy_ratio": 1.0, "ended_by": "event", "method": "sph", "elements_failed_without_particles": 0, "momentum_left_ratio": 0.0,
              "conversion_heat_ratio": 0.0, "hourglass_energy_ratio": 0.0}
     for k in (1, 2):
-        found.update({f"wall{k}_{key}": 0 for key in ("apart_mass_mg", "spall_mass_mg", "still_to_come", "missed_fraction", "missed_reach_mm", "push_percent_per_us", "torn",
+        found.update({f"wall{k}_{key}": 0 for key in ("apart_mass_mg", "apart_particles", "spall_mass_mg", "still_to_come", "missed_fraction", "missed_reach_mm", "push_percent_per_us", "torn",
                                                       "bulge_over_thickness", "deepest_failed_layer", "rear_plastic_strain", "cloud_energy_ratio")})
         found.update({f"hole{k}_diameter_mm": 0.0, f"wall{k}_layers": 3, f"wall{k}_energy_ratio": 0.3})
     return {**found, "wall1_cloud_energy_ratio": 0.7, **changed}
 
 
+def apart(mg=2.0, particles=3, **changed):
+    """changes of result(): so much is apart behind wall 2, as particles of the model, a quarter"""
+    return {"wall2_apart_mass_mg": mg, "wall2_apart_particles": particles, **changed}
+
+
 @pytest.mark.parametrize("changed, said, rules", [
-    ({}, "holds", ["sound"]), ({"hole2_diameter_mm": 3.0, "wall2_apart_mass_mg": 2.0, "wall2_spall_mass_mg": 1.0}, "fails", ["perforated", "spall", "through"]),
-    ({"wall2_apart_mass_mg": 2.0}, "fails", ["through"]), ({"wall2_apart_mass_mg": 2.0, "wall2_missed_fraction": 0.01, "wall2_missed_reach_mm": 40.0}, "undecided", ["missed", "through"]),
-    ({"wall2_layers": 2, "hole2_diameter_mm": 3.0, "wall2_apart_mass_mg": 2.0}, "undecided", ["thin", "perforated", "through"]),
+    ({}, "holds", ["sound"]), (apart(hole2_diameter_mm=3.0, wall2_spall_mass_mg=1.0), "fails", ["perforated", "spall", "through"]),
+    (apart(), "fails", ["through"]), (apart(wall2_missed_fraction=0.01, wall2_missed_reach_mm=40.0), "undecided", ["missed", "through"]),
+    (apart(particles=2), "undecided", ["few", "through"]), (apart(particles=2, wall2_spall_mass_mg=2.0), "undecided", ["few", "spall"]),
+    (apart(particles=1, hole2_diameter_mm=3.0), "fails", ["perforated", "through"]), ({"hole2_diameter_mm": 3.0, "momentum_left_ratio": 0.01}, "fails", ["perforated"]),
+    (apart(particles=2, hole2_diameter_mm=math.nan), "undecided", ["few", "no plate", "through"]),
+    (apart(wall2_layers=2, hole2_diameter_mm=3.0), "undecided", ["thin", "perforated", "through"]),
     ({"hole2_diameter_mm": 3.0}, "undecided", ["plugged"]), ({"hole2_diameter_mm": math.nan}, "undecided", ["no plate"]),
     ({"wall2_still_to_come": 0.00911}, "undecided", ["comes", "sound"]), ({"wall2_still_to_come": 0.00909}, "holds", ["sound"]),
     ({"wall2_push_percent_per_us": 1.1}, "undecided", ["pushed", "sound"]), ({"energy_ratio": 0.998}, "undecided", ["leaky", "sound"]),
-    ({"wall2_push_percent_per_us": 1.1, "wall2_apart_mass_mg": 2.0}, "fails", ["pushed", "through"]),
+    (apart(wall2_push_percent_per_us=1.1), "fails", ["pushed", "through"]),
+    ({"wall2_push_percent_per_us": 1.1, "ended_by": "time"}, "undecided", ["pushed", "sound"]),
     ({"walls_reached": 1}, "undecided", ["late"]), ({"walls_reached": 1, "wall1_cloud_energy_ratio": 5e-5}, "holds", ["spared"]),
     ({"wall1_layers": 2}, "holds", ["sound", "coarse"]), ({"method": "tied"}, "undecided", ["tied", "sound"])])
 def test_rules(tmp_path, changed, said, rules):
@@ -151,6 +160,11 @@ def test_rules(tmp_path, changed, said, rules):
     assert found["reasons"] and all("-var" not in text for text in found["reasons"])
     if said == "fails" and "pushed" in rules:
         assert any("still pushed" in text and "take settings: {tstop: " in text for text in found["notes"])
+    if "pushed" in rules:
+        (text,) = [text for text in [*found["reasons"], *found.get("notes", [])] if "still pushed" in text]
+        assert ("at 30.0 us, the end at the latest" in text) is (changed.get("ended_by") == "time") and text.endswith("-- take settings: {tstop: 45.0}")
+    if "few" in rules:
+        assert {"spacings_mm": None} in found["remedies"] and any(text.startswith("no more than 8 particles are apart behind wall 2, and 10 are needed") for text in found["reasons"])
     if "thin" in rules:
         assert {"spacings_mm": 0.75} in found["remedies"]
 
@@ -165,7 +179,37 @@ def test_whole_walls_and_what_is_not_modelled(tmp_path):
 
 def test_what_ends_a_run_does_not_leave_it_undecided():
     """what may still be on its way when the event is over is what the verdict spares: else a run ends between the two"""
-    assert (script.OVER["share"], script.OVER["coming"]) == (verdict.SHARE, verdict.SPARED)
+    assert (script.OVER["share"], script.OVER["coming"]) == (verdict.SHARE, verdict.SPARED) and 100 * script.OVER["push"] == verdict.STILL
+
+
+def test_few_are_those_of_the_whole_shield(tmp_path):
+    """a particle of a quarter stands for four: 12 decide, 8 do not; the input asks for as many, and so does what says how a run has ended"""
+    for quarter, decide in (("yes", 3), ("no", 10)):
+        shield = chain.shield_of(read(tmp_path / "c.yaml", CASE.replace("settings: {", f"settings: {{quarter: {quarter}, ")), 0, 0.0)
+        assert shield.few == decide and f"f_pieces[2][32] >= {decide} ||" in shield.text()
+        for particles, said in ((decide, "fails"), (decide - 1, "undecided")):
+            found = verdict.of_run(shield, result(**apart(particles=particles)))
+            assert (found["verdict"], found["margins"]["apart_particles"]) == (said, particles * shield.images)
+
+
+def record_of(shield, **of_last_wall):
+    """a Record of 20 looks, 2 us apart, beyond tstop; changes: {column: value or values of the last wall}"""
+    us = np.arange(20) * 2.0 + shield.geometry.tstop_us
+    columns = {name: np.zeros((20, shield.n)) for name in record.WALL}
+    for name, value in {"momentum": 0.1, "mass": 1.0, "energy": 1.0, **of_last_wall}.items():
+        columns[name][:, -1] = value
+    rows = types.SimpleNamespace(**columns)
+    return types.SimpleNamespace(walls=rows, pieces=rows, us=us, seldom_us=us, time_us=float(us[-1]))
+
+
+@pytest.mark.parametrize("changed, over", [
+    ({}, True), ({"coming_energy": 1e9}, False), ({"plastic_power": 1e12}, False), ({"push": 2e3}, False), ({"apart_number": 2}, True), ({"apart_number": 2, "push": 2e3}, False),
+    ({"apart_number": 3, "push": 2e3}, True), ({"hole_found": 1, "push": 2e3}, False), ({"hole_found": 1, "apart_number": 1, "push": 2e3}, True)],
+    ids=["rest", "comes", "flows", "pushed", "few", "few and pushed", "fails", "plugged and pushed", "hole"])
+def test_when_an_event_is_over(tmp_path, changed, over):
+    """beyond the time that is enough: 12 particles of the whole, or a hole and one, end a run that nothing else ends"""
+    shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
+    assert record.over(shield, record_of(shield, **changed)) is over
 
 
 def test_names_of_rules_are_unique():

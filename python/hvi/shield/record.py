@@ -173,11 +173,13 @@ def matter(folder, atoms):
 def over(shield, record):
     """is the event over, as v_over of the written input has it? Else the run was given an end of its own"""
     g, k, last = shield.geometry, shield.n - 1, record.pieces
-    if last.apart_mass[-1, k] > 0 or last.hole_found[-1, k] > 0:
-        return record.time_us >= g.tstop_us * (1 - 1e-6)
+    enough = record.time_us >= g.tstop_us * (1 - 1e-6)
+    if last.apart_number[-1, k] >= (1 if last.hole_found[-1, k] > 0 else shield.few):
+        return enough
     w, limit, rule = record.walls, shield.energy / shield.images, script.OVER
     return bool(record.time_us > g.arrival_us + g.passage_us + g.crossing_us and w.coming_energy[-1, k] < rule["share"] * w.energy[-1, k] + rule["coming"] * limit
-                and 1e-6 * abs(w.push[-1, k]) < rule["push"] * abs(w.momentum[-1, k]) + 1e-12 and 1e-6 * w.plastic_power[-1].sum() < rule["plastic"] * limit)
+                and 1e-6 * abs(w.push[-1, k]) < rule["push"] * abs(w.momentum[-1, k]) + 1e-12 and 1e-6 * w.plastic_power[-1].sum() < rule["plastic"] * limit
+                and (enough or last.apart_number[-1, k] == 0 and last.hole_found[-1, k] <= 0))
 
 
 def push(record, k, tstop_us):

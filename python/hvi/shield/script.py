@@ -18,6 +18,7 @@ from . import elements, geometry, projectile
 BEGIN, CONTINUE, CASE = "in.shield", "in.continue", "case.yaml"
 OFTEN, MOST = 20, 200  # steps between rows of walls.dat; most between rows of pieces.dat and history.dat, and between looks whether the event is over
 LOOKS = 25  # rows of those in the time that is enough, about
+FEW = 10  # particles of the whole shield, mirror images counted: fewer that are apart behind a wall without a hole say nothing of it
 LONGER = 3  # times the time that is enough for what fails: the end at the latest, for what neither fails nor comes to rest
 # when an event is over: still to come, of what the last wall has been given, and of the impact, as the verdict has it; change of its momentum per us; plastic work of all
 # walls per us, of the impact
@@ -303,7 +304,6 @@ class Shield:
         text("thermo", f"{self.seldom}")
         text("thermo_style", f"custom step v_us dt atoms f_move c_walls[{self.n}][2] c_walls[{self.n}][4] c_book[9]")
         text("thermo_modify", "lost ignore", "what is thrown back leaves the box; the ledger counts it")
-        text.lines.append("")
         text("run", f"{10**9}")
         text("unfix", "over")
         text("write_dump", f"{matter} custom shield.dump ${{columns}} modify ${{names}}")
@@ -313,14 +313,19 @@ class Shield:
     def over(self, text):
         """The last wall has failed, and there was time for its hole to open; or nothing strikes a wall any more, pushes it or makes it flow; or it is late."""
         g, n = self.geometry, self.n
-        limit = self.energy / self.images
+        limit, tstop, last = self.energy / self.images, number(g.tstop_us), f"f_pieces[{n}]"
         power = "+".join(f"c_walls[{k}][6]" for k in range(1, n + 1))
         text("variable", f'quiet equal "v_us > {number(g.arrival_us + g.passage_us + g.crossing_us)} && c_walls[{n}][2] < {number(OVER["share"])}*c_walls[{n}][5]+{number(OVER["coming"] * limit)} && '
              f'1e-6*abs(c_walls[{n}][3]) < {number(OVER["push"])}*abs(c_walls[{n}][4])+1e-12 && 1e-6*({power}) < {number(OVER["plastic"] * limit)}"',
              "nothing comes, pushes or flows: Howto_front, When it ends")
-        failed = f"(f_pieces[{n}][30] > 0 || f_pieces[{n}][36] > 0)"  # mass apart behind the last wall, a hole in it
-        text("variable", f'over equal "v_us >= v_until || {failed} && v_us >= {number(g.tstop_us)} || !{failed} && v_quiet"', "columns 30, 36: mass apart, hole")
+        text("variable", f'over equal "v_us >= v_until || v_us >= {tstop} && ({last}[32] >= {self.few} || {last}[32] > 0 && {last}[36] > 0) || v_quiet && (v_us >= {tstop} || {last}[32] == 0 && {last}[36] == 0)"',
+             "columns 32, 36: particles apart, hole")
         text("fix", f"over all halt {self.seldom} v_over > 0 error continue message no")
+
+    @property
+    def few(self):
+        """particles of the model: fewer that are apart say nothing, unless there is a hole"""
+        return -(-FEW // self.images)
 
     @property
     def latest_us(self):

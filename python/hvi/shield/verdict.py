@@ -11,6 +11,7 @@ from typing import Callable
 
 from ..material import laws
 from . import case as cases
+from .script import FEW
 
 NEEDED = cases.LAYERS  # layers of particles in the wall that decides
 SPARED = 1e-4  # of the energy of the shot: less does no harm to a wall that was not reached
@@ -68,14 +69,16 @@ def measured(shield, result):
     m.apart, m.spall = m.of("apart_mass_mg"), m.of("spall_mass_mg")
     m.spared = SHARE * m.of("energy_ratio") + SPARED if m.last else SPARED  # as script.OVER ends a run
     m.late = not m.last and m.of("cloud_energy_ratio") > m.spared
-    m.plugged = m.last and m.hole > 0 and m.apart == 0 and result["momentum_left_ratio"] < 1e-3
+    m.parts = shield.images * m.of("apart_particles")
+    m.plugged = m.last and m.hole > 0 and m.parts == 0 and result["momentum_left_ratio"] < 1e-3
+    m.few = m.last and m.hole == 0 and 0 < m.parts < FEW
     m.off = abs(result["energy_ratio"] - 1)
     m.missed, m.beside = max((m.of("missed_fraction", k), k) for k in range(1, d + 1))
     walls = shield.geometry.walls
     finest = min([shield.geometry.a, *(wall.spacing for wall in walls[:d - 1])])
     m.sieve = walls[d - 1].spacing / finest
     m.slips = m.last and m.hole == 0 and m.spall == 0 and m.apart > 0 and m.sieve > FINER
-    m.failed = m.last and not m.plugged and (m.hole > 0 or (m.apart > 0 and m.missed <= BESIDE and not m.slips))
+    m.failed = m.last and not m.plugged and (m.hole > 0 or (m.parts >= FEW and m.missed <= BESIDE and not m.slips))
     solid = shield.settings["solid"]
     m.solid = solid
     m.whole = [(k, kind) for k in range(1, d + 1) for kind in laws.lacking(case.walls[k - 1].material, solid)]
@@ -83,6 +86,7 @@ def measured(shield, result):
     m.thickness = case.walls[d - 1].thickness_mm
     m.tstop = 1.5 * max(shield.geometry.tstop_us, result["time_us"])
     m.coarse = [k for k in range(1, d) if m.of("layers", k) < NEEDED]
+    m.ended = f" at {result['time_us']:.1f} us, the end at the latest" if result["ended_by"] == "time" else ""
     m.torn = [k for k in range(1, d + 1) if m.of("torn", k)]
     return m
 
@@ -114,10 +118,10 @@ RULES = (
     Rule("torn", ALWAYS, lambda m: bool(m.torn), "debris meets nothing beyond",
          lambda m: f"wall {m.torn[-1]} has become particles up to elements that hold none", lambda m: ({"hold_mm": None}, "take a larger hold_mm")),
     Rule("comes", UNLESS, lambda m: m.last and m.of("still_to_come") > m.spared, f"{SHARE:g} of what the wall has been given, and {SPARED:g} of the shot",
-         lambda m: f"{100 * m.of('still_to_come'):.2g} percent of the energy of the shot are still on their way to wall {m.d}",
+         lambda m: f"{100 * m.of('still_to_come'):.2g} percent of the energy of the shot are still on their way to wall {m.d}{m.ended}",
          lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
     Rule("pushed", UNLESS, lambda m: not m.late and m.of("push_percent_per_us") > STILL, f"less than {STILL:g} percent of its momentum per us is the end of the load",
-         lambda m: f"wall {m.d} is still pushed, its momentum changes by {m.of('push_percent_per_us'):.2g} percent per us",
+         lambda m: f"wall {m.d} is still pushed, its momentum changes by {m.of('push_percent_per_us'):.2g} percent per us{m.ended}",
          lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
     Rule("missed", UNLESS, lambda m: m.missed > BESIDE, f"{BESIDE:g} of the projectile is more than a stray particle",
          lambda m: f"{100 * m.missed:.2g} percent of the projectile passed beside wall {m.beside}",
@@ -128,6 +132,8 @@ RULES = (
     Rule("slips", UNLESS, lambda m: m.slips, f"particles {FINER:g} times finer pass between those of the wall",
          lambda m: f"what came through wall {m.d} may have slipped between its particles, {m.sieve:.2g} times as far apart as those of the cloud",
          lambda m: ({"spacings_mm": None}, "take spacings that are alike")),
+    Rule("few", UNLESS, lambda m: m.few, f"with fewer than {FEW} particles apart, other shifts of the lattice say anything",
+         lambda m: f"no more than {m.parts} particles are apart behind wall {m.d}, and {FEW} are needed", lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
     Rule("no plate", UNLESS, lambda m: m.unknown, "a hole is what a plate around it has",
          lambda m: f"whether wall {m.d} has a hole is unknown, for no plate in one piece is left around the place that is struck",
          lambda m: ({f"wall {m.d}: radius_mm": None}, "take a larger radius_mm for it, or smaller spacings_mm")),
@@ -194,6 +200,6 @@ def of_run(shield, result):
     remedies = [f.remedy for f in found if f.remedy and f.effect != NOTE]
     return {"verdict": verdict, "reasons": reasons, **({"notes": notes} if notes else {}), **({"remedies": remedies} if remedies else {}),
             "rules": [f.name for f in found], "decided_by": "none" if m.late else f"wall{m.d}",
-            "margins": {"hole_mm": math.nan if m.unknown else m.hole, "apart_mass_mg": m.apart, "bulge_over_thickness": m.of("bulge_over_thickness"),
+            "margins": {"hole_mm": math.nan if m.unknown else m.hole, "apart_mass_mg": m.apart, "apart_particles": m.parts, "bulge_over_thickness": m.of("bulge_over_thickness"),
                         "deepest_failed_layer": m.of("deepest_failed_layer"), "layers": m.of("layers"), "rear_plastic_strain": m.of("rear_plastic_strain"),
                         "push_percent_per_us": m.of("push_percent_per_us"), "still_to_come": m.of("still_to_come"), "missed_fraction": m.missed}}
