@@ -127,7 +127,7 @@ def result(**changed):
     found = {"walls": 2, "walls_reached": 2, "time_us": 30.0, "energy_ratio": 1.0, "ended_by": "event", "method": "sph", "elements_failed_without_particles": 0, "momentum_left_ratio": 0.0,
              "conversion_heat_ratio": 0.0, "hourglass_energy_ratio": 0.0}
     for k in (1, 2):
-        found.update({f"wall{k}_{key}": 0 for key in ("apart_mass_mg", "apart_particles", "spall_mass_mg", "still_to_come", "missed_fraction", "missed_reach_mm", "push_percent_per_us", "torn",
+        found.update({f"wall{k}_{key}": 0 for key in ("apart_mass_mg", "apart_particles", "spall_mass_mg", "still_to_come", "missed_fraction", "missed_reach_mm", "push_percent_per_us", "bulge_percent_per_us", "torn",
                                                       "bulge_over_thickness", "deepest_failed_layer", "rear_plastic_strain", "cloud_energy_ratio")})
         found.update({f"hole{k}_diameter_mm": 0.0, f"wall{k}_layers": 3, f"wall{k}_energy_ratio": 0.3})
     return {**found, "wall1_cloud_energy_ratio": 0.7, **changed}
@@ -149,7 +149,8 @@ def apart(mg=2.0, particles=3, **changed):
     ({"wall2_still_to_come": 0.00911}, "undecided", ["comes", "sound"]), ({"wall2_still_to_come": 0.00909}, "holds", ["sound"]),
     ({"wall2_push_percent_per_us": 1.1}, "undecided", ["pushed", "sound"]), ({"energy_ratio": 0.998}, "undecided", ["leaky", "sound"]),
     (apart(wall2_push_percent_per_us=1.1), "fails", ["pushed", "through"]),
-    ({"wall2_push_percent_per_us": 1.1, "ended_by": "time"}, "undecided", ["pushed", "sound"]),
+    ({"wall2_bulge_percent_per_us": 1.1}, "undecided", ["bulges", "sound"]), ({"wall2_bulge_percent_per_us": 0.9}, "holds", ["sound"]),
+    (apart(wall2_bulge_percent_per_us=1.1), "fails", ["bulges", "through"]), ({"wall2_bulge_percent_per_us": -1.1, "ended_by": "time"}, "undecided", ["bulges", "sound"]),
     ({"walls_reached": 1}, "undecided", ["late"]), ({"walls_reached": 1, "wall1_cloud_energy_ratio": 5e-5}, "holds", ["spared"]),
     ({"wall1_layers": 2}, "holds", ["sound", "coarse"]), ({"method": "tied"}, "undecided", ["tied", "sound"])])
 def test_rules(tmp_path, changed, said, rules):
@@ -160,8 +161,8 @@ def test_rules(tmp_path, changed, said, rules):
     assert found["reasons"] and all("-var" not in text for text in found["reasons"])
     if said == "fails" and "pushed" in rules:
         assert any("still pushed" in text and "take settings: {tstop: " in text for text in found["notes"])
-    if "pushed" in rules:
-        (text,) = [text for text in [*found["reasons"], *found.get("notes", [])] if "still pushed" in text]
+    if "bulges" in rules:
+        (text,) = [text for text in [*found["reasons"], *found.get("notes", [])] if "bulge" in text]
         assert ("at 30.0 us, the end at the latest" in text) is (changed.get("ended_by") == "time") and text.endswith("-- take settings: {tstop: 45.0}")
     if "few" in rules:
         assert {"spacings_mm": None} in found["remedies"] and any(text.startswith("no more than 8 particles are apart behind wall 2, and 10 are needed") for text in found["reasons"])
@@ -179,7 +180,7 @@ def test_whole_walls_and_what_is_not_modelled(tmp_path):
 
 def test_what_ends_a_run_does_not_leave_it_undecided():
     """what may still be on its way when the event is over is what the verdict spares: else a run ends between the two"""
-    assert (script.OVER["share"], script.OVER["coming"]) == (verdict.SHARE, verdict.SPARED) and 100 * script.OVER["push"] == verdict.STILL
+    assert (script.OVER["share"], script.OVER["coming"]) == (verdict.SHARE, verdict.SPARED) and 100 * script.OVER["push"] == verdict.STILL and script.OVER["bulge"] < script.BULGE
 
 
 def test_few_are_those_of_the_whole_shield(tmp_path):
@@ -203,13 +204,22 @@ def record_of(shield, **of_last_wall):
 
 
 @pytest.mark.parametrize("changed, over", [
-    ({}, True), ({"coming_energy": 1e9}, False), ({"plastic_power": 1e12}, False), ({"push": 2e3}, False), ({"apart_number": 2}, True), ({"apart_number": 2, "push": 2e3}, False),
-    ({"apart_number": 3, "push": 2e3}, True), ({"hole_found": 1, "push": 2e3}, False), ({"hole_found": 1, "apart_number": 1, "push": 2e3}, True)],
-    ids=["rest", "comes", "flows", "pushed", "few", "few and pushed", "fails", "plugged and pushed", "hole"])
+    ({}, True), ({"coming_energy": 1e9}, False), ({"plastic_power": 1e12}, False), ({"push": 2e3}, False),
+    ({"bulge": 3e-5 * np.arange(20)}, True), ({"bulge": 6e-5 * np.arange(20)}, False), ({"apart_number": 2}, True), ({"apart_number": 2, "bulge": 6e-5 * np.arange(20)}, False),
+    ({"apart_number": 3, "bulge": 6e-5 * np.arange(20)}, True), ({"hole_found": 1, "bulge": 6e-5 * np.arange(20)}, False), ({"hole_found": 1, "apart_number": 1, "bulge": 6e-5 * np.arange(20)}, True),
+    ({"bulge": 6e-5 * np.arange(20), "momentum": 30.0}, True)],
+    ids=["rest", "comes", "flows", "pushed", "slow", "bulges", "few", "few and bulges", "fails", "plugged and bulges", "hole", "flies as a whole"])
 def test_when_an_event_is_over(tmp_path, changed, over):
-    """beyond the time that is enough: 12 particles of the whole, or a hole and one, end a run that nothing else ends"""
+    """wall 2 of 2.25 mm: its bulge grows by 0.67 or 1.33 percent of that per us; it moves as a whole by 30 m/s"""
     shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
-    assert record.over(shield, record_of(shield, **changed)) is over
+    assert shield.geometry.walls[1].thickness == pytest.approx(2.25e-3) and record.over(shield, record_of(shield, **changed)) is over
+
+
+def test_growth_is_that_of_the_last_rows(tmp_path):
+    """by hand: the last value less the mean of five, over two looks, less the way of all of the wall"""
+    shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
+    found = record_of(shield, bulge=[9.0] * 15 + [0.0, 0.0, 0.0, 1e-3, 2e-3], momentum=2.0, mass=4.0)
+    assert record.growth(found, 1) == pytest.approx((2e-3 - 3e-3 / 5) / 4 - 0.5e-6)
 
 
 def test_names_of_rules_are_unique():

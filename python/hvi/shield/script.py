@@ -19,10 +19,12 @@ BEGIN, CONTINUE, CASE = "in.shield", "in.continue", "case.yaml"
 OFTEN, MOST = 20, 200  # steps between rows of walls.dat; most between rows of pieces.dat and history.dat, and between looks whether the event is over
 LOOKS = 25  # rows of those in the time that is enough, about
 FEW = 10  # particles of the whole shield, mirror images counted: fewer that are apart behind a wall without a hole say nothing of it
+LATELY = 5  # of these rows: what a bulge has grown lately is its difference to their mean
+BULGE = 0.01  # of the thickness per us: a bulge that grows by less has ended
 LONGER = 3  # times the time that is enough for what fails: the end at the latest, for what neither fails nor comes to rest
-# when an event is over: still to come, of what the last wall has been given, and of the impact, as the verdict has it; change of its momentum per us; plastic work of all
-# walls per us, of the impact
-OVER = {"share": 0.03, "coming": 1e-4, "push": 0.01, "plastic": 1e-3}
+# when an event is over: still to come, of what the last wall has been given, and of the impact, as the verdict has it; change of its momentum per us; growth of its bulge, a tenth
+# less than the verdict spares, which knows times and not the last time step alone; plastic work of all walls per us, of the impact
+OVER = {"share": 0.03, "coming": 1e-4, "push": 0.01, "bulge": 0.9 * BULGE, "plastic": 1e-3}
 COLUMNS = "id type mass x y z vx vy vz v_dumped c_state[*]"
 STATE = ("p", "damage", "spalled", "vm", "e", "eps", "fragsize")
 ETA = 1.2  # of pair_coeff ... spacing: smoothing length in spacings
@@ -311,13 +313,16 @@ class Shield:
         text("write_restart", "${to}")
 
     def over(self, text):
-        """The last wall has failed, and there was time for its hole to open; or nothing strikes a wall any more, pushes it or makes it flow; or it is late."""
+        """The last wall has failed, and there was time for its hole to open; or nothing strikes a wall any more, pushes it, makes it flow or bulge; or it is late."""
         g, n = self.geometry, self.n
         limit, tstop, last = self.energy / self.images, number(g.tstop_us), f"f_pieces[{n}]"
         power = "+".join(f"c_walls[{k}][6]" for k in range(1, n + 1))
+        span = f"{(LATELY - 1) * self.seldom // 2}*dt"  # s, to the middle of the rows of lately
+        text("fix", f"lately all ave/time {self.seldom} 1 {self.seldom} f_pieces[33] mode vector ave window {LATELY}", "bulge")
         text("variable", f'quiet equal "v_us > {number(g.arrival_us + g.passage_us + g.crossing_us)} && c_walls[{n}][2] < {number(OVER["share"])}*c_walls[{n}][5]+{number(OVER["coming"] * limit)} && '
-             f'1e-6*abs(c_walls[{n}][3]) < {number(OVER["push"])}*abs(c_walls[{n}][4])+1e-12 && 1e-6*({power}) < {number(OVER["plastic"] * limit)}"',
-             "nothing comes, pushes or flows: Howto_front, When it ends")
+             f'1e-6*abs(c_walls[{n}][3]) < {number(OVER["push"])}*abs(c_walls[{n}][4])+1e-12 && 1e-6*({power}) < {number(OVER["plastic"] * limit)} && elapsed >= {(LATELY - 1) * self.seldom} && '
+             f'abs({last}[33]-f_lately[{n}]-{span}*{last}[4]/{last}[16]) < {number(1e6 * OVER["bulge"] * g.walls[-1].thickness)}*{span}"',
+             "nothing comes, pushes, flows or bulges: Howto_front, When it ends")
         text("variable", f'over equal "v_us >= v_until || v_us >= {tstop} && ({last}[32] >= {self.few} || {last}[32] > 0 && {last}[36] > 0) || v_quiet && (v_us >= {tstop} || {last}[32] == 0 && {last}[36] == 0)"',
              "columns 32, 36: particles apart, hole")
         text("fix", f"over all halt {self.seldom} v_over > 0 error continue message no")

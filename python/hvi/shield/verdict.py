@@ -11,7 +11,7 @@ from typing import Callable
 
 from ..material import laws
 from . import case as cases
-from .script import FEW
+from .script import BULGE, FEW
 
 NEEDED = cases.LAYERS  # layers of particles in the wall that decides
 SPARED = 1e-4  # of the energy of the shot: less does no harm to a wall that was not reached
@@ -123,6 +123,9 @@ RULES = (
     Rule("pushed", UNLESS, lambda m: not m.late and m.of("push_percent_per_us") > STILL, f"less than {STILL:g} percent of its momentum per us is the end of the load",
          lambda m: f"wall {m.d} is still pushed, its momentum changes by {m.of('push_percent_per_us'):.2g} percent per us{m.ended}",
          lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
+    Rule("bulges", UNLESS, lambda m: m.last and abs(m.of("bulge_percent_per_us")) > 100 * BULGE, f"less than {100 * BULGE:g} percent of its thickness per us, and it tears no more",
+         lambda m: f"the bulge of wall {m.d} still grows, by {m.of('bulge_percent_per_us'):.2g} percent of its thickness per us{m.ended}",
+         lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
     Rule("missed", UNLESS, lambda m: m.missed > BESIDE, f"{BESIDE:g} of the projectile is more than a stray particle",
          lambda m: f"{100 * m.missed:.2g} percent of the projectile passed beside wall {m.beside}",
          lambda m: ({f"wall {m.beside}: radius_mm": wider(m)}, f"take radius_mm of {wider(m)} for it")),
@@ -202,4 +205,4 @@ def of_run(shield, result):
             "rules": [f.name for f in found], "decided_by": "none" if m.late else f"wall{m.d}",
             "margins": {"hole_mm": math.nan if m.unknown else m.hole, "apart_mass_mg": m.apart, "apart_particles": m.parts, "bulge_over_thickness": m.of("bulge_over_thickness"),
                         "deepest_failed_layer": m.of("deepest_failed_layer"), "layers": m.of("layers"), "rear_plastic_strain": m.of("rear_plastic_strain"),
-                        "push_percent_per_us": m.of("push_percent_per_us"), "still_to_come": m.of("still_to_come"), "missed_fraction": m.missed}}
+                        "push_percent_per_us": m.of("push_percent_per_us"), "bulge_percent_per_us": m.of("bulge_percent_per_us"), "still_to_come": m.of("still_to_come"), "missed_fraction": m.missed}}
