@@ -138,15 +138,19 @@ class Found:
         middle = study.half
         self.search = Search(2 * middle, (middle - BEGIN, middle + BEGIN), turned=bracket.on == "wall")
 
+    def name(self, place):
+        return f"{self.bracket.name}_across-{self.across:g}_shift-{self.shift:g}_{self.bracket.on}-{self.values[place]:g}"
+
+    def job(self, place):
+        case, name = self.study.case(self.bracket, self.across, self.values[place]), self.name(place)
+        return decision.job(case, (0, self.shift), self.folder / name, name, remove=["cloud*.dump", "film.*.dump"])
+
     def more(self):
         """jobs that the search asks for next; what is done already is taken as it is"""
         wanted = []
         while new := self.search.next():
             for place in new:
-                value = self.values[place]
-                name = f"{self.bracket.name}_across-{self.across:g}_shift-{self.shift:g}_{self.bracket.on}-{value:g}"
-                job = decision.job(self.study.case(self.bracket, self.across, value), (0, self.shift), self.folder / name, name, remove=["cloud*.dump", "film.*.dump"])
-                self.jobs[place] = job
+                self.jobs[place] = job = self.job(place)
                 if job.result() is None:
                     wanted.append(job)
                 else:

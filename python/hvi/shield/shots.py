@@ -146,13 +146,18 @@ def material_table(reader):
     return read
 
 
+def spacings(rule, diameter, bumper, wall):
+    """of projectile and wall 1, and of the rear wall"""
+    near = min(diameter / rule["across"], bumper / rule["bumper_layers"], wall / rule["wall_layers"])
+    return near, min(wall / rule["wall_layers"], rule["ratio"] * near)
+
+
 def case_of(shot, rule, materials, shifts, settings, where, factors=(1.0,)):
     """A shot as a case of hvi shield: the projectile and wall 1 at one spacing, the rear wall no coarser than ratio times that.
 
     rule: across, bumper_layers, wall_layers, ratio; materials: {alloy: material}; where: what messages begin with; factors: of the spacings
     """
-    near = min(shot.diameter_mm / rule["across"], shot.bumper_mm / rule["bumper_layers"], shot.wall_mm / rule["wall_layers"])
-    far = min(shot.wall_mm / rule["wall_layers"], rule["ratio"] * near)
+    near, far = spacings(rule, shot.diameter_mm, shot.bumper_mm, shot.wall_mm)
     first, last = (tuple(round(dx * factor, 4) for factor in factors) for dx in (near, far))
     ball, bumper, wall = (materials[alloy] for alloy in shot.alloys())
     case = cases.Case(name=shot.folder, projectile=Projectile(ball, diameter_mm=shot.diameter_mm), speed_km_s=shot.speed_km_s, angle_deg=shot.angle_deg,
