@@ -24,6 +24,7 @@ COMMANDS = {
     "movie": "an animated GIF of a run of a shield from the side; frames: settings: {film: 1} of a case",
     "export": "dumps for ParaView: a VTU file of each frame with units in the names, and a PVD file of all",
     "limits": "shields whose limit shots bracket: the measured limit, that of the simulation, and those of equations",
+    "calibrate": "how sure verdicts and limits are: makes records of hvi limits and hvi shots, and judges them by each other",
     "shots": "a list of shots on double walls: what was seen, what the simulation says, and what equations say",
     "info": "frames and columns of a dump",
     "cloud": "size and velocity of the debris cloud in every frame, as compute hvi/cloud measures it",

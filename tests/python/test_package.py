@@ -58,7 +58,7 @@ def test_wheel_from_source_distribution(root, tmp_path, python):
     site = tmp_path / "site"
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(site)
-    assert files(site / "hvi") == modules
+    assert files(site / "hvi") == modules and (site / "hvi/shield/calibration.csv").is_file()
 
     assert python("-c", "import hvi; print(hvi.__file__, hvi.__version__)", path=site).split() == [str(site / "hvi" / "__init__.py"), "7.8.9"]
     assert "usage: " in python("-m", "hvi", "--help", path=site)

@@ -80,7 +80,7 @@ def folder_of_several(tmp_path):
         make_run(folder / f"dx-{dx:g}", dx, material=str(tmp_path / material), film=dx == 0.5, reason=EVIL)
     (folder / "case.yaml").write_text(f"# {EVIL}\nspeed_km_s: 6\n")
     (folder / "verdict.yaml").write_text(yaml.safe_dump({"verdict": "fails", "reasons": [EVIL, "all 2 runs say so"], "notes": ["a note"], "runs": {"dx-1": "fails", "dx-0.5": "fails"},
-                                                         "core_s": 8.0, "next_finer": {"spacings_mm": [0.5, 0.4], "runs": 1, "core_s": 20.0}, "command": f"python3 -m hvi shield '{NAME}.yaml'"}))
+                                                         "calibration": f"none: {EVIL}", "core_s": 8.0, "next_finer": {"spacings_mm": [0.5, 0.4], "runs": 1, "core_s": 20.0}, "command": f"python3 -m hvi shield '{NAME}.yaml'"}))
     return folder
 
 
@@ -122,7 +122,7 @@ def test_report(several, capsys):
     assert all(a["href"].startswith("#") for a in seen.all("a")) and {a["href"][1:] for a in seen.all("a")} <= {s.get("id") for s in seen.all("section")}
     assert "http" not in re.sub(r"base64,[^\"]*", "", text)
     words = "".join(seen.text)
-    assert words.count(EVIL) >= 3 and NAME in words  # reasons, case, source
+    assert words.count(EVIL) >= 4 and f"How sure: none: {EVIL}." in words and NAME in words  # reasons, case, source
     order = re.findall(r"<h[123]>([^<]*)", text)
     wanted = ["Verdict", "Reasons", "Notes", "What the verdict cannot know", "What was run", "Side view in time", "Speeds", "Walls", "Bulge of wall 2", "Where the cloud strikes", "How near it was",
               "Ballistic-limit equations", "Resolution and ledger", "All runs", "Materials and their sources", "Settings", "Repeat it", "Versions"]

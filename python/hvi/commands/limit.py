@@ -6,7 +6,7 @@ import math
 from .. import tables
 from ..errors import HVIError
 from ..jobs import engine
-from ..shield import ble, decision
+from ..shield import ble, calibration, decision
 from ..shield import case as cases
 from ..shield.limit import Limit
 from . import running
@@ -41,7 +41,9 @@ def main(args):
     print()
     print(tables.text(("spacing_mm", "shift", "holds", "undecided", "fails", "runs"), limit.rows()))
     done = [job.result() for job in limit.every()]
-    answer = {**limit.answer(), "undecided_runs": limit.undecided(), "runs": len(done), "core_s": round(sum(result.get("core_s", 0) for result in done), 1),
+    answer = limit.answer()
+    sure = ble.beside(lambda: calibration.read().of_limit(limit, answer)) if answer["limit"] is not None else "none: there is no limit"
+    answer = {**answer, "calibration": sure, "undecided_runs": limit.undecided(), "runs": len(done), "core_s": round(sum(result.get("core_s", 0) for result in done), 1),
               "equations": limit.equations()}
     running.save(limit.folder / "limit.yaml", answer)
     print("\n".join(said(answer)))
@@ -60,4 +62,4 @@ def said(answer):
     return [f"holds {answer['holds']} {unit}, fails {answer['fails']}, between them undecided: limit on {answer['on']}, its middle {answer['limit']:g} {unit}",
             f"band: the last refinement moved it by {spacing:+g} {unit}" if spacing is not None else "band: one spacing only, nothing says how much it matters",
             f"      shifts of the lattice by up to {shifts:g} {unit}" if shifts is not None else "      one shift of the lattice only",
-            f"      steps of {answer['step']:g} {unit}", *cost]
+            f"      steps of {answer['step']:g} {unit}", *calibration.said_of_limit(answer["calibration"], unit), *cost]

@@ -9,7 +9,7 @@ import shutil
 from .. import tables
 from ..errors import HVIError
 from ..jobs import engine
-from ..shield import ble, chain, script
+from ..shield import ble, calibration, chain, script
 from ..shield import case as cases
 from ..shield.decision import STATUS, decide, finer, job, lines, member_name, members, said_of_finer, shown, verdict
 from . import running
@@ -55,16 +55,17 @@ def main(args):
     further = finer(case, each, jobs) if said == "undecided" else None
     more = {name: value for name, value in (("notes", notes), ("next_finer", further)) if value}
     equations = ble.beside(ble.predictions, case)
+    sure = ble.beside(lambda: calibration.read().of_verdict(case, {member: j.result() for member, j in jobs.items()}))
     (folder / "case.yaml").write_text(pathlib.Path(args.case).read_text())
     running.save(folder / "verdict.yaml", {"verdict": said, "reasons": reasons, **more, "runs": {j.name: verdict(j)[0] for j in jobs.values()},
                                            "areal_density_kg_m2": chain.plan_of(jobs[0, case.shifts[0]].shield)["areal_density_kg_m2"],
-                                           "equations": equations, "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1),
+                                           "calibration": sure, "equations": equations, "core_s": round(sum(j.result().get("core_s", 0) for j in jobs.values()), 1),
                                            "command": command(args, runner.ranks)})
     print(engine.overview(jobs.values(), shown(case)))
     print(f"verdict: {said}")
     print("\n".join([*lines(reasons, notes), *([said_of_finer(case, further)] if further else [])]))
     print(f"table: {folder / 'runs.csv'}, verdict: {folder / 'verdict.yaml'}")
-    print("\n".join(ble.said(equations)))
+    print("\n".join([*calibration.said_of_verdict(sure), *ble.said(equations)]))
     return STATUS[said]
 
 

@@ -16,7 +16,7 @@ from ..errors import HVIError
 from ..jobs import engine
 from ..material import library
 from ..material.library import stem
-from ..shield import ble, decision
+from ..shield import ble, calibration, decision
 from ..shield.run import runs_of, texts
 from ..shield.script import BEGIN
 from ..version import version
@@ -125,6 +125,8 @@ class Report:
         rows = [(text, margins[key]) for key, text in MARGINS.items() if key in margins]
         decides = str(self.run.result.get("decided_by", "")).replace("wall", "wall ")
         parts = [tag("p", f"Decided by: {decides}.")] if decides else []
+        if sure := (self.said or {}).get("calibration"):
+            parts.append(tag("p", "How sure: ", "; ".join(line.strip() for line in calibration.said_of_verdict(sure)).removeprefix("how sure: "), "."))
         names = ["", *(f"wall {k}" for k in range(1, self.run.walls + 1))]
         return section("How near it was", *parts, table(("margin", "value"), rows), tag("h3", "Walls"), table(names, self.wall_rows(), f"{self.run.name}. Fragments are what hangs "
                        "together by sound material; momentum and energy are of all material of the wall."))
