@@ -82,7 +82,7 @@ def measured(shield, result):
     solid = shield.settings["solid"]
     m.solid = solid
     m.whole = [(k, kind) for k in range(1, d + 1) for kind in laws.lacking(case.walls[k - 1].material, solid)]
-    m.ball_whole = laws.lacking(case.material, solid)
+    m.ball_whole = [kind for kind in laws.lacking(case.material, solid) if kind == "spall"]  # what breaks a projectile is tension
     m.thickness = case.walls[d - 1].thickness_mm
     m.tstop = 1.5 * max(shield.geometry.tstop_us, result["time_us"])
     m.coarse = [k for k in range(1, d) if m.of("layers", k) < NEEDED]
