@@ -290,8 +290,8 @@ def read(name):
 # ---------------------------------------------------------------------- what a file is good for
 USES = (  # what, words of the input, what is needed
     ("shocks and flow without strength", "", ()),
-    ("shields, debris, plate impact", "damage yes spall voids", (("strength", None), ("damage", None), ("spall", "voids"))),
-    ("shear to failure: plugs", "damage yes", (("strength", None), ("damage", None))),
+    ("projectiles, debris, plate impact", "spall voids", (("strength", None), ("spall", "voids"))),
+    ("walls of shields", "damage yes spall voids", (("strength", None), ("damage", None), ("spall", "voids"))),
     ("spall as other codes have it", "spall principal", (("strength", None), ("spall", "limit"))),
     ("temperature, softening by heat, melting", "", (("cp", None),)),
 )
