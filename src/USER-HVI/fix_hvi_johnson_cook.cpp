@@ -287,13 +287,6 @@ void FixHVIJohnsonCook::make_models()
   bool takes_time = options.spall == HVI::Spall::VOIDS ||
       options.spall == HVI::Spall::TULER_BUTCHER;
   bool anywhere = false, here = false, liquids = false;
-
-  // "damage yes" is for materials that have a law of it; who names a law means all of them
-
-  bool ductile = !options.damage_law.empty();
-  for (int itype = 1; itype <= atom->ntypes; itype++)
-    if (const HVI::Material *const material = store->materials.of(itype))
-      ductile = ductile || material->section("damage", "");
   for (int itype = 1; itype <= atom->ntypes; itype++) {
     const HVI::Material *const material = store->materials.of(itype);
     if (!material || material->is_liquid()) continue;
@@ -304,8 +297,11 @@ void FixHVIJohnsonCook::make_models()
     anywhere = true;
     here = here || inside[itype];
     std::string problem;
+
+    // damage yes is for materials that have a law of it, one by its name for all
+
     HVI::SolidOptions own = options;
-    own.damage = options.damage && (!ductile || !options.damage_law.empty() || material->section("damage", ""));
+    own.damage = options.damage && (!options.damage_law.empty() || material->section("damage", ""));
     models[itype] = HVI::SolidModel::make(*material, own, problem);
     if (!models[itype])
       error->all(FLERR, "Fix hvi/johnson-cook: material {} (type {}) {}", material->name, itype,

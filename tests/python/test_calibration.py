@@ -36,6 +36,7 @@ def run(shield, verdict, margin, test, wall=2.0, **more):
 
 def records(*runs, **head):
     known = {"command": "python3 -m hvi calibrate made-up.yaml", "date": "2026-01-01", "rows": len(runs), "shields": len({one.shield for one in runs}), "materials": MATERIALS, "settings": {},
+             "model": {name: cases.SETTINGS[name].default for name in calibration.MODEL},
              "spacing": {"across": [10.0], "bumper_layers": 2, "wall_layers": 3, "ratio": 2}, "margin": STRAIN}
     found = calibration.Records({**known, **head}, runs)
     found.head.update(found.check())
@@ -222,7 +223,7 @@ def test_the_file_of_the_package():
     known = {one.name: one for one in brackets.Study(study).brackets}
     assert found.head["rows"] == len(found.runs) and set(found.limits) <= set(known) and found.head["limits"] == len(found.finest().limits) > 0
     checked = found.finest().check()
-    assert {key: found.head[key] for key in checked} == checked and found.head["margin"] == min(calibration.MARGINS, key=checked["scores"].get)
+    assert {key: found.head[key] for key in checked} == checked and found.head["margin"] == min(calibration.MARGINS, key=checked["scores_by_other_reports"].get)
     assert set(found.head["materials"]) <= {path.name for path in (ROOT / "potentials").glob("*.hvi")}
     for one in found.runs:
         if one.on != "-":
@@ -299,8 +300,9 @@ def test_calibrate(mine, capsys, monkeypatch):  # noqa: F811
     assert [one.limit == one.limit for one in calibration.read(mine / "mine-records.csv").runs if one.shield == "W" and one.shift == 0] == [False] * sum(
         (path / "result.yaml").is_file() for path in (mine / "runs/mine/W").glob("W_across-10_shift-0_*"))
     write(mine / "mine.yaml", (mine / "mine.yaml").read_text() + "settings: {eta: 1.3}\n")
-    assert calibrate("mine.yaml", "--file", "mine-records.csv") == 1 and "was run with other settings than" in capsys.readouterr().err
-    assert calibrate("mine.yaml", "--shots", "shots.yaml") == 1
+    assert calibrate("mine.yaml", "--file", "mine-records.csv") == 1 and "was run with other settings, or another input, than" in capsys.readouterr().err
+    assert calibrate("mine.yaml") == 1 and "a study needs --file" in capsys.readouterr().err
+    assert calibrate("--shots", "shots.yaml") == 1 and "--shots needs a study" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("rows, verdict_says, limit_says", [((*ROWS, LARGE), "4 shields held in tests", "measured limits were 0.77 to 2.00 times"), (ROWS[:5], "outside of what the records cover: speed", None)])

@@ -56,7 +56,7 @@ def test_a_material_without_the_section(lmp, files):
 
 
 def test_a_material_without_damage(lmp, files):
-    """damage yes is for those that have a law of it, if any has; a law by its name is for all; others are said once"""
+    """damage yes is for those that have a law of it, a law by its name for all; others are said once"""
     text = head(files, two="tough", jc="all hvi/johnson-cook damage {}")
     r = lmp(text.format("yes") + "compute damage all hvi/atom damage\nrun 20\ndump d all custom 1 d.* type c_damage\nrun 1\n")
     assert said(r, TOUGH) == [w for w in r.warnings if f"tough.hvi (type 2) {TOUGH}" in w] and len(said(r, TOUGH)) == 1, r.warnings

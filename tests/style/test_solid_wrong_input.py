@@ -46,7 +46,6 @@ def test_what_it_needs(refused):
     refused("needs fix hvi/sph, which calls it", fix="")
     refused("fix hvi/johnson-cook works with form sum", words="form symmetric")
     refused("More than one fix hvi/johnson-cook", more="fix other all hvi/johnson-cook\n")
-    refused("has no section damage; use damage no", text=text[:text.index("damage")] + text[text.index("spall"):])
     refused("has no section damage johnson-cook; use damage no", jc="all hvi/johnson-cook damage johnson-cook",
             text=text[:text.index("damage")] + text[text.index("spall"):])
     refused("no material has a section strength", pair="pair_style hvi/sph cubic\npair_coeff * * eos tait 1.0 4.0 7 h 1.2\n")

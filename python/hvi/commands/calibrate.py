@@ -4,9 +4,11 @@
 import pathlib
 
 from .. import tables
+from ..errors import HVIError
 from ..shield import brackets, calibration, collected, shots
+from ..shield.collected import within
 
-EXAMPLES = """  python3 -m hvi calibrate examples/whipple-shield/limits/limits.yaml --runs runs
+EXAMPLES = """  python3 -m hvi calibrate examples/whipple-shield/limits/limits.yaml --runs runs --file python/hvi/shield/calibration.csv
   python3 -m hvi calibrate limits.yaml --shots chosen.yaml --runs runs --file mine.csv
   python3 -m hvi calibrate"""
 
@@ -15,10 +17,15 @@ def add_arguments(parser):
     parser.add_argument("study", nargs="?", metavar="STUDY.yaml", help="of hvi limits, whose runs are made into records; without it a file is only looked at")
     parser.add_argument("--shots", metavar="STUDY.yaml", help="of hvi shots, whose runs are taken, too")
     parser.add_argument("--runs", type=pathlib.Path, default="runs", metavar="DIR", help="folder of their runs (default: runs)")
-    parser.add_argument("--file", type=pathlib.Path, default=calibration.FILE, metavar="FILE.csv", help="the records (default: those that hvi shield and hvi limit read)")
+    parser.add_argument("--file", type=pathlib.Path, metavar="FILE.csv", help="the records; needed with a study (hvi shield and hvi limit read %s)" % within(calibration.FILE))
 
 
 def main(args):
+    if args.study and not args.file:
+        raise HVIError("a study needs --file FILE.csv, where its records go")
+    if args.shots and not args.study:
+        raise HVIError("--shots needs a study of hvi limits, whose rule of spacings is theirs")
+    args.file = args.file or calibration.FILE
     if args.study:
         published = shots.Study(args.shots) if args.shots else None
         collected.write(args.file, collected.collect(brackets.Study(args.study), args.runs.resolve(), published))
@@ -33,6 +40,6 @@ def main(args):
     print("least, most: a wall must exceed the computed limit by so many times, a diameter must be so many times smaller, for the measured limit to be reached")
     checked = fine.check()
     print(tables.text(("mean square of", "by_other_shields", "by_other_reports"), [(name, score, checked["scores_by_other_reports"][name]) for name, score in checked["scores"].items()]))
-    print(f"0 is right, 0.25 a coin; used: {head['margin']}; measured limits in the band of the other shields: {checked['limits_in_the_band_of_the_others']}")
+    print(f"0 is right, 0.25 a coin; used: {head['margin']}; measured limits whose range overlaps the band of the other shields: {checked['limits_in_the_band_of_the_others']}")
     print(f"{args.file}: {head['rows']} runs of {head['shields']} shields, {head['date']}: {head['command']}")
     return 0

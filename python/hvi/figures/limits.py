@@ -50,7 +50,7 @@ def ballistic_limit(speeds, curves, title, point=None):
 
 
 def limit_brackets(brackets, rows, equations):
-    """Limits over the middle of what shots bracket, over speed: bars of the shots, points of the simulation, and of equations
+    """Limits over the middle of what shots bracket, over speed: bars of the shots, points of the simulation with their band from what holds to what fails over all shifts, and of equations
 
     brackets: [shield.brackets.Bracket, ...]; rows: Found.row() of each; equations: {bracket: {name: (limit, ...)}}. Above 1 is safe on both kinds: limits on a
     diameter are turned over.
@@ -71,10 +71,11 @@ def limit_brackets(brackets, rows, equations):
     for k, across in enumerate(number):
         points = []
         for one in brackets:
-            found = [ratio(one, row["limit"]) for row in rows if row["bracket"] == one.name and row["across"] == across and row["limit"]]
+            found = [row for row in rows if row["bracket"] == one.name and row["across"] == across and row["limit"]]
             if found:
-                mean = sum(found) / len(found)
-                points.append((where[one.name] + 0.12 * (k - 0.5 * (len(number) - 1)), mean, mean - min(found), max(found) - mean))
+                mean = sum(ratio(one, row["limit"]) for row in found) / len(found)
+                ends = [ratio(one, row[end]) for row in found for end in ("holds", "fails")]  # between them undecided
+                points.append((where[one.name] + 0.12 * (k - 0.5 * (len(number) - 1)), mean, mean - min(ends), max(ends) - mean))
         if points:
             x, y, low, high = zip(*points)
             ax.errorbar(x, y, [low, high], fmt="osD^v"[k % 5], color="black", mfc="white" if k else "black", ms=6, capsize=3, label=f"simulation, {across:g} across")

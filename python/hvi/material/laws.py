@@ -59,14 +59,17 @@ def check(case, reader):
 
 
 def lacking(name, solid):
-    """Kinds of law, spall and damage, that these words of fix hvi/johnson-cook ask for and a material file has not; spall if they ask for neither"""
+    """{kind: why} of the laws, spall and damage, by which a material does not fail with these words of fix hvi/johnson-cook: its file has none, or the words take none"""
     path = library.path_of(name)
     if path is None:
-        return []  # LAMMPS says so
+        return {}  # LAMMPS says so
     words, text = solid.split(), path.read_text(errors="replace")
-    law, damage = (next((new for old, new in zip(words, words[1:]) if old == key), preset) for key, preset in (("spall", "principal"), ("damage", "yes")))
-    if law == "none" and damage == "no":
-        return ["spall"]
-    sections = {"spall": law if law in ("voids", "tuler-butcher", "grady") else "limit", "damage": r"[\w-]+" if damage == "yes" else damage}
-    asked = {"spall": law != "none", "damage": damage != "no"}
-    return [kind for kind, section in sections.items() if asked[kind] and not re.search(rf"^[ \t]*{kind}[ \t]+{section}(?![\w-])", text, re.M)]
+    law = {kind: next((new for old, new in zip(words, words[1:]) if old == kind), preset) for kind, preset in (("spall", "principal"), ("damage", "yes"))}
+    section = {"spall": law["spall"] if law["spall"] in ("voids", "tuler-butcher", "grady") else "limit", "damage": r"[\w-]+" if law["damage"] == "yes" else law["damage"]}
+    found = {}
+    for kind, none in (("spall", "none"), ("damage", "no")):
+        if law[kind] == none:
+            found[kind] = f"with {kind} {none}"
+        elif not re.search(rf"^[ \t]*{kind}[ \t]+{section[kind]}(?![\w-])", text, re.M):
+            found[kind] = f"whose file has no law of {kind} ({solid})"
+    return found

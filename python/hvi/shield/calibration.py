@@ -19,7 +19,6 @@ from ..errors import HVIError, reading
 from ..jobs import engine
 from ..material import library
 from . import brackets, shots
-from . import case as cases
 
 FILE = pathlib.Path(__file__).with_name("calibration.csv")
 MARGINS = {"rear_plastic_strain": "a plastic strain of {:.2g} at its rear", "bulge_over_thickness": "a bulge of {:.2g} thicknesses",
@@ -27,7 +26,7 @@ MARGINS = {"rear_plastic_strain": "a plastic strain of {:.2g} at its rear", "bul
 APART = "apart_over_projectile"  # of one that fails
 ALIKE = 0.02  # lengths and speeds of one shield in two lists
 COARSER = 1.1  # than the records' are spacings of a case that they may judge, at most: that of hvi limit stays while the diameter varies
-HEAD = ("command", "date", "rows", "shields", "spacing", "settings", "materials", "margin", "scores", "limits_in_the_band_of_the_others")  # what a file must say
+HEAD = ("command", "date", "rows", "shields", "spacing", "settings", "model", "materials", "margin", "scores", "scores_by_other_reports", "limits_in_the_band_of_the_others")  # what a file must say
 MODEL = ("kernel", "eta", "pair", "solid", "C", "edge", "layers")  # settings that change what a run computes
 
 
@@ -220,7 +219,7 @@ class Records:
             elif path is None or engine.digest(pathlib.Path(path).read_bytes()) != known:
                 found.append(f"the file of {library.stem(name)} is not that of the records")
         for name in MODEL:
-            given, of = case.setting(name), self.head["settings"].get(name, cases.SETTINGS[name].default)
+            given, of = case.setting(name), self.head["model"].get(name)
             found += [f"settings: {name} is {given}, not {of}"] if given != of else []
         for name, value in scope(lengths(case)).items() if not found else ():
             values = [scope(vars(run))[name] for run in self.runs]
@@ -245,7 +244,7 @@ class Records:
         worst = max(runs, key=lambda run: run.severity(by))
         margin = APART if worst.verdict == "fails" else by
         return {"verdict": worst.verdict, "margin": margin, "value": getattr(worst, margin), **records.votes(worst.severity(by), by), **records.basis(),
-                "score": self.head["scores"][by]}
+                "score": self.head["scores_by_other_reports"][by]}
 
     def of_limit(self, limit, answer):
         """between which values the measured limit is, as those of the records are, and how many of their shields hold with the case's own value"""
@@ -318,7 +317,7 @@ def said_of_verdict(found):
         return [f"how sure: {found}"]
     apart = f"{found['value']:.2g} of the projectile's mass apart behind the wall"
     margin = apart if found["margin"] == APART else f"a wall that {found['verdict']} with {MARGINS[found['margin']].format(found['value'])}"
-    worth = f"cross-validated, such shares are off by {found['score']:.2g} in the mean square, a coin by 0.25"
+    worth = f"judged by other reports, such shares are off by {found['score']:.2g} in the mean square, a coin by 0.25"
     return [f"how sure: with {margin}, {tests(found)}", f"          {worth}{': the margin says nothing' if found['score'] >= 0.25 else ''}"]
 
 
@@ -328,5 +327,5 @@ def said_of_limit(found, unit):
         return [f"how sure: {found}"]
     (least, most), (low, high) = found["measured_over_computed"], found["band"]
     return [f"how sure: measured limits were {least:.2f} to {most:.2f} times computed ones; with that and the band above, {low:g} to {high:g} {unit}",
-            f"          cross-validated, {found['in_the_band_of_the_others']} measured limits were between such ends",
+            f"          of the records themselves, {found['in_the_band_of_the_others']} measured limits overlap such a band",
             f"          {found['own']:g} {unit}, of the case, is on the {'safe' if found['margin'] >= 1 else 'unsafe'} side by a factor of {found['margin']:.2f}: with it {tests(found)}"]

@@ -17,15 +17,16 @@ class Collected:
     """Runs of studies, from their folders; what must be the same in all of them"""
 
     def __init__(self, study):
-        self.study, self.runs, self.materials, self.versions = study, [], {}, set()
+        self.study, self.runs, self.materials, self.versions, self.model = study, [], {}, set(), {}
 
     def take(self, job, **more):
-        """the result of a job that was run with the settings of the study; whether inputs or LAMMPS were changed since is not asked"""
+        """the result of a job that was run with the settings and the input that the study has now; whether LAMMPS was changed since is not asked"""
         result, record = (engine.read_yaml(job.folder / name) for name in (engine.RESULT, "job.yaml"))
         if result is None or engine.LAST not in result:
             return None
-        if (record or {}).get("variables") != job.variables:
-            raise HVIError(f"{job.folder} was run with other settings than {self.study.path} has now: run it again")
+        if (record or {}).get("variables") != job.variables or record.get("input") != job.record["input"]:
+            raise HVIError(f"{job.folder} was run with other settings, or another input, than {self.study.path} has now: run it again")
+        self.model = {name: job.case.setting(name) for name in calibration.MODEL}
         for name, digest in record.get("files", {}).items():
             if self.materials.setdefault(pathlib.Path(name).name, digest) != digest:
                 raise HVIError(f"{job.folder} was run with another {name} than others: run them again")
@@ -72,10 +73,10 @@ def collect(study, runs, published=None):
         raise HVIError(f"{runs / study.name} has no runs of {study.path} that are done")
     command = f"python3 -m hvi calibrate {within(study.path)}" + (f" --shots {within(published.path)}" if published else "")
     head = {"command": command, "date": datetime.date.today().isoformat(), "rows": len(collected.runs), "shields": len({run.shield for run in collected.runs}),
-            "spacing": {"across": sorted(study.across), **study.rule}, "settings": study.settings, "materials": dict(sorted(collected.materials.items())), "versions": sorted(collected.versions)}
+            "spacing": {"across": sorted(study.across), **study.rule}, "settings": study.settings, "model": collected.model, "materials": dict(sorted(collected.materials.items())), "versions": sorted(collected.versions)}
     records = calibration.Records(head, tuple(collected.runs))
     checked = records.finest().check()
-    head.update(limits=len(records.finest().limits), margin=min(calibration.MARGINS, key=lambda name: checked["scores"][name]), **checked)
+    head.update(limits=len(records.finest().limits), margin=min(calibration.MARGINS, key=lambda name: checked["scores_by_other_reports"][name]), **checked)
     return records
 
 

@@ -81,8 +81,8 @@ def measured(shield, result):
     m.failed = m.last and not m.plugged and (m.hole > 0 or (m.parts >= FEW and m.missed <= BESIDE and not m.slips))
     solid = shield.settings["solid"]
     m.solid = solid
-    m.whole = [(k, kind) for k in range(1, d + 1) for kind in laws.lacking(case.walls[k - 1].material, solid)]
-    m.ball_whole = [kind for kind in laws.lacking(case.material, solid) if kind == "spall"]  # what breaks a projectile is tension
+    m.whole = [(k, *lack) for k in range(1, d + 1) for lack in laws.lacking(case.walls[k - 1].material, solid).items()]
+    m.ball_whole = [lack for lack in laws.lacking(case.material, solid).items() if lack[0] == "spall"]  # what breaks a projectile is tension
     m.thickness = case.walls[d - 1].thickness_mm
     m.tstop = 1.5 * max(shield.geometry.tstop_us, result["time_us"])
     m.coarse = [k for k in range(1, d) if m.of("layers", k) < NEEDED]
@@ -94,8 +94,8 @@ def measured(shield, result):
 HOW = {"spall": "in tension", "damage": "by plastic strain"}  # what fails by a law of that kind
 
 
-def lacks(m, name, kind):
-    return f"{name}, whose file has no law of {kind} ({m.solid}), so it does not fail {HOW[kind]}"
+def lacks(name, kind, why):
+    return f"{name}, {why}, so it does not fail {HOW[kind]}"
 
 
 RULES = (
@@ -124,7 +124,7 @@ RULES = (
          lambda m: f"wall {m.d} is still pushed, its momentum changes by {m.of('push_percent_per_us'):.2g} percent per us{m.ended}",
          lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
     Rule("bulges", UNLESS, lambda m: m.last and abs(m.of("bulge_percent_per_us")) > 100 * BULGE, f"less than {100 * BULGE:g} percent of its thickness per us, and it tears no more",
-         lambda m: f"the bulge of wall {m.d} still grows, by {m.of('bulge_percent_per_us'):.2g} percent of its thickness per us{m.ended}",
+         lambda m: f"the bulge of wall {m.d} still moves, by {m.of('bulge_percent_per_us'):.2g} percent of its thickness per us{m.ended}",
          lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
     Rule("missed", UNLESS, lambda m: m.missed > BESIDE, f"{BESIDE:g} of the projectile is more than a stray particle",
          lambda m: f"{100 * m.missed:.2g} percent of the projectile passed beside wall {m.beside}",
@@ -140,8 +140,8 @@ RULES = (
     Rule("no plate", UNLESS, lambda m: m.unknown, "a hole is what a plate around it has",
          lambda m: f"whether wall {m.d} has a hole is unknown, for no plate in one piece is left around the place that is struck",
          lambda m: ({f"wall {m.d}: radius_mm": None}, "take a larger radius_mm for it, or smaller spacings_mm")),
-    Rule("whole", UNLESS, lambda m: m.whole, "what cannot fail in tension holds whatever comes, and what cannot by plastic strain two thirds too long",
-         lambda m, found: lacks(m, f"wall {found[0]} is of {m.case.walls[found[0] - 1].material}", found[1]), each=True),
+    Rule("whole", UNLESS, lambda m: m.whole, "what cannot fail in tension holds whatever comes, and what cannot by plastic strain holds at two thirds of the thickness",
+         lambda m, found: lacks(f"wall {found[0]} is of {m.case.walls[found[0] - 1].material}", *found[1:]), each=True),
     Rule("perforated", FAILS, lambda m: m.last and not m.plugged and m.hole > 0, "light goes through",
          lambda m: f"wall {m.d} is perforated by a hole of {m.hole:.4g} mm"),
     Rule("spall", FAILS, lambda m: m.last and m.spall > 0, "as ballistic-limit equations define failure",
@@ -158,7 +158,7 @@ RULES = (
     Rule("hourglass", NOTE, lambda m: m.r["hourglass_energy_ratio"] > HEAT, "energy that is not of the impact",
          lambda m: f"{100 * m.r['hourglass_energy_ratio']:.2g} percent of the energy are in hourglass forces of elements, and 0.1 are no matter",
          lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
-    Rule("ball", NOTE, lambda m: m.ball_whole, "what cannot fail stays in one piece", lambda m, kind: lacks(m, f"the projectile is of {m.case.material}", kind), each=True),
+    Rule("ball", NOTE, lambda m: m.ball_whole, "what cannot fail stays in one piece", lambda m, lack: lacks(f"the projectile is of {m.case.material}", *lack), each=True),
     Rule("coarse", NOTE, lambda m: m.coarse, "the cloud is that of this wall, too",
          lambda m, k: f"wall {k}, which does not decide, has {m.of('layers', k)} layer(s) of particles, and {NEEDED} are better for its cloud",
          lambda m, k: ({"spacings_mm": finest(m, k)}, f"take spacings_mm of {finest(m, k):.4g} or finer, or spacings and layers for this wall"), each=True),
