@@ -23,7 +23,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 TABLE = HERE / "craters.csv"
 DEEP = 3.5  # thickness and radius of the target, in depths of the fit
 TSTOP = 3.0  # us per mm of its depth
-GIVEN = ("projectile", "target", "D_mm", "km_s", "across", "rate_D", "rate_p")  # rate_D, 1/s, and rate_p: keys D and p of strength johnson-cook, of both
+GIVEN = ("projectile", "target", "D_mm", "km_s", "across", "damage", "rate_D", "rate_p")  # rate_D, 1/s, and rate_p: keys D and p of strength johnson-cook, of both
 FOUND = ("depth_mm", "diameter_mm", "volume_mm3", "fit_mm", "error_percent", "particles", "core_s")
 
 
@@ -54,7 +54,7 @@ def run(row, folder, ranks):
         material(folder, name, row)
     depth, dx = fit(row), float(row["D_mm"]) / float(row["across"])
     values = {"dx": dx, "v0": 1000 * float(row["km_s"]), "D": row["D_mm"], "deep": round(DEEP * depth, 1), "wide": round(DEEP * depth, 1), "tstop": round(TSTOP * depth, 1),
-              "frame": 1000, "material_p": f"{row['projectile']}.hvi", "material_t": f"{row['target']}.hvi"}
+              "frame": 1000, "solid": f"damage {row['damage']} spall voids thermal yes", "material_p": f"{row['projectile']}.hvi", "material_t": f"{row['target']}.hvi"}
     words = [word for name, value in values.items() for word in ("-var", name, str(value))]
     start = time.time()
     with open(folder / "screen", "w") as screen:
