@@ -283,7 +283,7 @@ def test_calibrate(mine, capsys, monkeypatch):  # noqa: F811
     assert calibrate("mine.yaml", "--shots", "shots.yaml", "--file", "mine-records.csv") == 0
     assert {path: path.stat().st_mtime_ns for path in (mine / "runs").rglob("*")} == before
     found, out = calibration.read(mine / "mine-records.csv"), capsys.readouterr().out
-    assert found.head["command"] == "python3 -m hvi calibrate mine.yaml --shots shots.yaml" and found.head["materials"] == MATERIALS and "used: rear_plastic_strain" in out
+    assert found.head["command"] == f"python3 -m hvi calibrate {collected.within('mine.yaml')} --shots {collected.within('shots.yaml')}" and found.head["materials"] == MATERIALS and "used: rear_plastic_strain" in out
     assert found.limits["W"].limit == pytest.approx(1.7, rel=0.03) and found.limits["D"].limit == pytest.approx(4.6 / 0.9, rel=0.03)
     assert len({(one.shield, one.shift) for one in found.runs if one.on != "-"}) == 4 and len(list(mine.glob("runs/**/tries"))) == len(found.runs) + 1  # S3 is oblique
     assert [(one.shield, one.test) for one in found.runs if one.on == "-"] == [("S1", "holds")]

@@ -456,7 +456,7 @@ TEST(StrengthSection, FilesOfThePackage)
     }
   }
   EXPECT_EQ(strengths, 24);
-  EXPECT_EQ(damages, 9);
+  EXPECT_EQ(damages, 12);
   EXPECT_EQ(spalls, 5);
 }
 
