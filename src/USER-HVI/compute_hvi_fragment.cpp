@@ -229,10 +229,11 @@ void ComputeHVIFragment::make_rows()
     }
     Row &row = here ? rows[slot[vertex]] : shares[slot[vertex]].row;
 
+    const double own = reach(atom->type[i], atom->type[i]);    // to its image
     Row one = {0, 1.0, m, {x[0], x[1], x[2]}, {0.0}, 0.0, 0.0, 0};
     for (int k = 0; k < 3; k++) {
       one.momentum[k] = m * v[i][k];
-      if (id[i] > 0 && mirror.has(k) && 2.0 * mirror.depth(k, x) < cutoff) one.reached |= 1 << k;
+      if (id[i] > 0 && mirror.has(k) && 2.0 * mirror.depth(k, x) < own) one.reached |= 1 << k;
     }
     one.mvsq = m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]);
     row.add(one);

@@ -17,6 +17,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
+#include "fix_hvi_store.h"
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
@@ -58,7 +59,7 @@ ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg
 
 ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg, int keywords) :
     ComputeHVIMatter(lmp, narg, arg), iarg(3), components(world), cutoff(0.0), mode(BONDS),
-    damage(0), list(nullptr), nmax(0), fragment(nullptr), node(nullptr)
+    damage(0), factor(0.0), list(nullptr), nmax(0), fragment(nullptr), node(nullptr)
 {
   comm_forward = NODE_SIZE;
 
@@ -74,6 +75,10 @@ ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg
     if (!(cutoff > 0.0) || !std::isfinite(cutoff))
       error->all(FLERR, "Compute {} distance must be > 0, not {}", style, arg[iarg + 1]);
     iarg += 2;
+    if (iarg < narg && strcmp(arg[iarg], "h") == 0) {
+      factor = cutoff;
+      iarg++;
+    }
     if (iarg < narg && strcmp(arg[iarg], "damage") == 0) {
       if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, name + " damage", error);
       damage = utils::logical(FLERR, arg[iarg + 1], false, lmp);
@@ -106,6 +111,12 @@ void ComputeHVIFragmentAtom::init()
   }
 
   if (damage && !FixHVIJohnsonCook::find(lmp)) find_damage();
+  if (factor > 0.0) {
+    auto *const store = force->pair_match("^hvi/sph$", 0) ? FixHVIStore::find(lmp) : nullptr;
+    if (!store) error->all(FLERR, "Compute {} distance R h needs pair style hvi/sph", style);
+    h = store->fields.settings.h;
+    cutoff = factor * *std::max_element(h.begin(), h.end());
+  }
 
   // what the neighbor list would leave out
 
@@ -262,6 +273,13 @@ void ComputeHVIFragmentAtom::join_bonds()
   }
 }
 
+/* ---------------------------------------------------------------------- */
+
+double ComputeHVIFragmentAtom::reach(int itype, int jtype) const
+{
+  return (factor > 0.0) ? 0.5 * factor * (h[itype] + h[jtype]) : cutoff;
+}
+
 /* ----------------------------------------------------------------------
    nodes of elements are vertices, too, but hold nothing by distance
 ------------------------------------------------------------------------- */
@@ -272,8 +290,6 @@ void ComputeHVIFragmentAtom::join_close(const HVI::Mesh *mesh)
   neighbor->build_one(list);
 
   const double *const *const x = atom->x;
-  const double cutsq = cutoff * cutoff;
-
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
     if (id[i] == 0) continue;
@@ -282,7 +298,8 @@ void ComputeHVIFragmentAtom::join_close(const HVI::Mesh *mesh)
       const double delx = x[i][0] - x[j][0];
       const double dely = x[i][1] - x[j][1];
       const double delz = x[i][2] - x[j][2];
-      if (delx * delx + dely * dely + delz * delz < cutsq &&
+      const double cut = reach(atom->type[i], atom->type[j]);
+      if (delx * delx + dely * dely + delz * delz < cut * cut &&
           !(mesh && mesh->is_node(atom->type[j])))
         components.join(i, j);
     }

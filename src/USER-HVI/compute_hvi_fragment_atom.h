@@ -27,9 +27,9 @@ namespace LAMMPS_NS {
 
    bonds         bonded particles hang together: live bonds only, as the bond
                  style has left them in the last force evaluation
-   distance R    particles closer than R hang together; with "damage yes" those
-                 that have failed (fix hvi/johnson-cook, or property
-                 d_hvi_damage at 1) stay alone
+   distance R    particles closer than R hang together, with "distance R h" those closer than R times
+                 the mean of their smoothing lengths; with "damage yes" those that have failed (fix
+                 hvi/johnson-cook, or property d_hvi_damage at 1) stay alone
 ------------------------------------------------------------------------- */
 
 class ComputeHVIFragmentAtom : public ComputeHVIMatter {
@@ -56,15 +56,18 @@ class ComputeHVIFragmentAtom : public ComputeHVIMatter {
   int iarg;    // first argument after MODE
   HVI::Components components;
   std::vector<int64_t> id;    // atom ID; 0 if left out, < 0 if it stays alone
-  double cutoff;              // of mode distance, else 0
+  double cutoff;    // of mode distance, else 0: R, or R times the largest smoothing length
 
   void find_fragments(class Region *);
+  double reach(int itype, int jtype) const;    // particles of these types hang together if closer
 
  private:
   enum Mode { BONDS, DISTANCE };
 
   Mode mode;
-  int damage;    // 1: failed particles stay alone
+  int damage;               // 1: failed particles stay alone
+  double factor;            // of smoothing lengths, 0: cutoff is a length
+  std::vector<double> h;    // by type, with a factor
   class NeighList *list;
   int nmax;
   double *fragment;

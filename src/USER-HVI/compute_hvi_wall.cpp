@@ -51,6 +51,7 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
   extarray = 0;
 
   int iarg = 3;
+  bool is_scaled = false;    // reach is in smoothing lengths
   if (narg < 5) utils::missing_cmd_args(FLERR, "compute hvi/wall", error);
   const bool is_like = strcmp(arg[iarg], "like") == 0;
   if (is_like) {
@@ -87,6 +88,8 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
                      arg[iarg + 1]);
       }
       iarg += 2;
+      is_scaled = iarg < narg && strcmp(arg[iarg], "h") == 0;
+      if (is_scaled) iarg++;
     } else if (is_like)
       error->all(FLERR, "Compute hvi/wall like takes pieces and no other keyword, not {}",
                  arg[iarg]);
@@ -104,8 +107,9 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
                  "walls in the order along the axis",
                  k + 1, walls[k].front, k, walls[k - 1].rear);
     for (size_t j = 0; j < k; j++)
-      if (walls[k].lo <= walls[j].hi && walls[j].lo <= walls[k].hi)
-        error->all(FLERR, "Compute hvi/wall: walls {} and {} share a type", j + 1, k + 1);
+      for (int t = 1; t <= atom->ntypes; t++)
+        if (walls[k].owns(t) && walls[j].owns(t))
+          error->all(FLERR, "Compute hvi/wall: walls {} and {} share a type", j + 1, k + 1);
   }
   size_array_rows = walls.size();
   memory->create(array, size_array_rows, NCOLUMNS, "hvi/wall:array");
@@ -122,8 +126,10 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
     auto text = [](double value) {
       return fmt::format("{:.17g}", value);
     };
-    fragment = make("hvi/fragment", {"distance", text(reach), "damage", "yes"},
-                    (ComputeHVIFragment *) nullptr);
+    std::vector<std::string> near = {"distance", text(reach)};
+    if (is_scaled) near.emplace_back("h");
+    near.insert(near.end(), {"damage", "yes"});
+    fragment = make("hvi/fragment", near, (ComputeHVIFragment *) nullptr);
     comm_forward = fragment->comm_forward;    // LAMMPS makes buffers for the computes that it knows
     for (Wall &w : walls) {
       const std::string middle = text(0.5 * (w.front + w.rear));
@@ -201,7 +207,7 @@ void ComputeHVIWall::read_wall(int &iarg, int narg, char **arg)
     utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, w.lo, w.hi, error);
     w.front = number(2);
     w.rear = w.front + positive(3);
-    w.node_lo = w.node_hi = 0;
+    w.node_lo = w.node_hi = w.rim_lo = w.rim_hi = 0;
     w.layers = 1.0;
     w.radius = BIG;
     w.center[0] = w.center[1] = 0.0;
@@ -210,14 +216,17 @@ void ComputeHVIWall::read_wall(int &iarg, int narg, char **arg)
     iarg += 4;
     return;
   }
-  if (key != "nodes" && key != "layers" && key != "radius" && key != "center" && key != "struck")
+  if (key != "rim" && key != "nodes" && key != "layers" && key != "radius" && key != "center" &&
+      key != "struck")
     error->all(FLERR, "Unknown compute hvi/wall keyword: {}", key);
   if (walls.empty())
     error->all(FLERR, "Compute hvi/wall {} belongs to a wall, and comes after it", key);
   Wall &w = walls.back();
   const bool two = key == "center" || key == "struck";
   need(two ? 2 : 1);
-  if (key == "nodes")
+  if (key == "rim")
+    utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, w.rim_lo, w.rim_hi, error);
+  else if (key == "nodes")
     utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, w.node_lo, w.node_hi, error);
   else if (key == "layers")
     w.layers = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
@@ -263,8 +272,8 @@ void ComputeHVIWall::init()
     if (atom->mask[i] & groupbit) mine[atom->type[i]]++;
   MPI_Allreduce(mine.data(), number.data(), mine.size(), MPI_LMP_BIGINT, MPI_SUM, world);
   for (size_t k = 0; k < walls.size(); k++)
-    for (int t = walls[k].lo; t <= walls[k].hi; t++)
-      if (number[t] == 0)
+    for (int t = 1; t <= atom->ntypes; t++)
+      if (walls[k].owns(t) && number[t] == 0)
         error->all(FLERR, "Compute hvi/wall: group {} has no particles of type {}, wall {}",
                    group->names[igroup], t, k + 1);
 
@@ -343,7 +352,8 @@ void ComputeHVIWall::sum_up()
   std::vector<int> wall_of(atom->ntypes + 1, -1);
   moved.assign(nwalls, 0);
   for (int k = 0; k < nwalls; k++) {
-    for (int t = walls[k].lo; t <= walls[k].hi; t++) wall_of[t] = k;
+    for (int t = 1; t <= atom->ntypes; t++)
+      if (walls[k].owns(t)) wall_of[t] = k;
     most[k * NCOLUMNS + TIP] = -BIG;
   }
 
@@ -438,7 +448,8 @@ void ComputeHVIWall::find_pieces()
   for (size_t k = 0; k < walls.size(); k++) {
     Wall &w = walls[k];
     w.untouched = !w.start.empty() && !moved[k] && array[k][PASSED_MASS] == 0.0;
-    for (int t = w.lo; t <= w.hi; t++) counts[t] = !w.untouched;
+    for (int t = 1; t <= atom->ntypes; t++)
+      if (w.owns(t)) counts[t] = !w.untouched;
   }
   chosen.assign(nlocal, 0);
   for (int i = 0; i < nlocal; i++) chosen[i] = (atom->mask[i] & groupbit) && counts[atom->type[i]];

@@ -58,9 +58,9 @@ class ComputeHVIWall : public ComputeHVIMatter {
   double memory_usage() override;
 
  private:
-  struct Place {    // what the command says of a wall
-    int lo, hi, node_lo,
-        node_hi;    // types of its particles, and of nodes of its elements; 0: none
+  struct Place {                   // what the command says of a wall
+    int lo, hi, rim_lo, rim_hi;    // types of its particles; of those of its outer part, 0: none
+    int node_lo, node_hi;          // of nodes of its elements; 0: none
     double front, rear, layers, radius, center[2], struck[2];
   };
   struct Wall : Place {
@@ -70,12 +70,16 @@ class ComputeHVIWall : public ComputeHVIMatter {
     std::vector<double> start;    // its columns from CLOUD_MASS on while nothing has moved it
     bool untouched = false;       // so are they still
 
-    bool owns(int itype) const { return itype >= lo && itype <= hi; }
+    bool owns(int itype) const
+    {
+      return (itype >= lo && itype <= hi) || (itype >= rim_lo && itype <= rim_hi);
+    }
     bool has_node(int itype) const { return itype >= node_lo && itype <= node_hi; }
   };
 
   int axis, across[2];
-  double reach;    // particles closer than this hang together; 0: columns without pieces only
+  double
+      reach;    // particles closer than this (or times smoothing lengths) hang together; 0: columns without pieces only
   std::vector<Wall> walls;
   std::unique_ptr<ComputeHVIFragment> fragment;
   char *id_fix;

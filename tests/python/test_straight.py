@@ -7,7 +7,7 @@ import types
 import numpy as np
 import pytest
 import yaml
-from hvi import cli
+from hvi import cli, errors
 from hvi.shield import chain, record, script, verdict
 from hvi.shield import case as cases
 
@@ -127,7 +127,7 @@ def result(**changed):
     found = {"walls": 2, "walls_reached": 2, "time_us": 30.0, "energy_ratio": 1.0, "ended_by": "event", "method": "sph", "elements_failed_without_particles": 0, "momentum_left_ratio": 0.0,
              "conversion_heat_ratio": 0.0, "hourglass_energy_ratio": 0.0}
     for k in (1, 2):
-        found.update({f"wall{k}_{key}": 0 for key in ("apart_mass_mg", "apart_particles", "spall_mass_mg", "still_to_come", "missed_fraction", "missed_reach_mm", "push_percent_per_us", "bulge_percent_per_us", "torn",
+        found.update({f"wall{k}_{key}": 0 for key in ("apart_mass_mg", "apart_particles", "spall_mass_mg", "still_to_come", "missed_fraction", "missed_reach_mm", "push_percent", "bulge_m_s", "torn",
                                                       "bulge_over_thickness", "deepest_failed_layer", "rear_plastic_strain", "cloud_energy_ratio")})
         found.update({f"hole{k}_diameter_mm": 0.0, f"wall{k}_layers": 3, f"wall{k}_energy_ratio": 0.3})
     return {**found, "wall1_cloud_energy_ratio": 0.7, **changed}
@@ -147,10 +147,10 @@ def apart(mg=2.0, particles=3, **changed):
     (apart(wall2_layers=2, hole2_diameter_mm=3.0), "undecided", ["thin", "perforated", "through"]),
     ({"hole2_diameter_mm": 3.0}, "undecided", ["plugged"]), ({"hole2_diameter_mm": math.nan}, "undecided", ["no plate"]),
     ({"wall2_still_to_come": 0.00911}, "undecided", ["comes", "sound"]), ({"wall2_still_to_come": 0.00909}, "holds", ["sound"]),
-    ({"wall2_push_percent_per_us": 1.1}, "undecided", ["pushed", "sound"]), ({"energy_ratio": 0.998}, "undecided", ["leaky", "sound"]),
-    (apart(wall2_push_percent_per_us=1.1), "fails", ["pushed", "through"]),
-    ({"wall2_bulge_percent_per_us": 1.1}, "undecided", ["bulges", "sound"]), ({"wall2_bulge_percent_per_us": 0.9}, "holds", ["sound"]),
-    (apart(wall2_bulge_percent_per_us=1.1), "fails", ["bulges", "through"]), ({"wall2_bulge_percent_per_us": -1.1, "ended_by": "time"}, "undecided", ["bulges", "sound"]),
+    ({"wall2_push_percent": 3.1}, "undecided", ["pushed", "sound"]), ({"energy_ratio": 0.998}, "undecided", ["leaky", "sound"]),
+    (apart(wall2_push_percent=3.1), "fails", ["pushed", "through"]),
+    ({"wall2_bulge_m_s": 31.0}, "undecided", ["bulges", "sound"]), ({"wall2_bulge_m_s": 29.0}, "holds", ["sound"]),
+    (apart(wall2_bulge_m_s=31.0), "fails", ["bulges", "through"]), ({"wall2_bulge_m_s": -31.0, "ended_by": "time"}, "undecided", ["bulges", "sound"]),
     ({"walls_reached": 1}, "undecided", ["late"]), ({"walls_reached": 1, "wall1_cloud_energy_ratio": 5e-5}, "holds", ["spared"]),
     ({"wall1_layers": 2}, "holds", ["sound", "coarse"]), ({"method": "tied"}, "undecided", ["tied", "sound"])])
 def test_rules(tmp_path, changed, said, rules):
@@ -178,9 +178,51 @@ def test_whole_walls_and_what_is_not_modelled(tmp_path):
     assert any(text.startswith("wall 2 is of Ti-6Al-4V.hvi, whose file has no law of spall (damage yes spall voids)") for text in found["reasons"])
 
 
+def test_walls_coarser_than_what_strikes_them(tmp_path):
+    """1.2 times is a matter of rounding, 1.3 holds too early; one that fails, fails"""
+    for spacing, rules in ((0.89, ["sound"]), (0.98, ["coarser", "sound"])):
+        shield = chain.shield_of(read(tmp_path / "c.yaml", CASE.replace("gap_mm: 8", f"gap_mm: 8, spacings_mm: [{spacing}]").replace("thickness_mm: 2.25", "thickness_mm: 3.6")), 0, 0.0)
+        assert shield.walls[1].spacing == pytest.approx(1e-3 * spacing)
+        found = verdict.of_run(shield, result())
+        assert (found["verdict"], found["rules"]) == ("undecided" if "coarser" in rules else "holds", rules)
+    assert {"wall 2: spacings_mm": None} in found["remedies"] and verdict.of_run(shield, result(hole2_diameter_mm=3.0, wall2_apart_particles=1))["verdict"] == "fails"
+
+
+GRADED = CASE.replace("[0.75]", "[0.375]").replace("gap_mm: 8", "gap_mm: 8, core_mm: 3")
+
+
+def test_a_wall_with_a_core(tmp_path):
+    """by hand: 2.25 mm are 3 layers of 0.75 mm outside and 6 of 0.375 inside, in 3 mm to each side, whole cells of 0.75; the two are one body"""
+    shield = chain.shield_of(read(tmp_path / "c.yaml", GRADED), 0, 0.0)
+    wall, text = shield.walls[1], shield.text()
+    assert (wall.layers, wall.core, wall.core_at) == (6, pytest.approx(3e-3), 0.0) and wall.dz == pytest.approx(wall.spacing) and (wall.rim.layers, wall.rim.spacing) == (3, pytest.approx(7.5e-4))
+    assert shield.rims == [2] and shield.rim_type(2) == 4 and shield.matter == "1:3 4" and shield.geometry.widest == pytest.approx(7.5e-4)
+    for line in ("create_box 4 box", "pair_coeff 3 4 tension yes", "create_atoms 4 region outer2", "region outer2 intersect 2 disc2 around2"):
+        assert line in " ".join(text.split()), line
+    assert " rim 4 layers 6 radius" in text
+    area, square = np.pi * wall.radius**2, 36e-6
+    assert wall.particles == pytest.approx((6 * square + 6 / 8 * (area - square)) / 3.75e-4**2)
+    plan = chain.plan_of(shield)
+    assert (plan["wall2_core_mm"], plan["wall2_rim_type"]) == (3.0, 4) and "wall1_core_mm" not in plan
+
+
+def test_a_core_as_wide_as_the_wall_is_all_of_it(tmp_path):
+    shield = chain.shield_of(read(tmp_path / "c.yaml", GRADED.replace("core_mm: 3", "core_mm: 300")), 0, 0.0)
+    assert shield.rims == [] and shield.walls[1].layers == 6 and "tension" not in shield.text()
+
+
+@pytest.mark.parametrize("old, new, message", [
+    ("core_mm: 3", "core_mm: 0", "wall 2: core_mm: must be more than 0 mm"), ("core_mm: 3", "core_mm: 3, hold_mm: 9", "wall 2: hold_mm: is of elements"),
+    ("core_mm: 3", "core_mm: 3, spacings_mm: [1.2]", "leave 1 in the outer part"), ("tstop: 8", "tstop: 8, layers: [2, 5]", "5 layers of particles leave 2.5 in the outer part")])
+def test_a_core_that_cannot_be(tmp_path, old, new, message):
+    (tmp_path / "c.yaml").write_text(GRADED.replace(old, new))
+    with pytest.raises(errors.HVIError, match=message):
+        cases.read(tmp_path / "c.yaml")
+
+
 def test_what_ends_a_run_does_not_leave_it_undecided():
     """what may still be on its way when the event is over is what the verdict spares: else a run ends between the two"""
-    assert (script.OVER["share"], script.OVER["coming"]) == (verdict.SHARE, verdict.SPARED) and 100 * script.OVER["push"] == verdict.STILL and script.OVER["bulge"] < script.BULGE
+    assert (script.OVER["share"], script.OVER["coming"]) == (verdict.SHARE, verdict.SPARED) and script.OVER["push"] < script.STILL and script.OVER["bulge"] < script.BULGE
 
 
 def test_few_are_those_of_the_whole_shield(tmp_path):
@@ -204,13 +246,13 @@ def record_of(shield, **of_last_wall):
 
 
 @pytest.mark.parametrize("changed, over", [
-    ({}, True), ({"coming_energy": 1e9}, False), ({"plastic_power": 1e12}, False), ({"push": 2e3}, False),
-    ({"bulge": 3e-5 * np.arange(20)}, True), ({"bulge": 6e-5 * np.arange(20)}, False), ({"apart_number": 2}, True), ({"apart_number": 2, "bulge": 6e-5 * np.arange(20)}, False),
-    ({"apart_number": 3, "bulge": 6e-5 * np.arange(20)}, True), ({"hole_found": 1, "bulge": 6e-5 * np.arange(20)}, False), ({"hole_found": 1, "apart_number": 1, "bulge": 6e-5 * np.arange(20)}, True),
-    ({"bulge": 6e-5 * np.arange(20), "momentum": 30.0}, True)],
-    ids=["rest", "comes", "flows", "pushed", "slow", "bulges", "few", "few and bulges", "fails", "plugged and bulges", "hole", "flies as a whole"])
+    ({}, True), ({"coming_energy": 1e9}, False), ({"plastic_power": 1e12}, False), ({"momentum": 0.1 * 1.1 ** np.arange(20)}, False), ({"momentum": 0.1 * 1.05 ** np.arange(20)}, True),
+    ({"bulge": 5e-5 * np.arange(20)}, True), ({"bulge": 7e-5 * np.arange(20)}, False), ({"apart_number": 2}, True), ({"apart_number": 2, "bulge": 7e-5 * np.arange(20)}, False),
+    ({"apart_number": 3, "bulge": 7e-5 * np.arange(20)}, True), ({"hole_found": 1, "bulge": 7e-5 * np.arange(20)}, False), ({"hole_found": 1, "apart_number": 1, "bulge": 7e-5 * np.arange(20)}, True),
+    ({"bulge": 7e-5 * np.arange(20), "momentum": 30.0}, True)],
+    ids=["rest", "comes", "flows", "pushed", "let go", "slow", "bulges", "few", "few and bulges", "fails", "plugged and bulges", "hole", "flies as a whole"])
 def test_when_an_event_is_over(tmp_path, changed, over):
-    """wall 2 of 2.25 mm: its bulge grows by 0.67 or 1.33 percent of that per us; it moves as a whole by 30 m/s"""
+    """the bulge of wall 2 grows by 25 or 35 m/s; it moves as a whole by 30 m/s; its momentum changes by 3.3 or 1.8 percent in 0.8 us, a tenth of the time that is enough"""
     shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
     assert shield.geometry.walls[1].thickness == pytest.approx(2.25e-3) and record.over(shield, record_of(shield, **changed)) is over
 
@@ -219,7 +261,16 @@ def test_growth_is_that_of_the_last_rows(tmp_path):
     """by hand: the last value less the mean of five, over two looks, less the way of all of the wall"""
     shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
     found = record_of(shield, bulge=[9.0] * 15 + [0.0, 0.0, 0.0, 1e-3, 2e-3], momentum=2.0, mass=4.0)
-    assert record.growth(found, 1) == pytest.approx((2e-3 - 3e-3 / 5) / 4 - 0.5e-6)
+    assert record.growth(found, 1) == pytest.approx((2e-3 - 3e-3 / 5) / 4e-6 - 0.5)
+
+
+def test_push_is_that_of_the_last_rows(tmp_path):
+    """by hand, in a tenth of the time that is enough; the same for a shield of twice the size that takes twice the time"""
+    shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
+    found = record_of(shield, momentum=[9.0] * 15 + [1.0, 1.0, 1.0, 1.0, 1.25])
+    assert record.push(found, 1, 40.0) == pytest.approx((1.25 - 5.25 / 5) / 1.25 / 4 * 4)
+    found.seldom_us = 2 * found.seldom_us
+    assert record.push(found, 1, 80.0) == pytest.approx((1.25 - 5.25 / 5) / 1.25 / 4 * 4)
 
 
 def test_names_of_rules_are_unique():

@@ -3,6 +3,7 @@ more than the run knows."""
 
 import dataclasses
 import re
+import types
 
 import hvi
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 import yaml
 from hvi.material import laws
 from hvi.model import plates
+from hvi.shield import run as folders
 from shield_runs import read, shield, wall  # noqa: F401
 
 pytestmark = pytest.mark.filterwarnings("ignore::hvi.errors.HVIWarning")  # of few layers
@@ -186,13 +188,13 @@ def test_still_pushed(shield):
     """8 mm hold 1.5 km/s in the end; not yet, while the projectile still comes in"""
     r = shield(wall(8, radius=8), v=1.5, tstop=7)
     undecided(r, "wall 1 is still pushed")
-    assert r["margins"]["push_percent_per_us"] > 1 and not r["perforated"]
+    assert r["margins"]["push_percent"] > 3 and not r["perforated"]
 
 
 def test_ends_by_itself(shield):
     """8 mm at 1.5 km/s: without a time the run goes on until nothing strikes, pushes or makes the wall flow any more, and holds"""
     r = shield(wall(8, radius=20), **SOFT, v=1.5)
-    assert (r["verdict"], r["ended_by"]) == ("holds", "event") and r["margins"]["push_percent_per_us"] < 1
+    assert (r["verdict"], r["ended_by"]) == ("holds", "event") and r["margins"]["push_percent"] < 3
 
 
 @pytest.mark.parametrize("text", ["MLI", "a 'blanket': 20 layers # of \"MLI\", - {1}: [2"])
@@ -358,3 +360,18 @@ def test_half_a_plate_is_not_mirrored(shield, tmp_path):
     r = shield(of, edit=edit, quarter="no", D=1.6, dx=0.4, v=0.2, tstop=30)
     assert r["wall1_perforated"] == "unknown" and np.isnan([r["hole1_diameter_mm"], r["hole1_plane_diameter_mm"], r["margins"]["hole_mm"]]).all()
     undecided(r, "no plate in one piece is left around the place that is struck")
+
+
+@pytest.mark.parametrize("quarter", ["yes", "no"])
+def test_a_wall_with_a_core(shield, tmp_path, quarter):
+    """fine particles in its middle, coarser ones around: what is planned is what is run, and pictures know the outer part as the same wall"""
+    r = shield(wall(0.8), wall(2.4, gap=8, core_mm=3.5), D=3, dx=0.4, v=5, tstop=8, material="Al6061-T6", quarter=quarter, nranks=2)
+    plan = yaml.safe_load((tmp_path / "run/plan.yaml").read_text())
+    assert (plan["wall2_core_mm"], plan["wall2_rim_type"], plan["wall2_layers"]) == (4.0, 4, 6)
+    assert r["particles"] == pytest.approx(plan["projectile_particles"] + plan["wall1_particles"] + plan["wall2_particles"], rel=0.03)
+    assert abs(r["energy_ratio"] - 1) < 1e-5 and r["momentum_error"] < 1e-9 and abs(r["mass_error"]) < 1e-10 and r["walls_reached"] == 2
+    frame = hvi.Dump(str(tmp_path / "run/shield.dump"))[0]
+    outer = frame["type"] == 4
+    assert outer.any() and np.abs(frame.x[outer, :2]).max(axis=1).min() > 3.9e-3
+    values = folders.Run.by_type(types.SimpleNamespace(rims=lambda: {4: 2}), [0, 1, 2], lambda k: k)
+    assert values.tolist() == [0, 0, 1, 2, 2]

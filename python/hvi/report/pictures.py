@@ -153,7 +153,7 @@ def face(run, scene, k, rear):
 def body_of(run, scene, k):
     """particles of the largest sound piece of wall k: what is left of it"""
     mine = np.flatnonzero(scene.body == k)
-    reach = 1.5e-3 * max(run.dx, *(run.of_wall(j, "spacing_mm") for j in range(1, run.walls + 1)))
+    reach = 1.5e-3 * max(run.dx, *(run.of_wall(j, "spacing_mm") * (2 if f"wall{j}_core_mm" in run.plan else 1) for j in range(1, run.walls + 1)))
     found = fragments.find(scene.whole.select(scene.body == k), distance=reach, failed=fragments.FAILED)
     largest = np.argmax(found.table["mass"])
     return mine[found.row == largest]

@@ -104,7 +104,7 @@ class Study:
         data = reader.mapping(reader.root, "", {
             "list": (reader.text, REQUIRED), "brackets": (reader.several(reader.text, distinct=True), None),
             "across": (reader.several(reader.number(above=0), distinct=True), REQUIRED),
-            "spacing": (lambda node, key: reader.mapping(node, key, {name: (whole, REQUIRED) for name in ("bumper_layers", "wall_layers", "ratio")}), REQUIRED),
+            "spacing": (lambda node, key: reader.mapping(node, key, {**{name: (whole, REQUIRED) for name in ("bumper_layers", "wall_layers", "ratio")}, "core": (whole, None)}), REQUIRED),
             "shifts": (reader.several(reader.number(least=0, below=1), distinct=True), (0.0,)),
             "step": (reader.number(above=0, below=0.5), 0.05), "range": (reader.number(above=1, below=10), 2.0),
             "settings": (lambda node, key: shots.cases.read_settings(reader, node, key), {}), "materials": (table, REQUIRED), "stand_ins": (table, {})})

@@ -35,7 +35,7 @@ WALL = {
     "radius_mm": Key(number(above=0), None, "default: what the cloud can strike"),
     "spacings_mm": Key(several(number(above=0)), None, "of its own, as many as the case has"),
     "method": Key(choice(*METHODS, hint=MODEL), None, "default: that of the case"),
-    "core_mm": Key(number(least=0), None, "of elements: free particles instead up to there; default: what the shot needs"),
+    "core_mm": Key(number(least=0), None, "of elements: free particles instead up to there, default what the shot needs; of particles: half the side of the square that has spacings_mm, beyond they are twice as far apart, default: nowhere"),
     "hold_mm": Key(number(above=0), None, "and elements that hold particles up to there"),
     "yield_ksi": Key(number(above=0), None, "for ballistic-limit equations only"),
 }
@@ -113,6 +113,8 @@ class Case:
             found["file"] = self.file(which)
         if any(wall.spacings_mm for wall in walls):
             found["spacings"] = [(wall.spacings_mm or self.spacings_mm)[which] for wall in walls]
+        if any(wall.core_mm for wall in walls):
+            found["core"] = [wall.core_mm or 0 for wall in walls]
         if any(wall.radius_mm for wall in walls):
             found["radius"] = [wall.radius_mm or 0 for wall in walls]
         if method := self.method():
@@ -212,14 +214,25 @@ class Case:
         elif len(body.files) > 1:
             wrong("projectile: file", "one STL file is enough for all spacings")
 
+    def check_core(self, k, wall, wrong):
+        """of a wall of particles: its outer part must have two layers"""
+        if wall.core_mm <= 0:
+            wrong(f"wall {k}: core_mm", f"must be more than 0 mm, not {wall.core_mm:g}: it is the half side of the square that has particles of spacings_mm")
+        for which in range(len(self.spacings_mm)):
+            layers = geometry.layers_of(self, k, which)
+            if layers < 4 or layers % 2:
+                wrong(f"wall {k}: core_mm", f"{layers} layers of particles leave {layers / 2:g} in the outer part of the wall, twice as coarse, which needs two at least, and whole ones: "
+                      "take smaller spacings_mm, or no core_mm")
+
     def check_elements(self, wrong):
         """that walls which shall have elements can have them"""
         method = self.method()
         for k, wall in enumerate(self.walls, 1):
             if wall.method == "sph":
-                for what in ("core_mm", "hold_mm"):
-                    if getattr(wall, what) is not None:
-                        wrong(f"wall {k}: {what}", "is of elements: method hybrid or tied")
+                if wall.hold_mm is not None:
+                    wrong(f"wall {k}: hold_mm", "is of elements: method hybrid or tied")
+                if geometry.is_graded(wall):
+                    self.check_core(k, wall, wrong)
                 continue
             if wall.method != method:
                 wrong(f"wall {k}: method", f"{wall.method}, but another wall is {method}: walls with elements have one method")

@@ -13,7 +13,11 @@ BACK = 20.0  # mm in front of wall 1 at least
 
 @dataclasses.dataclass(frozen=True)
 class WallGeometry:
-    """A wall, in m: faces along z, spacing of particles in the plane, layers through it dz apart, its radius, x of its middle and of where it is struck"""
+    """A wall, in m: faces along z, spacing of particles in the plane, layers through it dz apart, its radius, x of its middle and of where it is struck
+
+    core: half the side of the square in its middle that has such particles, beyond they are twice as far apart in all directions; 0: all of it has
+    core_at: x of the middle of that square
+    """
 
     front: float
     rear: float
@@ -24,11 +28,24 @@ class WallGeometry:
     radius: float
     middle: float
     struck: float
+    core: float = 0.0
+    core_at: float = 0.0
+
+    @property
+    def rim(self):
+        """this wall as its outer part is"""
+        return dataclasses.replace(self, spacing=2 * self.spacing, layers=self.layers // 2, dz=2 * self.dz)
+
+    @property
+    def particles(self):
+        """about, of the whole wall"""
+        fine, whole = (2 * self.core) ** 2 if self.core else math.pi * self.radius**2, math.pi * self.radius**2
+        return (fine * self.layers + (whole - fine) * self.layers / 8) / self.spacing**2
 
 
 @dataclasses.dataclass(frozen=True)
 class Geometry:
-    """Of a case at one spacing: a, R, spacing and radius of the projectile; box: xlo, xhi, ylo, yhi, zlo; near: pieces are closer; widest spacing (all m).
+    """Of a case at one spacing: a, R, spacing and radius of the projectile; box: xlo, xhi, ylo, yhi, zlo; widest spacing (all m).
 
     Times in us: tstop, the end at the latest; arrival of the projectile itself at the last wall, its passage of itself, crossing of that wall by sound
     """
@@ -42,7 +59,6 @@ class Geometry:
     crossing_us: float
     box: tuple
     quarter: bool
-    near: float
     widest: float
 
 
@@ -56,7 +72,20 @@ def layers_of(case, k, which):
     if "layers" in case.settings:
         return case.settings["layers"][k - 1]
     wall = case.walls[k - 1]
-    return layers(wall.thickness_mm, (wall.spacings_mm or case.spacings_mm)[which])
+    dx = (wall.spacings_mm or case.spacings_mm)[which]
+    return 2 * layers(wall.thickness_mm, 2 * dx) if is_graded(wall) else layers(wall.thickness_mm, dx)
+
+
+def is_graded(wall):
+    """has it fine particles in its middle alone?"""
+    return wall.method == "sph" and wall.core_mm is not None
+
+
+def core_of(wall, spacing, radius, middle):
+    """WallGeometry's core and core_at: whole cells of the outer part; 0 if that would be no wider than two"""
+    cell = 2 * spacing
+    half = cell * math.ceil(1e-3 * wall.core_mm / cell - 1e-6) if is_graded(wall) else 0.0
+    return (half, cell * round(middle / cell)) if 0.0 < half < radius - 2 * cell else (0.0, 0.0)
 
 
 def reaches(case):
@@ -96,13 +125,14 @@ def of(case, which):
         front, th, n = 1e-3 * front, 1e-3 * wall.thickness_mm, layers_of(case, k, which)
         radius = 1e-3 * (wall.radius_mm or reach)
         middle = (0.5 * front + R) * tangent
-        walls.append(WallGeometry(front, front + th, th, 1e-3 * (wall.spacings_mm or case.spacings_mm)[which], n, th / n, radius, middle, (front + 0.5 * th + R) * tangent))
+        spacing = 1e-3 * (wall.spacings_mm or case.spacings_mm)[which]
+        walls.append(WallGeometry(front, front + th, th, spacing, n, th / n, radius, middle, (front + 0.5 * th + R) * tangent, *core_of(wall, spacing, radius, middle)))
         opens = max(radius, 1e-3 * reach)
         W, xlo, xhi = max(W, opens), min(xlo, middle - opens), max(xhi, middle + opens)
     last = walls[-1]
     arrival, passage, crossing = 1e6 * (last.front + R) / (v0 * cosine), 2e6 * R / (v0 * cosine), 1e3 * last.thickness / SOUND
     tstop = case.setting("tstop") or float(f"{3 * arrival + 4 * passage + 10 * crossing:.4g}")
     back = case.setting("back") or round(max(500 * last.front, BACK), 1)
-    widest = max([a, *(max(w.spacing, w.dz) for w in walls)])
+    widest = max([a, *(max(w.spacing, w.dz) * (2 if w.core else 1) for w in walls)])
     box = (0.0 if quarter else xlo - MARGIN, xhi + MARGIN, 0.0 if quarter else -(W + MARGIN), W + MARGIN, -2 * R - 1e-3 * back)
-    return Geometry(a, R, tuple(walls), tstop, arrival, passage, crossing, box, quarter, 1.5 * widest, widest)
+    return Geometry(a, R, tuple(walls), tstop, arrival, passage, crossing, box, quarter, widest)

@@ -130,7 +130,7 @@ def measure(shield, folder):
             "energy_J": q * at["energy"], "energy_ratio": q * at["energy"] / E0, "spall_mass_mg": 1e6 * q * at["spall_mass"], "apart_mass_mg": 1e6 * q * at["apart_mass"],
             "apart_particles": int(at["apart_number"]), "layers": wall.layers, "bulge_over_thickness": at["bulge"] / wall.thickness,
             "deepest_failed_layer": math.ceil(at["failed_depth"] / wall.dz), "rear_plastic_strain": at["rear_strain"],
-            "push_percent_per_us": push(record, k, g.tstop_us) if k == reached - 1 else 0.0, "bulge_percent_per_us": 100 * growth(record, k) / wall.thickness if k == reached - 1 else 0.0,
+            "push_percent": 100 * push(record, k, g.tstop_us) if k == reached - 1 else 0.0, "bulge_m_s": growth(record, k) if k == reached - 1 else 0.0,
             "plastic_percent_per_us": 100 * q * 1e-6 * at["plastic_power"] / E0,
             "converted_fraction": float((p.held_mass[0, k] - at["held_mass"]) / p.mass[0, k]), "still_to_come": q * at["coming_energy"] / E0, "missed_fraction": missed, "missed_reach_mm": 1e3 * at["missed_reach"],
             "torn": bool(hold and at["far_free"] > hold - 4 * wall.spacing)}.items()})
@@ -179,24 +179,29 @@ def over(shield, record):
         return enough
     w, limit, rule = record.walls, shield.energy / shield.images, script.OVER
     return bool(record.time_us > g.arrival_us + g.passage_us + g.crossing_us and w.coming_energy[-1, k] < rule["share"] * w.energy[-1, k] + rule["coming"] * limit
-                and 1e-6 * abs(w.push[-1, k]) < rule["push"] * abs(w.momentum[-1, k]) + 1e-12 and abs(growth(record, k)) < script.BULGE * g.walls[k].thickness
+                and push(record, k, g.tstop_us) < script.STILL and abs(growth(record, k)) < script.BULGE
                 and 1e-6 * w.plastic_power[-1].sum() < rule["plastic"] * limit
                 and (enough or last.apart_number[-1, k] == 0 and last.hole_found[-1, k] <= 0))
 
 
+def lately(record, values):
+    """(change, us) of a column of one wall: the last row less the mean of a few, and the time between"""
+    us, values = record.seldom_us[-script.LATELY:], values[-script.LATELY:]
+    return values[-1] - values.mean(), max(us[-1] - us.mean(), NOTHING)
+
+
 def push(record, k, tstop_us):
-    """change of the momentum of wall k (from 0 on) over the last microsecond, or tenth of the time, in percent of it per us"""
-    window = min(1.0, 0.1 * tstop_us)
-    momentum, us = record.walls.momentum[:, k], record.us
-    before = float(np.interp(us[-1] - window, us, momentum))
-    return 100 * abs(momentum[-1] - before) / (abs(momentum[-1]) + NOTHING) / min(window, max(us[-1] - us[0], NOTHING))
+    """change of the momentum of wall k (from 0 on) lately, of it, in a tenth of the time that is enough"""
+    momentum = record.pieces.momentum[:, k]
+    change, us = lately(record, momentum)
+    return float(abs(change) / (abs(momentum[-1]) + NOTHING) * 0.1 * tstop_us / us)
 
 
 def growth(record, k):
-    """m per us, of the bulge of wall k lately, less the way of all of the wall: the last row less the mean of a few, by the time between"""
-    p, us = record.pieces, record.seldom_us[-script.LATELY:]
-    bulge = p.bulge[-script.LATELY:, k]
-    return float((bulge[-1] - bulge.mean()) / max(us[-1] - us.mean(), NOTHING) - 1e-6 * p.momentum[-1, k] / (p.mass[-1, k] + NOTHING))
+    """m/s, of the bulge of wall k lately, less the velocity of all of the wall"""
+    p = record.pieces
+    change, us = lately(record, p.bulge[:, k])
+    return float(1e6 * change / us - p.momentum[-1, k] / (p.mass[-1, k] + NOTHING))
 
 
 def hole(record, k, reached):

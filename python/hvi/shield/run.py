@@ -35,8 +35,7 @@ class Scene:
         self.time = 1e6 * frame.time
         self.x, self.v = 1e3 * whole.x, 1e-3 * whole.v
         kind = whole["type"].astype(int)
-        self.body = kind - 1
-        self.radius = run.radii()[kind - 1]
+        self.body, self.radius = run.bodies()[kind], run.radii()[kind]
         self.failed = (whole["damage"] >= 1.0) | (whole["spalled"] > 0.0)
 
 
@@ -60,13 +59,30 @@ class Run:
     def of_wall(self, k, what):
         return self.plan[f"wall{k}_{what}"]
 
+    def rims(self):
+        """{type of the particles in the outer part of a wall: wall}"""
+        return {int(self.plan[key]): k for k in range(1, self.walls + 1) if (key := f"wall{k}_rim_type") in self.plan}
+
+    def by_type(self, values, rim):
+        """values of the projectile and the walls as an array over types, 0 is none; rim(value): of the outer part of a wall"""
+        rims = self.rims()
+        found = np.zeros(1 + max([len(values), *rims]), dtype=np.asarray(values).dtype)
+        found[1:1 + len(values)] = values
+        for kind, k in rims.items():
+            found[kind] = rim(values[k])
+        return found
+
+    def bodies(self):
+        """of each type: 0 the projectile, k wall k"""
+        return self.by_type(list(range(self.walls + 1)), lambda k: k)
+
     def radii(self):
         """of spheres of the volume of a particle, mm, for each type"""
         sides = [self.dx]
         for k in range(1, self.walls + 1):
             high = self.of_wall(k, "thickness_mm") / self.of_wall(k, "layers")
             sides.append((self.of_wall(k, "spacing_mm") ** 2 * high) ** (1 / 3))
-        return (0.75 / np.pi) ** (1 / 3) * np.array(sides)
+        return (0.75 / np.pi) ** (1 / 3) * self.by_type(sides, lambda side: 2 * side)
 
     def faces(self, k):
         """front and rear of wall k before the shot, mm"""

@@ -19,14 +19,16 @@ BEGIN, CONTINUE, CASE = "in.shield", "in.continue", "case.yaml"
 OFTEN, MOST = 20, 200  # steps between rows of walls.dat; most between rows of pieces.dat and history.dat, and between looks whether the event is over
 LOOKS = 25  # rows of those in the time that is enough, about
 FEW = 10  # particles of the whole shield, mirror images counted: fewer that are apart behind a wall without a hole say nothing of it
-LATELY = 5  # of these rows: what a bulge has grown lately is its difference to their mean
-BULGE = 0.01  # of the thickness per us: a bulge that grows by less has ended
+LATELY = 5  # of these rows: what has changed lately is the difference of the last one to their mean
+BULGE = 30.0  # m/s: a bulge that grows by less has ended. A plate that rings at its yield stress Y moves at up to sqrt(3) Y/(rho c), 40 m/s for 6061-T6; 30 m/s do work for a strain of 0.4 %
+STILL = 0.03  # of its momentum in a tenth of the time that is enough: a wall that changes by less is not pushed any more
 LONGER = 3  # times the time that is enough for what fails: the end at the latest, for what neither fails nor comes to rest
-# when an event is over: still to come, of what the last wall has been given, and of the impact, as the verdict has it; change of its momentum per us; growth of its bulge, a tenth
+# when an event is over: still to come, of what the last wall has been given, and of the impact, as the verdict has it; changes of its momentum and its bulge, a tenth
 # less than the verdict spares, which knows times and not the last time step alone; plastic work of all walls per us, of the impact
-OVER = {"share": 0.03, "coming": 1e-4, "push": 0.01, "bulge": 0.9 * BULGE, "plastic": 1e-3}
+OVER = {"share": 0.03, "coming": 1e-4, "push": 0.9 * STILL, "bulge": 0.9 * BULGE, "plastic": 1e-3}
 COLUMNS = "id type mass x y z vx vy vz v_dumped c_state[*]"
 STATE = ("p", "damage", "spalled", "vm", "e", "eps", "fragsize")
+HANGS = 1.5  # spacings: what is closer hangs together
 ETA = 1.2  # of pair_coeff ... spacing: smoothing length in spacings
 FRICTION = 3 * 5300.0  # m/s: a wave loses exp(-3) of its amplitude on the way through an absorbing rim and back
 
@@ -95,6 +97,7 @@ class Shield:
         self.n = len(self.walls)
         self.images = 4 if self.geometry.quarter else 1
         self.elements = [k for k, wall in enumerate(case.walls, 1) if wall.method != "sph"]
+        self.rims = [k for k, wall in enumerate(self.walls, 1) if wall.core]  # walls with an outer part of coarser particles
         self.seldom = OFTEN * max(1, min(MOST // OFTEN, round(self.steps() / LOOKS / OFTEN)))
 
     @functools.cached_property
@@ -111,6 +114,11 @@ class Shield:
         """kg, of the projectile"""
         return 1e-9 * self.rho[0] * self.case.projectile.volume_mm3
 
+    @property
+    def matter(self):
+        """types that are no nodes"""
+        return " ".join([f"1:{1 + self.n}", *(str(self.rim_type(k)) for k in self.rims)])
+
     def in_projectile(self):
         """particles of the whole projectile, about"""
         return self.case.projectile.volume_mm3 / (1e3 * self.geometry.a) ** 3
@@ -123,8 +131,11 @@ class Shield:
     def particles(self):
         """about, of the model; walls of elements are left out, which hold few or none"""
         g = self.geometry
-        free = [wall for k, wall in enumerate(g.walls, 1) if k not in self.elements]
-        return (self.in_projectile() + sum(math.pi * (wall.radius / wall.spacing) ** 2 * wall.layers for wall in free)) / self.images
+        return (self.in_projectile() + sum(wall.particles for k, wall in enumerate(g.walls, 1) if k not in self.elements)) / self.images
+
+    def rim_type(self, k):
+        """of the particles in the outer part of wall k; None: it has none"""
+        return 2 + self.n + (self.n if self.elements else 0) + self.rims.index(k) if k in self.rims else None
 
     def hold(self, k):
         """m from its middle: debris meets elements of wall k up to there, since those beyond hold no particles; None where there are none of these"""
@@ -162,8 +173,8 @@ class Shield:
         box = g.box
         low = [0.0, 0.0] if g.quarter else [box[0], box[2]]
         text("region", f"box block {number(low[0])} {number(box[1])} {number(low[1])} {number(box[3])} {number(box[4])} {number(g.walls[-1].rear + g.a)} units box")
-        kinds = 1 + n + (n if self.elements else 0)
-        text("create_box", f"{kinds} box", "types: projectile, walls" + (", nodes of walls" if self.elements else ""))
+        kinds = 1 + n + (n if self.elements else 0) + len(self.rims)
+        text("create_box", f"{kinds} box", "types: projectile, walls" + (", nodes of walls" if self.elements else "") + (", outer parts of walls" if self.rims else ""))
         body = self.case.projectile.files
         if not body:
             self.projectile(text)
@@ -177,16 +188,19 @@ class Shield:
         text.say("what moves how")
         text("group", "ball type 1")
         if self.elements:
-            text("group", f"matter type 1:{1 + n}", "without nodes")
+            text("group", f"matter type {self.matter}", "without nodes")
             text("fix", "masses all property/atom rmass ghost yes", "nodes have masses of their own")
         mirrors = " mirror x 0 lo mirror y 0 lo" if g.quarter else ""
         text("pair_style", f"hvi/sph {s['kernel']} {s['pair']}{mirrors}")
         rows = [(1, f"{pathlib.Path(self.case.material).name} {self.lengths(g.a, g.a)}")]
         rows += [(1 + k, f"{pathlib.Path(of.material).name} {self.lengths(wall.spacing, wall.dz)}") for k, (wall, of) in enumerate(zip(g.walls, self.case.walls), 1)]
+        rows += [(self.rim_type(k), f"{pathlib.Path(self.case.walls[k - 1].material).name} {self.lengths(g.walls[k - 1].rim.spacing, g.walls[k - 1].rim.dz)}") for k in self.rims]
         for (kinds, what), comment in itertools.zip_longest(alike(rows), ["smoothing length, masses, densities follow from spacings"]):
             text("pair_coeff", f"{types(kinds)} {types(kinds)} file {what}", comment or "")
         if self.elements:
             text("pair_coeff", f"{n + 2}*{2 * n + 1} {n + 2}*{2 * n + 1} nodes")
+        for k in self.rims:
+            text("pair_coeff", f"{1 + k} {self.rim_type(k)} tension yes", "the two parts of a wall are one body")
         self.masses(text)
         v, angle = 1e3 * self.case.speed_km_s, math.radians(self.case.angle_deg)
         text("velocity", f"ball set {number(round(v * math.sin(angle), 6))} 0 {number(round(v * math.cos(angle), 6))} units box")
@@ -211,11 +225,27 @@ class Shield:
         text("create_atoms", "1 region ball")
 
     def wall(self, text, k, wall):
-        """layers of squares between its faces"""
-        origin = wall.front / wall.dz
-        text.lattice(f"custom {number(wall.spacing)} a1 1 0 0 a2 0 1 0 a3 0 0 {number(wall.dz / wall.spacing)} basis 0.5 0.5 0.5 origin 0 0 {fraction(origin)}", "layers between faces")
-        text("region", f"wall{k} cylinder z {number(wall.middle)} 0 {number(wall.radius)} {number(wall.front)} {number(wall.rear)} units box")
+        """layers of squares between its faces; if it has a core, these in a square of its middle, and cells of twice the size around it, face to face"""
+        disc = f"cylinder z {number(wall.middle)} 0 {number(wall.radius)} {number(wall.front)} {number(wall.rear)} units box"
+        if not wall.core:
+            self.cells(text, wall)
+            text("region", f"wall{k} {disc}")
+            text("create_atoms", f"{1 + k} region wall{k}")
+            return
+        square = (f"block {number(wall.core_at - wall.core)} {number(wall.core_at + wall.core)} {number(-wall.core)} {number(wall.core)} "
+                  f"{number(wall.front)} {number(wall.rear)} units box")
+        self.cells(text, wall)
+        text("region", f"wall{k} {square}")
         text("create_atoms", f"{1 + k} region wall{k}")
+        self.cells(text, wall.rim)
+        text("region", f"disc{k} {disc}")
+        text("region", f"around{k} {square} side out")
+        text("region", f"outer{k} intersect 2 disc{k} around{k}")
+        text("create_atoms", f"{self.rim_type(k)} region outer{k}")
+
+    def cells(self, text, wall):
+        """the lattice of a wall"""
+        text.lattice(f"custom {number(wall.spacing)} a1 1 0 0 a2 0 1 0 a3 0 0 {number(wall.dz / wall.spacing)} basis 0.5 0.5 0.5 origin 0 0 {fraction(wall.front / wall.dz)}", "layers between faces")
 
     def masses(self, text):
         """the particles of the projectile share its mass; those of walls have that of their cells from pair_coeff, unless each has its own beside elements"""
@@ -225,10 +255,11 @@ class Shield:
             return
         text("set", f"type 1 mass {share}", "the mass of the projectile over its particles")
         rows = [(1 + k, number(self.rho[k] * wall.spacing**2 * wall.dz)) for k, wall in enumerate(self.walls, 1) if k not in self.elements]
+        rows += [(self.rim_type(k), number(self.rho[k] * self.walls[k - 1].rim.spacing**2 * self.walls[k - 1].rim.dz)) for k in self.rims]
         for kinds, mass in alike(rows):
             text("set", f"type {types(kinds)} mass {mass}")
         text("mass", f"* {number(self.mass())}", "of no use: each particle has its own")
-        for kinds, rho in alike([(1 + k, rho) for k, rho in enumerate(self.rho)]):
+        for kinds, rho in alike([(1 + k, rho) for k, rho in enumerate(self.rho)] + [(self.rim_type(k), self.rho[k]) for k in self.rims]):
             text("set", f"type {types(kinds)} sph/rho {number(rho)}")
 
     def model(self, text, new):
@@ -245,7 +276,7 @@ class Shield:
                 rows = [(1 + k, number(self.rho[k])) for k in self.elements]
                 for kinds, rho in alike(rows):
                     text("set", f"type {types(kinds)} sph/rho {rho}")
-                text("group", f"matter type 1:{1 + self.n}")
+                text("group", f"matter type {self.matter}")
         text("fix", f"step all hvi/dt {s['C']}", "time step; f_step[2] is the time")
         if s["skin"]:
             skin = float(s["skin"]) * g.widest
@@ -267,7 +298,7 @@ class Shield:
         for k, wall in enumerate(self.walls, 1):
             text("region", f"rim{k} cylinder z {number(wall.middle)} 0 {number(wall.radius - rim)} {number(wall.front - wall.thickness)} {number(wall.rear + wall.thickness)} side out units box")
             text("group", f"beyond region rim{k}")
-            text("group", f"wall type {1 + k}" + (f" {1 + self.n + k}" if k in self.elements else ""))
+            text("group", f"wall type {1 + k}" + (f" {1 + self.n + k}" if k in self.elements else "") + (f" {self.rim_type(k)}" if k in self.rims else ""))
             text("group", f"rim{k} intersect beyond wall")
             text("group", "beyond delete")
             text("group", "wall delete")
@@ -278,12 +309,12 @@ class Shield:
         g = self.geometry
         rows = []
         for k, wall in enumerate(g.walls, 1):
-            nodes = f" nodes {1 + self.n + k}" if k in self.elements else ""
+            nodes = f" nodes {1 + self.n + k}" if k in self.elements else f" rim {self.rim_type(k)}" if k in self.rims else ""
             rows.append(f"wall {1 + k} {number(wall.front)} {number(wall.thickness)}{nodes} layers {wall.layers} radius {number(self.hold(k) or wall.radius)}"
                         + (f" center {number(wall.middle)} 0 struck {number(wall.struck)} 0" if self.case.angle_deg else ""))
         text.say("what happens to the walls: a row of walls.dat and pieces.dat for each")
         text("compute", " &\n                ".join(["walls all hvi/wall axis z", *rows]))
-        text("compute", f"pieces all hvi/wall like walls pieces {number(g.near)}", "what hangs together")
+        text("compute", f"pieces all hvi/wall like walls pieces {number(HANGS / float(self.settings['eta']))} h", "what hangs together: smoothing lengths")
         text("compute", f"state all hvi/atom {' '.join(STATE)}")
         text("variable", "us equal 1e6*f_step[2]")
         text("fix", f"walls all ave/time {OFTEN} 1 {OFTEN} c_walls[*] mode vector append walls.dat format \" %.10g\"")
@@ -318,10 +349,11 @@ class Shield:
         limit, tstop, last = self.energy / self.images, number(g.tstop_us), f"f_pieces[{n}]"
         power = "+".join(f"c_walls[{k}][6]" for k in range(1, n + 1))
         span = f"{(LATELY - 1) * self.seldom // 2}*dt"  # s, to the middle of the rows of lately
-        text("fix", f"lately all ave/time {self.seldom} 1 {self.seldom} f_pieces[33] mode vector ave window {LATELY}", "bulge")
+        text("fix", f"lately all ave/time {self.seldom} 1 {self.seldom} f_pieces[33] f_pieces[4] mode vector ave window {LATELY}", "bulge, momentum")
         text("variable", f'quiet equal "v_us > {number(g.arrival_us + g.passage_us + g.crossing_us)} && c_walls[{n}][2] < {number(OVER["share"])}*c_walls[{n}][5]+{number(OVER["coming"] * limit)} && '
-             f'1e-6*abs(c_walls[{n}][3]) < {number(OVER["push"])}*abs(c_walls[{n}][4])+1e-12 && 1e-6*({power}) < {number(OVER["plastic"] * limit)} && elapsed >= {(LATELY - 1) * self.seldom} && '
-             f'abs({last}[33]-f_lately[{n}]-{span}*{last}[4]/{last}[16]) < {number(1e6 * OVER["bulge"] * g.walls[-1].thickness)}*{span}"',
+             f'1e-6*({power}) < {number(OVER["plastic"] * limit)} && elapsed >= {(LATELY - 1) * self.seldom} && '
+             f'abs({last}[4]-f_lately[{n}][2]) < {number(OVER["push"] / (1e-7 * g.tstop_us))}*{span}*abs({last}[4])+1e-12 && '
+             f'abs({last}[33]-f_lately[{n}][1]-{span}*{last}[4]/{last}[16]) < {number(OVER["bulge"])}*{span}"',
              "nothing comes, pushes, flows or bulges: Howto_front, When it ends")
         text("variable", f'over equal "v_us >= v_until || v_us >= {tstop} && ({last}[32] >= {self.few} || {last}[32] > 0 && {last}[36] > 0) || v_quiet && (v_us >= {tstop} || {last}[32] == 0 && {last}[36] == 0)"',
              "columns 32, 36: particles apart, hole")

@@ -111,7 +111,7 @@ class Study:
         data = reader.mapping(reader.root, "", {
             "list": (reader.text, REQUIRED), "shots": (names, None),
             "spacing": (lambda node, key: reader.mapping(node, key, {
-                name: (whole, REQUIRED) for name in ("across", "bumper_layers", "wall_layers", "ratio")}), REQUIRED),
+                **{name: (whole, REQUIRED) for name in ("across", "bumper_layers", "wall_layers", "ratio")}, "core": (whole, None)}), REQUIRED),
             "finer": (lambda node, key: reader.mapping(node, key, {
                 "factor": (reader.number(above=0, below=1), REQUIRED), "shots": (names, REQUIRED)}), None),
             "shifts": (reader.several(reader.number(least=0, below=1), distinct=True), (0.0,)),
@@ -153,16 +153,17 @@ def spacings(rule, diameter, bumper, wall):
 
 
 def case_of(shot, rule, materials, shifts, settings, where, factors=(1.0,)):
-    """A shot as a case of hvi shield: the projectile and wall 1 at one spacing, the rear wall no coarser than ratio times that.
+    """A shot as a case of hvi shield: the projectile and wall 1 at one spacing, the rear wall no coarser than ratio times that, in a square alone if there is a core
 
-    rule: across, bumper_layers, wall_layers, ratio; materials: {alloy: material}; where: what messages begin with; factors: of the spacings
+    rule: across, bumper_layers, wall_layers, ratio, core (half side of the square over the gap, or None); materials: {alloy: material}; where: what messages begin with; factors: of the spacings
     """
     near, far = spacings(rule, shot.diameter_mm, shot.bumper_mm, shot.wall_mm)
     first, last = (tuple(round(dx * factor, 4) for factor in factors) for dx in (near, far))
     ball, bumper, wall = (materials[alloy] for alloy in shot.alloys())
     case = cases.Case(name=shot.folder, projectile=Projectile(ball, diameter_mm=shot.diameter_mm), speed_km_s=shot.speed_km_s, angle_deg=shot.angle_deg,
                       walls=(cases.Wall(shot.bumper_mm, bumper, spacings_mm=first, method="sph"),
-                             cases.Wall(shot.wall_mm, wall, gap_mm=shot.gap_mm, spacings_mm=last, method="sph", yield_ksi=shot.yield_ksi)),
+                             cases.Wall(shot.wall_mm, wall, gap_mm=shot.gap_mm, spacings_mm=last, method="sph", yield_ksi=shot.yield_ksi,
+                                        core_mm=round(rule["core"] * shot.gap_mm, 3) if rule.get("core") else None)),
                       spacings_mm=first, shifts=shifts, settings=settings)
 
     def wrong(key, text):
