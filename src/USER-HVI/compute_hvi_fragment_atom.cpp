@@ -19,6 +19,7 @@
 #include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_store.h"
 #include "force.h"
+#include "group.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -116,6 +117,18 @@ void ComputeHVIFragmentAtom::init()
     if (!store) error->all(FLERR, "Compute {} distance R h needs pair style hvi/sph", style);
     h = store->fields.settings.h;
     cutoff = factor * *std::max_element(h.begin(), h.end());
+    const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
+    int mine = 0, none;
+    for (int i = 0; i < atom->nlocal; i++)
+      if ((atom->mask[i] & groupbit) && !(h[atom->type[i]] > 0.0) &&
+          !(mesh && mesh->is_node(atom->type[i])))
+        mine = atom->type[i];
+    MPI_Allreduce(&mine, &none, 1, MPI_INT, MPI_MAX, world);
+    if (none)
+      error->all(FLERR,
+                 "Compute {} distance R h: group {} has particles of type {}, which pair style "
+                 "hvi/sph has no smoothing length for: use distance R",
+                 style, group->names[igroup], none);
   }
 
   // what the neighbor list would leave out

@@ -36,6 +36,7 @@ static constexpr int NBINS = 4096;                     // bins for coordinates a
 static constexpr double TAIL = 0.01;                   // share of the particles in each tail
 static constexpr double MARGIN = 0.1;                  // what is added there, in plate widths
 static constexpr double FINEST = 0.75;                 // map, in spacings of the particles
+static constexpr int MOST_PARTS = 4;                   // along the edge of a large particle
 static constexpr double ONE_SIDED = 0.01;              // a plate with less on one side is mirrored
 
 /* ---------------------------------------------------------------------- */
@@ -129,9 +130,10 @@ void ComputeHVIHole::compute_vector()
 
   // a map with a spacing from the layer's volume tells the spacing of the plate's particles
 
-  const double area = (hi[0] - lo[0]) * (hi[1] - lo[1]) * vector[SHARE] / count;
-  make_map(std::max(std::cbrt(2.0 * std::min(half, farthest) * area), std::sqrt(area)));
-  const double spacing = find_spacing();
+  const double area = (hi[0] - lo[0]) * (hi[1] - lo[1]) * vector[SHARE] / cells;
+  grain = std::max(std::cbrt(2.0 * std::min(half, farthest) * area), std::sqrt(area));
+  make_map(grain);
+  const double spacing = grain = find_spacing();
   if (dr > 0.0 && dr < FINEST * spacing) {
     if (comm->me == 0 && !warned_dr)
       error->warning(FLERR, "Compute hvi/hole dr {} is too small for particles {} apart, using {}",
@@ -172,24 +174,28 @@ void ComputeHVIHole::compute_vector()
 void ComputeHVIHole::find_layer()
 {
   layer.clear();
-  double mine[6] = {0.0, 0.0}, most[6];    // the last 4: minus the lowest, and the highest
-  std::fill(mine + 2, mine + 6, -HUGE_VAL);
+  double mine[7] = {0.0, 0.0},
+         most[7];    // from the third on: minus the lowest, and the highest; minus the least mass
+  std::fill(mine + 2, mine + 7, -HUGE_VAL);
   each([&](int, double m, const double *x) {
-    const Particle p = {m, x[axis] - plane, {x[across[0]] - center[0], x[across[1]] - center[1]}};
+    const Particle p = {
+        m, x[axis] - plane, {x[across[0]] - center[0], x[across[1]] - center[1]}, 1};
     mine[0] = std::max(mine[0], std::fabs(p.s));
     mine[1] = std::max(mine[1], p.mass);
+    if (m > 0.0) mine[6] = std::max(mine[6], -m);
     for (int k = 0; k < 2; k++) {
       mine[2 + k] = std::max(mine[2 + k], -p.y[k]);
       mine[4 + k] = std::max(mine[4 + k], p.y[k]);
     }
     layer.push_back(p);
   });
-  MPI_Allreduce(mine, most, 6, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(mine, most, 7, MPI_DOUBLE, MPI_MAX, world);
   const int64_t here = layer.size();
   int64_t everywhere;
   MPI_Allreduce(&here, &everywhere, 1, MPI_INT64_T, MPI_SUM, world);
   farthest = most[0];
   if (most[1] == 0.0) return;
+  least_mass = -most[6];
   unit = std::ldexp(1.0, 57 - std::ilogb(most[1]) - std::ilogb((double) atom->natoms + 1.0));
 
   const double least = std::sqrt((most[2] + most[4]) * (most[3] + most[5]) / everywhere);
@@ -245,18 +251,21 @@ bool ComputeHVIHole::find_extent()
   farthest = ends[4];
   if (!(-ends[0] < ends[2] && -ends[1] < ends[3])) return false;
 
-  std::vector<int64_t> number(2 * NBINS + 2, 0);
-  for (const Particle &p : layer) {
+  std::vector<int64_t> number(2 * NBINS + 3, 0);
+  for (Particle &p : layer) {
     for (int k = 0; k < 2; k++) {
       const int b = (int) (NBINS * (p.y[k] + ends[k]) / (ends[2 + k] + ends[k]));
       number[k * NBINS + std::min(b, NBINS - 1)]++;
     }
     number[2 * NBINS]++;
     number[2 * NBINS + 1] += std::llround(unit * p.mass);
+    p.parts = std::max(1, std::min((int) (std::cbrt(p.mass / least_mass) + 0.01), MOST_PARTS));
+    number[2 * NBINS + 2] += (int64_t) p.parts * p.parts * p.parts;
   }
   MPI_Allreduce(MPI_IN_PLACE, number.data(), number.size(), MPI_INT64_T, MPI_SUM, world);
   count = number[2 * NBINS];
-  mean_mass = number[2 * NBINS + 1] / unit / count;
+  cells = number[2 * NBINS + 2];
+  mean_mass = number[2 * NBINS + 1] / unit / cells;
 
   vector[SHARE] = 1.0;
   for (int k = 0; k < 2; k++) {
@@ -283,7 +292,8 @@ bool ComputeHVIHole::find_extent()
 
 /* ----------------------------------------------------------------------
    Each particle is spread by a cubic B-spline, which leaves no ripples of a lattice
-   with about this spacing.
+   with about this spacing; a larger one in parts that are as fine as the finest particles, so
+   that these decide how narrow a hole is seen.
 ------------------------------------------------------------------------- */
 
 void ComputeHVIHole::make_map(double spacing)
@@ -299,21 +309,25 @@ void ComputeHVIHole::make_map(double spacing)
   for (const Particle &p : layer)
     for (int sx = mirrored[0] ? -1 : 1; sx <= 1; sx += 2)
       for (int sy = mirrored[1] ? -1 : 1; sy <= 1; sy += 2) {
-        const double u[2] = {map.node(0, sx * p.y[0]), map.node(1, sy * p.y[1])};
-        if (u[0] < 1.0 || u[0] >= map.n[0] - 2 || u[1] < 1.0 || u[1] >= map.n[1] - 2) continue;
-        const int i[2] = {(int) u[0], (int) u[1]};
-        double w[2][4];
-        for (int k = 0; k < 2; k++) {
-          const double f = u[k] - i[k], g = 1.0 - f;
-          w[k][0] = g * g * g / 6.0;
-          w[k][1] = 2.0 / 3.0 - f * f * (1.0 - 0.5 * f);
-          w[k][2] = 2.0 / 3.0 - g * g * (1.0 - 0.5 * g);
-          w[k][3] = f * f * f / 6.0;
-        }
-        for (int a = 0; a < 4; a++) {
-          int64_t *const row = &mass[map.index(i[0] + a - 1, i[1] - 1)];
-          const double part = unit * p.mass * w[0][a];
-          for (int b = 0; b < 4; b++) row[b] += (int64_t) (part * w[1][b] + 0.5);
+        const double share = unit * p.mass / (p.parts * p.parts), edge = 0.5 * (p.parts - 1);
+        for (int c = 0; c < p.parts * p.parts; c++) {
+          const double u[2] = {map.node(0, sx * p.y[0] + grain * (c / p.parts - edge)),
+                               map.node(1, sy * p.y[1] + grain * (c % p.parts - edge))};
+          if (u[0] < 1.0 || u[0] >= map.n[0] - 2 || u[1] < 1.0 || u[1] >= map.n[1] - 2) continue;
+          const int i[2] = {(int) u[0], (int) u[1]};
+          double w[2][4];
+          for (int k = 0; k < 2; k++) {
+            const double f = u[k] - i[k], g = 1.0 - f;
+            w[k][0] = g * g * g / 6.0;
+            w[k][1] = 2.0 / 3.0 - f * f * (1.0 - 0.5 * f);
+            w[k][2] = 2.0 / 3.0 - g * g * (1.0 - 0.5 * g);
+            w[k][3] = f * f * f / 6.0;
+          }
+          for (int a = 0; a < 4; a++) {
+            int64_t *const row = &mass[map.index(i[0] + a - 1, i[1] - 1)];
+            const double part = share * w[0][a];
+            for (int b = 0; b < 4; b++) row[b] += (int64_t) (part * w[1][b] + 0.5);
+          }
         }
       }
   MPI_Allreduce(MPI_IN_PLACE, mass.data(), mass.size(), MPI_INT64_T, MPI_SUM, world);

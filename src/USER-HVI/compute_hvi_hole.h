@@ -49,6 +49,7 @@ class ComputeHVIHole : public ComputeHVIMatter {
  private:
   struct Particle {
     double mass, s, y[2];    // s from the plane, y from the center
+    int parts;    // along each edge, as large as the finest particle: 1, or 2 of one twice as large
   };
 
   // settings; 0 means: find it out
@@ -61,8 +62,10 @@ class ComputeHVIHole : public ComputeHVIMatter {
 
   std::vector<Particle> layer;    // of this rank
   double half, farthest;          // thickness of the layer / 2, largest |s|
-  int64_t count;                  // of its particles
-  double mean_mass, unit;         // masses are added up as integers: mass * unit
+  int64_t count, cells;           // of its particles, and of their parts
+  double least_mass;              // of a particle
+  double mean_mass, unit;         // of a part; masses are added up as integers: mass * unit
+  double grain;                   // how far parts are from each other
   bool mirrored[2];
   double lo[2], hi[2];    // where the plate is
   std::vector<int64_t> mass;

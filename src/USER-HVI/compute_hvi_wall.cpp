@@ -207,7 +207,7 @@ void ComputeHVIWall::read_wall(int &iarg, int narg, char **arg)
     utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, w.lo, w.hi, error);
     w.front = number(2);
     w.rear = w.front + positive(3);
-    w.node_lo = w.node_hi = w.rim_lo = w.rim_hi = 0;
+    w.node_lo = w.node_hi = w.outer_lo = w.outer_hi = 0;
     w.layers = 1.0;
     w.radius = BIG;
     w.center[0] = w.center[1] = 0.0;
@@ -216,7 +216,7 @@ void ComputeHVIWall::read_wall(int &iarg, int narg, char **arg)
     iarg += 4;
     return;
   }
-  if (key != "rim" && key != "nodes" && key != "layers" && key != "radius" && key != "center" &&
+  if (key != "outer" && key != "nodes" && key != "layers" && key != "radius" && key != "center" &&
       key != "struck")
     error->all(FLERR, "Unknown compute hvi/wall keyword: {}", key);
   if (walls.empty())
@@ -224,8 +224,8 @@ void ComputeHVIWall::read_wall(int &iarg, int narg, char **arg)
   Wall &w = walls.back();
   const bool two = key == "center" || key == "struck";
   need(two ? 2 : 1);
-  if (key == "rim")
-    utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, w.rim_lo, w.rim_hi, error);
+  if (key == "outer")
+    utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, w.outer_lo, w.outer_hi, error);
   else if (key == "nodes")
     utils::bounds(FLERR, arg[iarg + 1], 1, atom->ntypes, w.node_lo, w.node_hi, error);
   else if (key == "layers")
@@ -419,21 +419,30 @@ void ComputeHVIWall::sum_up()
       if (state.rate > 0.0 && atom->rho[i] > 0.0)
         s[PLASTIC_POWER] += m / atom->rho[i] * HVI::von_mises(state.S) * state.rate;
       const double depth = x0[axis] - w.front;
-      if (strength->failed(i)) top[FAILED_DEPTH] = MAX(top[FAILED_DEPTH], depth);
-      if (depth > (w.rear - w.front) * (1.0 - 1.0 / w.layers))
+      // layers of the outer part are twice as thick: their middle is between two of the others
+
+      const bool is_outer = w.is_outer(itype);
+      const double layer = (w.rear - w.front) / w.layers;
+      if (strength->failed(i))
+        top[FAILED_DEPTH] = MAX(top[FAILED_DEPTH], depth + (is_outer ? 0.5 * layer : 0.0));
+      if (depth > w.rear - w.front - (is_outer ? 1.5 : 1.0) * layer) {
         top[REAR_STRAIN] = MAX(top[REAR_STRAIN], state.eps);
+        if (is_outer) top[OUTER_STRAIN] = MAX(top[OUTER_STRAIN], state.eps);
+      }
     }
   }
 
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), sum.size(), MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, most.data(), most.size(), MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(MPI_IN_PLACE, moved.data(), nwalls, MPI_INT, MPI_MAX, world);
-  for (int k = 0; k < nwalls; k++)
+  for (int k = 0; k < nwalls; k++) {
+    array[k][OUTER_STRAIN] = most[k * NCOLUMNS + OUTER_STRAIN];
     for (int c = 0; c < CLOUD_MASS; c++)
       array[k][c] =
           (c == TIP || c == FAILED_DEPTH || c == REAR_STRAIN || c == MISSED_REACH || c == FAR_FREE)
           ? most[k * NCOLUMNS + c]
           : sum[k * NCOLUMNS + c];
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -459,7 +468,8 @@ void ComputeHVIWall::find_pieces()
   fragment->find_chosen(together);
   for (size_t k = 0; k < walls.size(); k++)
     if (walls[k].untouched)
-      std::copy(walls[k].start.begin(), walls[k].start.end(), array[k] + CLOUD_MASS);
+      std::copy(walls[k].start.begin(), walls[k].start.end(),
+                array[k] + CLOUD_MASS);    // and all after it
     else {
       measure(walls[k], array[k]);
       if (!moved[k] && array[k][PASSED_MASS] == 0.0)

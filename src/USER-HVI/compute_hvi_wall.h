@@ -45,7 +45,7 @@ class ComputeHVIWall : public ComputeHVIMatter {
     CLOUD_MASS, CLOUD_MOMENTUM, CLOUD_ENERGY, FRONT_VELOCITY, CLOUD_LENGTH, CLOUD_DIAMETER, CLOUD_RATIO,
     FRAGMENTS, LARGEST_MASS, LARGEST_VELOCITY, PIECES_APART, LARGEST_APART_MASS,
     APART_MASS, SPALL_MASS, APART_NUMBER, BULGE, BODY_MASS,
-    HOLE_FOUND, HOLE_DIAMETER, HOLE_MIN, HOLE_MAX, PLANE_FOUND, PLANE_DIAMETER, PLANE_X, PLANE_Y, NCOLUMNS
+    HOLE_FOUND, HOLE_DIAMETER, HOLE_MIN, HOLE_MAX, PLANE_FOUND, PLANE_DIAMETER, PLANE_X, PLANE_Y, OUTER_STRAIN, NCOLUMNS
   };
   // clang-format on
 
@@ -58,9 +58,10 @@ class ComputeHVIWall : public ComputeHVIMatter {
   double memory_usage() override;
 
  private:
-  struct Place {                   // what the command says of a wall
-    int lo, hi, rim_lo, rim_hi;    // types of its particles; of those of its outer part, 0: none
-    int node_lo, node_hi;          // of nodes of its elements; 0: none
+  struct Place {    // what the command says of a wall
+    int lo, hi, outer_lo,
+        outer_hi;            // types of its particles; of those of its outer part, 0: none
+    int node_lo, node_hi;    // of nodes of its elements; 0: none
     double front, rear, layers, radius, center[2], struck[2];
   };
   struct Wall : Place {
@@ -72,8 +73,9 @@ class ComputeHVIWall : public ComputeHVIMatter {
 
     bool owns(int itype) const
     {
-      return (itype >= lo && itype <= hi) || (itype >= rim_lo && itype <= rim_hi);
+      return (itype >= lo && itype <= hi) || (itype >= outer_lo && itype <= outer_hi);
     }
+    bool is_outer(int itype) const { return itype >= outer_lo && itype <= outer_hi; }
     bool has_node(int itype) const { return itype >= node_lo && itype <= node_hi; }
   };
 

@@ -128,7 +128,7 @@ def result(**changed):
              "conversion_heat_ratio": 0.0, "hourglass_energy_ratio": 0.0}
     for k in (1, 2):
         found.update({f"wall{k}_{key}": 0 for key in ("apart_mass_mg", "apart_particles", "spall_mass_mg", "still_to_come", "missed_fraction", "missed_reach_mm", "push_percent", "bulge_m_s", "torn",
-                                                      "bulge_over_thickness", "deepest_failed_layer", "rear_plastic_strain", "cloud_energy_ratio")})
+                                                      "bulge_over_thickness", "deepest_failed_layer", "rear_plastic_strain", "outer_plastic_strain", "cloud_energy_ratio")})
         found.update({f"hole{k}_diameter_mm": 0.0, f"wall{k}_layers": 3, f"wall{k}_energy_ratio": 0.3})
     return {**found, "wall1_cloud_energy_ratio": 0.7, **changed}
 
@@ -195,20 +195,43 @@ def test_a_wall_with_a_core(tmp_path):
     """by hand: 2.25 mm are 3 layers of 0.75 mm outside and 6 of 0.375 inside, in 3 mm to each side, whole cells of 0.75; the two are one body"""
     shield = chain.shield_of(read(tmp_path / "c.yaml", GRADED), 0, 0.0)
     wall, text = shield.walls[1], shield.text()
-    assert (wall.layers, wall.core, wall.core_at) == (6, pytest.approx(3e-3), 0.0) and wall.dz == pytest.approx(wall.spacing) and (wall.rim.layers, wall.rim.spacing) == (3, pytest.approx(7.5e-4))
-    assert shield.rims == [2] and shield.rim_type(2) == 4 and shield.matter == "1:3 4" and shield.geometry.widest == pytest.approx(7.5e-4)
+    assert (wall.layers, wall.core, -wall.core_lo, wall.core_hi) == (6, *3 * (pytest.approx(3e-3),)) and wall.dz == pytest.approx(wall.spacing) and (wall.outer.layers, wall.outer.spacing) == (3, pytest.approx(7.5e-4))
+    assert shield.outers == [2] and shield.outer_type(2) == 4 and shield.matter == "1:3 4" and shield.geometry.widest == pytest.approx(7.5e-4)
     for line in ("create_box 4 box", "pair_coeff 3 4 tension yes", "create_atoms 4 region outer2", "region outer2 intersect 2 disc2 around2"):
         assert line in " ".join(text.split()), line
-    assert " rim 4 layers 6 radius" in text
+    assert " outer 4 layers 6 radius" in text
     area, square = np.pi * wall.radius**2, 36e-6
     assert wall.particles == pytest.approx((6 * square + 6 / 8 * (area - square)) / 3.75e-4**2)
     plan = chain.plan_of(shield)
-    assert (plan["wall2_core_mm"], plan["wall2_rim_type"]) == (3.0, 4) and "wall1_core_mm" not in plan
+    assert (plan["wall2_core_mm"], plan["wall2_outer_type"]) == (3.0, 4) and "wall1_core_mm" not in plan
 
 
-def test_a_core_as_wide_as_the_wall_is_all_of_it(tmp_path):
-    shield = chain.shield_of(read(tmp_path / "c.yaml", GRADED.replace("core_mm: 3", "core_mm: 300")), 0, 0.0)
-    assert shield.rims == [] and shield.walls[1].layers == 6 and "tension" not in shield.text()
+@pytest.mark.parametrize("share", [0.72, 0.9, 20])
+def test_a_core_whose_corners_reach_the_edge_is_all_of_it(tmp_path, share):
+    radius = 1e3 * chain.shield_of(read(tmp_path / "c.yaml", GRADED), 0, 0.0).walls[1].radius
+    shield = chain.shield_of(read(tmp_path / "c.yaml", GRADED.replace("core_mm: 3", f"core_mm: {share * radius}")), 0, 0.0)
+    wall = shield.walls[1]
+    assert shield.outers == [] and wall.layers == 6 and "tension" not in shield.text() and wall.particles == pytest.approx(6 * np.pi * wall.radius**2 / 3.75e-4**2)
+
+
+def test_the_core_of_an_oblique_shot(tmp_path):
+    """covers where the flight and the normal meet the wall, and as much around"""
+    shield = chain.shield_of(read(tmp_path / "c.yaml", GRADED.replace("speed_km_s: 5", "speed_km_s: 5\nangle_deg: 45")), 0, 0.0)
+    wall = shield.walls[1]
+    assert wall.struck > 8e-3 and -wall.core_lo == pytest.approx(3e-3) and wall.struck + 3e-3 <= wall.core_hi < wall.struck + 3.76e-3 and wall.core == pytest.approx(3e-3)
+    for corner in (wall.core_lo, wall.core_hi):
+        assert math.hypot(corner - wall.middle, wall.core) < wall.radius
+    assert all(abs(x / wall.outer.spacing - round(x / wall.outer.spacing)) < 1e-9 for x in (wall.core_lo, wall.core_hi, wall.core))  # whole cells
+
+
+def test_what_happens_beyond_the_core(tmp_path):
+    """the rear of the outer part may have half of the strain, not more; a wall that fails, fails"""
+    shield = chain.shield_of(read(tmp_path / "c.yaml", GRADED), 0, 0.0)
+    for strain, said in ((0.09, "holds"), (0.11, "undecided")):
+        found = verdict.of_run(shield, result(wall2_rear_plastic_strain=0.2, wall2_outer_plastic_strain=strain))
+        assert found["verdict"] == said and ("beyond" in found["rules"]) is (said == "undecided")
+    assert {"wall 2: core_mm": None} in found["remedies"]
+    assert verdict.of_run(shield, result(wall2_rear_plastic_strain=0.2, wall2_outer_plastic_strain=0.2, hole2_diameter_mm=3.0, wall2_apart_particles=1))["verdict"] == "fails"
 
 
 @pytest.mark.parametrize("old, new, message", [
@@ -271,6 +294,14 @@ def test_push_is_that_of_the_last_rows(tmp_path):
     assert record.push(found, 1, 40.0) == pytest.approx((1.25 - 5.25 / 5) / 1.25 / 4 * 4)
     found.seldom_us = 2 * found.seldom_us
     assert record.push(found, 1, 80.0) == pytest.approx((1.25 - 5.25 / 5) / 1.25 / 4 * 4)
+
+
+def test_push_does_not_go_with_the_end_that_is_asked_for(tmp_path):
+    """the same wall at the same time: tstop of the case says when to look, not how still a wall must be"""
+    found = [chain.shield_of(read(tmp_path / "c.yaml", CASE.replace("tstop: 8", f"tstop: {tstop}")), 0, 0.0) for tstop in (0, 7, 60)]
+    assert len({shield.geometry.tstop_us for shield in found}) == 3 and len({shield.geometry.enough_us for shield in found}) == 1
+    quiet = {re.search(r"abs\(f_pieces\[2\]\[4\]-f_lately\[2\]\[2\]\) < ([\d.]+)\*", shield.text())[1] for shield in found}
+    assert len(quiet) == 1 and found[0].geometry.tstop_us == found[0].geometry.enough_us
 
 
 def test_names_of_rules_are_unique():

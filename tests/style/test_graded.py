@@ -5,6 +5,7 @@ import re
 import hvi
 import numpy as np
 import pytest
+from hvi.analysis import hole
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
@@ -57,7 +58,7 @@ def plate(cells, coarse):
 
 def test_the_two_parts_fill_the_wall(run):
     """cells of the core and of the outer part meet face to face: the mass is that of the wall, but for its round edge"""
-    r = run(plate(GRADED, 2 * A) + FIXES + f"compute w all hvi/wall axis z wall 1 0 {THICK} rim 2 layers 4 radius {RADIUS} pieces 1.25 h\nrun 0\nprint 'w $(c_w[1][16]:%.15g) $(c_w[1][34]:%.15g) $(c_w[1][35])'\n")
+    r = run(plate(GRADED, 2 * A) + FIXES + f"compute w all hvi/wall axis z wall 1 0 {THICK} outer 2 layers 4 radius {RADIUS} pieces 1.25 h\nrun 0\nprint 'w $(c_w[1][16]:%.15g) $(c_w[1][34]:%.15g) $(c_w[1][35])'\n")
     mass, body, hole = map(float, re.search(r"^w (.*)", r.log, re.M)[1].split())
     core = 4 * HALF**2 * THICK
     assert mass == pytest.approx(body, rel=1e-12) and hole == 0
@@ -99,6 +100,34 @@ run 200 post no
     assert np.abs(graded - said["uniform"][:, 1]).max() < 0.03 * np.abs(said["uniform"][:, 1]).max()
 
 
+@pytest.mark.parametrize("radius", [0.6e-3, 0.75e-3, 0.9e-3, 2.4e-3])
+def test_a_hole_in_the_core_is_that_of_a_fine_wall(run, tmp_path, radius):
+    """the outer part does not hide narrow holes, and has none of its own: diameters of both, and those of another program"""
+    found = {}
+    for name, cells, coarse in (("graded", GRADED, 2 * A), ("uniform", UNIFORM, A)):
+        cut = f"region hole cylinder z 0 0 {radius} INF INF units box\ndelete_atoms region hole compress no\n"
+        r = run(plate(cells, coarse) + cut + FIXES + f"compute w all hvi/wall axis z wall 1 0 {THICK} outer 2 layers 4 radius {RADIUS} pieces 1.25 h\nrun 0\n"
+                "print 'w $(c_w[1][35]) $(c_w[1][36]:%.15g) $(c_w[1][40]:%.15g)'\nwrite_dump all custom end.dump id type mass x y z modify format float %.17g\n", nranks=2 if name == "graded" else 1)
+        found[name] = np.array(re.search(r"^w (.*)", r.log, re.M)[1].split(), dtype=float)
+        frame = hvi.Dump(str(tmp_path / "end.dump"), units="si", mirror="none")[0]
+        other = hole.measure(frame, "z", (0, 0), 0.5 * THICK, thickness=1.0)
+        assert other.values["diameter"] == pytest.approx(found[name][1], rel=1e-9)
+    assert found["uniform"][0] == found["graded"][0] == 1 and found["uniform"][1] > 0
+    assert found["graded"][1:] == pytest.approx(found["uniform"][1:], rel=0.05)
+
+
+def test_strain_and_failure_of_the_outer_part(run):
+    """by hand: all of it strained, wherever the wall stands; layers are those of the core"""
+    for front in (0.0, 8e-3, 12.34e-3):
+        text = plate(GRADED, 2 * A) + f"displace_atoms all move 0 0 {front} units box\n" + FIXES + f"compute w all hvi/wall axis z wall 1 {front} {THICK} outer 2 layers 4 radius {RADIUS}\n"
+        text = text.replace("-4e-3 4e-3 units box", "-4e-3 16e-3 units box")
+        r = run(text + "group outer type 2\nvelocity outer set 0 0 0\nvariable vx atom 200*x/1e-3*(type==2)\nvelocity all set v_vx NULL NULL\ntimestep 1e-8\nrun 20 post no\nprint 'w $(c_w[1][12]:%.6g) $(c_w[1][43]:%.6g)'\n")
+        rear, outer = map(float, re.search(r"^w (.*)", r.log, re.M)[1].split())
+        assert 0 < outer <= rear
+        first = (rear, outer) if front == 0.0 else first
+        assert (rear, outer) == pytest.approx(first, rel=1e-3)
+
+
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
 def test_what_hangs_together_in_smoothing_lengths(run, tmp_path, nranks, newton):
     """particles at random, two smoothing lengths: those closer than 1.1 times the mean of the two"""
@@ -119,9 +148,9 @@ def test_what_hangs_together_in_smoothing_lengths(run, tmp_path, nranks, newton)
 
 
 @pytest.mark.parametrize("command, message", [
-    (f"compute w all hvi/wall axis z wall 1 0 {THICK} rim 1*2 wall 2 2e-3 1e-3", "walls 1 and 2 share a type"),
-    (f"compute w all hvi/wall axis z wall 1 0 {THICK} rim 3", "out of bounds"),
-    (f"compute w all hvi/wall axis z rim 2 wall 1 0 {THICK}", "rim belongs to a wall"),
+    (f"compute w all hvi/wall axis z wall 1 0 {THICK} outer 1*2 wall 2 2e-3 1e-3", "walls 1 and 2 share a type"),
+    (f"compute w all hvi/wall axis z wall 1 0 {THICK} outer 3", "out of bounds"),
+    (f"compute w all hvi/wall axis z outer 2 wall 1 0 {THICK}", "outer belongs to a wall"),
     ("compute f all hvi/fragment distance h 2", "(Expected|expected)")])
 def test_wrong_input(run, command, message):
     r = run(plate(GRADED, 2 * A) + FIXES + command + "\nrun 0\n", expect_fail=True)
@@ -132,3 +161,19 @@ def test_smoothing_lengths_need_the_pair_style(lmp, tmp_path):
     r = lmp("units lj\natom_style atomic\nregion b block 0 4 0 4 0 4\ncreate_box 1 b\nlattice sc 1\ncreate_atoms 1 box\nmass 1 1\npair_style lj/cut 1.5\npair_coeff 1 1 1 1\ncompute f all hvi/fragment distance 1.25 h\nrun 0\n",
             cwd=tmp_path, expect_fail=True)
     assert "distance R h needs pair style hvi/sph" in r.error
+
+
+def test_types_without_smoothing_length_are_refused(run):
+    """particles of another pair style would never hang together"""
+    text = plate(GRADED, 2 * A)
+    text = text[:text.index("pair_style")] + f"""pair_style hybrid hvi/sph cubic dissipation riemann lj/cut 1e-3
+pair_coeff 1 1 hvi/sph file Al6061-T6.hvi spacing {A}
+pair_coeff 2 2 lj/cut 1e-20 3e-4
+pair_coeff 1 2 none
+mass 2 1e-6
+fix move all hvi/sph
+compute f all hvi/fragment distance 1.25 h
+run 0
+"""
+    r = run(text, expect_fail=True)
+    assert "has particles of type 2, which pair style hvi/sph has no smoothing length for" in r.error, r

@@ -367,11 +367,11 @@ def test_a_wall_with_a_core(shield, tmp_path, quarter):
     """fine particles in its middle, coarser ones around: what is planned is what is run, and pictures know the outer part as the same wall"""
     r = shield(wall(0.8), wall(2.4, gap=8, core_mm=3.5), D=3, dx=0.4, v=5, tstop=8, material="Al6061-T6", quarter=quarter, nranks=2)
     plan = yaml.safe_load((tmp_path / "run/plan.yaml").read_text())
-    assert (plan["wall2_core_mm"], plan["wall2_rim_type"], plan["wall2_layers"]) == (4.0, 4, 6)
+    assert (plan["wall2_core_mm"], plan["wall2_outer_type"], plan["wall2_layers"]) == (4.0, 4, 6)
     assert r["particles"] == pytest.approx(plan["projectile_particles"] + plan["wall1_particles"] + plan["wall2_particles"], rel=0.03)
     assert abs(r["energy_ratio"] - 1) < 1e-5 and r["momentum_error"] < 1e-9 and abs(r["mass_error"]) < 1e-10 and r["walls_reached"] == 2
     frame = hvi.Dump(str(tmp_path / "run/shield.dump"))[0]
     outer = frame["type"] == 4
     assert outer.any() and np.abs(frame.x[outer, :2]).max(axis=1).min() > 3.9e-3
-    values = folders.Run.by_type(types.SimpleNamespace(rims=lambda: {4: 2}), [0, 1, 2], lambda k: k)
+    values = folders.Run.by_type(types.SimpleNamespace(outers=lambda: {4: 2}), [0, 1, 2], lambda k: k)
     assert values.tolist() == [0, 0, 1, 2, 2]

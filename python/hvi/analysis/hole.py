@@ -17,7 +17,7 @@ from . import fragments
 
 # as in compute_hvi_hole.cpp and hvi_plate.cpp
 PER_OCTAVE, OCTAVES, NBINS, TAIL, MARGIN, FINEST = 64, 40, 4096, 0.01, 0.1, 0.75
-MAXNODES, MAXLINE, PIECE, FINE = 4.0e6, 1.0e5, 0.05, 8
+MAXNODES, MAXLINE, PIECE, FINE, MOST_PARTS = 4.0e6, 1.0e5, 0.05, 8, 4
 SAID = {1: "yes", 0: "none", -1: "unknown, there is no plate around the center, or nothing in the layer"}
 ALL_NEIGHBORS = np.ones((3, 3), dtype=int)
 
@@ -47,6 +47,10 @@ class Layer:
         self.half = 0.5 * thickness if thickness else max(least, self._half(np.abs(s)))
         near = np.abs(s) <= self.half
         self.m, self.s, self.y = m[near], s[near], y[near]
+        parts = np.cbrt(self.m / m[m > 0].min()) + 0.01
+        self.parts = np.clip(parts.astype(int), 1, MOST_PARTS)  # along each edge, as large as the finest particle
+        self.cells = int((self.parts.astype(np.int64) ** 3).sum())
+        self.grain = 0.0  # how far parts are from each other
         self.farthest = np.abs(self.s).max(initial=0.0)
 
     @staticmethod
@@ -93,7 +97,7 @@ class Layer:
             s = self.s[far] / self.farthest
             mean, square = (np.rint(scale * v).astype(np.int64).sum() / scale / len(s) for v in (s, s * s))
             variance = self.farthest**2 * max(square - mean * mean, 0.0)
-        density = plate.intact / (np.rint(self.unit * self.m).astype(np.int64).sum() / self.unit / len(self.m))
+        density = plate.intact / (np.rint(self.unit * self.m).astype(np.int64).sum() / self.unit / self.cells)
         a = 1.0 / math.sqrt(density)
         for _ in range(50):
             a = np.cbrt(math.sqrt(12.0 * variance + a * a) / density)
@@ -116,13 +120,17 @@ class Plate:
         self._find_intact()
 
     def _spread(self, layer):
-        """each particle by a cubic B-spline"""
+        """each particle by a cubic B-spline, a larger one in parts that are as fine as the finest"""
         mass = np.zeros(self.n, dtype=np.int64)
         for sx in (-1, 1) if layer.mirrored[0] else (1,):
             for sy in (-1, 1) if layer.mirrored[1] else (1,):
-                u = layer.y * (sx, sy) / self.h - self.first
+                number = layer.parts**2
+                c = np.arange(number.sum()) - np.repeat(np.cumsum(number) - number, number)
+                parts = np.repeat(layer.parts, number)
+                at = np.stack([c // parts, c % parts], axis=1) - 0.5 * (parts - 1)[:, None]
+                u = (np.repeat(layer.y * (sx, sy), number, axis=0) + layer.grain * at) / self.h - self.first
                 on = np.all((u >= 1.0) & (u < self.n - 2), axis=1)
-                u, m = u[on], layer.unit * layer.m[on]
+                u, m = u[on], np.repeat(layer.unit * layer.m / number, number)[on]
                 i = u.astype(int)
                 f = u - i
                 g = 1.0 - f
@@ -249,8 +257,9 @@ def measure(source, axis, center, plane, *, thickness=None, dr=None, fill=0.5, r
     if extent is None:
         return Hole(values)
     lo, hi = extent
-    area = np.prod(hi - lo) * 0.5 ** len(there) / len(layer.m)
-    step = layer.spacing(Plate(layer, lo, hi, max(float(np.cbrt(2.0 * min(layer.half, layer.farthest) * area)), math.sqrt(area))))
+    area = np.prod(hi - lo) * 0.5 ** len(there) / layer.cells
+    layer.grain = max(float(np.cbrt(2.0 * min(layer.half, layer.farthest) * area)), math.sqrt(area))
+    step = layer.grain = layer.spacing(Plate(layer, lo, hi, layer.grain))
     if dr and dr < FINEST * step:
         warnings.warn(HVIWarning(f"dr {dr:g} is too small for particles {step:g} apart, using {FINEST * step:g}"), stacklevel=2)
     plate = Plate(layer, lo, hi, max(dr, FINEST * step) if dr else step)

@@ -301,7 +301,7 @@ def warn(case, reader):
         warnings.warn(f"{reader.path}, line {node.start_mark.line + 1}: all runs have the same seed of weibull: what another would change is in no verdict", HVIWarning,
                       stacklevel=3)
     last, coarse = case.walls[-1], (case.walls[-1].spacings_mm or case.spacings_mm)[0]
-    if geometry.layers(last.thickness_mm, coarse) < LAYERS and "layers" not in case.settings:
+    if geometry.layers_of(case, len(case.walls), 0) < LAYERS and "layers" not in case.settings:
         node = reader.at.get(f"wall {len(case.walls)}: spacings_mm") or reader.at["spacings_mm"]
         warnings.warn(f"{reader.path}, line {node.start_mark.line + 1}: {coarse:g} mm leaves fewer than {LAYERS} layers of particles in the last wall: if that "
                       "decides, the verdict will be undecided", HVIWarning, stacklevel=3)

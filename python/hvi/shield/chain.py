@@ -158,7 +158,7 @@ def plan_of(shield):
             "particles": round(wall.particles / shield.images), "elements": int(of.method != "sph"), "layers": wall.layers,
             "radius_mm": round(1e3 * wall.radius, 1), "middle_mm": round(1e3 * wall.middle, 1), "struck_at_mm": round(1e3 * wall.struck, 1),
             "front_mm": float(f"{1e3 * wall.front:.6g}"), "thickness_mm": float(f"{1e3 * wall.thickness:.6g}"), "spacing_mm": float(f"{1e3 * wall.spacing:.6g}"),
-            **({"core_mm": float(f"{1e3 * wall.core:.6g}"), "rim_type": shield.rim_type(k)} if wall.core else {})}.items()})
+            **({"core_mm": float(f"{1e3 * wall.core:.6g}"), "outer_type": shield.outer_type(k)} if wall.core else {})}.items()})
     areal = [wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])]
     found.update({f"wall{k}_areal_density_kg_m2": round(value, 3) for k, value in enumerate(areal, 1)})
     found.update(areal_density_kg_m2=round(sum(areal), 3), **size_of(shield))

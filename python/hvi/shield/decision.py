@@ -78,9 +78,10 @@ def finer(case, said, jobs):
         return None
     last, which = case.walls[-1], len(case.spacings_mm) - 1
     fine = (last.spacings_mm or case.spacings_mm)[-1]
-    layers = math.ceil(last.thickness_mm / fine - 0.01)
+    pair = 2 if geometry.is_graded(last) else 1  # layers come so
+    layers = pair * geometry.layers(last.thickness_mm, pair * fine)
     first = 1.0 if layers >= cases.LAYERS else last.thickness_mm / cases.LAYERS / fine
-    steps = (last.thickness_mm / n / fine for n in itertools.count(max(layers, cases.LAYERS) + 1))
+    steps = (last.thickness_mm / n / fine for n in itertools.count(max(layers, cases.LAYERS) + pair, pair))
     second = next(r for r in itertools.islice(steps, 100) if r * cases.RATIO <= first and fits(case, r))
     stay = first == 1.0 and all(said[which, shift][0] != "undecided" for shift in case.shifts)  # those of the finest need not be run again
 

@@ -15,8 +15,8 @@ BACK = 20.0  # mm in front of wall 1 at least
 class WallGeometry:
     """A wall, in m: faces along z, spacing of particles in the plane, layers through it dz apart, its radius, x of its middle and of where it is struck
 
-    core: half the side of the square in its middle that has such particles, beyond they are twice as far apart in all directions; 0: all of it has
-    core_at: x of the middle of that square
+    core: half the width in y of the rectangle in its middle that has such particles, beyond they are twice as far apart in all directions; 0: all of it has
+    core_lo, core_hi: its ends in x
     """
 
     front: float
@@ -29,17 +29,19 @@ class WallGeometry:
     middle: float
     struck: float
     core: float = 0.0
-    core_at: float = 0.0
+    core_lo: float = 0.0
+    core_hi: float = 0.0
 
     @property
-    def rim(self):
+    def outer(self):
         """this wall as its outer part is"""
         return dataclasses.replace(self, spacing=2 * self.spacing, layers=self.layers // 2, dz=2 * self.dz)
 
     @property
     def particles(self):
         """about, of the whole wall"""
-        fine, whole = (2 * self.core) ** 2 if self.core else math.pi * self.radius**2, math.pi * self.radius**2
+        whole = math.pi * self.radius**2
+        fine = 2 * self.core * (self.core_hi - self.core_lo) if self.core else whole
         return (fine * self.layers + (whole - fine) * self.layers / 8) / self.spacing**2
 
 
@@ -47,13 +49,14 @@ class WallGeometry:
 class Geometry:
     """Of a case at one spacing: a, R, spacing and radius of the projectile; box: xlo, xhi, ylo, yhi, zlo; widest spacing (all m).
 
-    Times in us: tstop, the end at the latest; arrival of the projectile itself at the last wall, its passage of itself, crossing of that wall by sound
+    Times in us: tstop, the end of what fails; enough, what tstop is if the case does not say it; arrival of the projectile itself at the last wall, its passage of itself, crossing of that wall by sound
     """
 
     a: float
     R: float
     walls: tuple
     tstop_us: float
+    enough_us: float
     arrival_us: float
     passage_us: float
     crossing_us: float
@@ -81,11 +84,14 @@ def is_graded(wall):
     return wall.method == "sph" and wall.core_mm is not None
 
 
-def core_of(wall, spacing, radius, middle):
-    """WallGeometry's core and core_at: whole cells of the outer part; 0 if that would be no wider than two"""
-    cell = 2 * spacing
-    half = cell * math.ceil(1e-3 * wall.core_mm / cell - 1e-6) if is_graded(wall) else 0.0
-    return (half, cell * round(middle / cell)) if 0.0 < half < radius - 2 * cell else (0.0, 0.0)
+def core_of(wall, spacing, radius, middle, struck):
+    """WallGeometry's core, core_lo and core_hi: whole cells of the outer part, about where the normal and the flight strike; zeros if two cells would not be left around it"""
+    if not is_graded(wall):
+        return 0.0, 0.0, 0.0
+    cell, width = 2 * spacing, 1e-3 * wall.core_mm
+    half, low, high = (cell * math.ceil(x / cell - 1e-6) for x in (width, width - min(0.0, struck), width + max(0.0, struck)))
+    corner = math.hypot(half, max(high - middle, low + middle))
+    return (half, -low, high) if corner < radius - 2 * cell else (0.0, 0.0, 0.0)
 
 
 def reaches(case):
@@ -126,13 +132,15 @@ def of(case, which):
         radius = 1e-3 * (wall.radius_mm or reach)
         middle = (0.5 * front + R) * tangent
         spacing = 1e-3 * (wall.spacings_mm or case.spacings_mm)[which]
-        walls.append(WallGeometry(front, front + th, th, spacing, n, th / n, radius, middle, (front + 0.5 * th + R) * tangent, *core_of(wall, spacing, radius, middle)))
+        struck = (front + 0.5 * th + R) * tangent
+        walls.append(WallGeometry(front, front + th, th, spacing, n, th / n, radius, middle, struck, *core_of(wall, spacing, radius, middle, struck)))
         opens = max(radius, 1e-3 * reach)
         W, xlo, xhi = max(W, opens), min(xlo, middle - opens), max(xhi, middle + opens)
     last = walls[-1]
     arrival, passage, crossing = 1e6 * (last.front + R) / (v0 * cosine), 2e6 * R / (v0 * cosine), 1e3 * last.thickness / SOUND
-    tstop = case.setting("tstop") or float(f"{3 * arrival + 4 * passage + 10 * crossing:.4g}")
+    enough = float(f"{3 * arrival + 4 * passage + 10 * crossing:.4g}")
+    tstop = case.setting("tstop") or enough
     back = case.setting("back") or round(max(500 * last.front, BACK), 1)
     widest = max([a, *(max(w.spacing, w.dz) * (2 if w.core else 1) for w in walls)])
     box = (0.0 if quarter else xlo - MARGIN, xhi + MARGIN, 0.0 if quarter else -(W + MARGIN), W + MARGIN, -2 * R - 1e-3 * back)
-    return Geometry(a, R, tuple(walls), tstop, arrival, passage, crossing, box, quarter, widest)
+    return Geometry(a, R, tuple(walls), tstop, enough, arrival, passage, crossing, box, quarter, widest)

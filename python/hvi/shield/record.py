@@ -19,7 +19,7 @@ from . import script
 
 WALL = """coming_mass coming_energy push momentum energy plastic_power passed_mass passed_momentum passed_energy tip failed_depth rear_strain missed_mass missed_reach
     far_free mass held_mass cloud_mass cloud_momentum cloud_energy front_velocity cloud_length cloud_diameter cloud_ratio fragments largest_mass largest_velocity pieces_apart
-    largest_apart_mass apart_mass spall_mass apart_number bulge body_mass hole_found hole_diameter hole_min hole_max plane_found plane_diameter plane_x plane_y""".split()
+    largest_apart_mass apart_mass spall_mass apart_number bulge body_mass hole_found hole_diameter hole_min hole_max plane_found plane_diameter plane_x plane_y outer_strain""".split()
 BOOK = 32  # entries of compute hvi/energy
 ARRIVE = 6  # widest spacings before a wall: what comes so near has arrived
 NOTHING = 1e-99
@@ -129,8 +129,8 @@ def measure(shield, folder):
             "largest_apart_mass_fraction": at["largest_apart_mass"] / mp, "momentum_N_s": q * at["momentum"], "momentum_ratio": q * at["momentum"] / p0,
             "energy_J": q * at["energy"], "energy_ratio": q * at["energy"] / E0, "spall_mass_mg": 1e6 * q * at["spall_mass"], "apart_mass_mg": 1e6 * q * at["apart_mass"],
             "apart_particles": int(at["apart_number"]), "layers": wall.layers, "bulge_over_thickness": at["bulge"] / wall.thickness,
-            "deepest_failed_layer": math.ceil(at["failed_depth"] / wall.dz), "rear_plastic_strain": at["rear_strain"],
-            "push_percent": 100 * push(record, k, g.tstop_us) if k == reached - 1 else 0.0, "bulge_m_s": growth(record, k) if k == reached - 1 else 0.0,
+            "deepest_failed_layer": math.ceil(at["failed_depth"] / wall.dz), "rear_plastic_strain": at["rear_strain"], "outer_plastic_strain": at["outer_strain"],
+            "push_percent": 100 * push(record, k, g.enough_us) if k == reached - 1 else 0.0, "bulge_m_s": growth(record, k) if k == reached - 1 else 0.0,
             "plastic_percent_per_us": 100 * q * 1e-6 * at["plastic_power"] / E0,
             "converted_fraction": float((p.held_mass[0, k] - at["held_mass"]) / p.mass[0, k]), "still_to_come": q * at["coming_energy"] / E0, "missed_fraction": missed, "missed_reach_mm": 1e3 * at["missed_reach"],
             "torn": bool(hold and at["far_free"] > hold - 4 * wall.spacing)}.items()})
@@ -179,7 +179,7 @@ def over(shield, record):
         return enough
     w, limit, rule = record.walls, shield.energy / shield.images, script.OVER
     return bool(record.time_us > g.arrival_us + g.passage_us + g.crossing_us and w.coming_energy[-1, k] < rule["share"] * w.energy[-1, k] + rule["coming"] * limit
-                and push(record, k, g.tstop_us) < script.STILL and abs(growth(record, k)) < script.BULGE
+                and push(record, k, g.enough_us) < script.STILL and abs(growth(record, k)) < script.BULGE
                 and 1e-6 * w.plastic_power[-1].sum() < rule["plastic"] * limit
                 and (enough or last.apart_number[-1, k] == 0 and last.hole_found[-1, k] <= 0))
 
@@ -190,11 +190,11 @@ def lately(record, values):
     return values[-1] - values.mean(), max(us[-1] - us.mean(), NOTHING)
 
 
-def push(record, k, tstop_us):
+def push(record, k, enough_us):
     """change of the momentum of wall k (from 0 on) lately, of it, in a tenth of the time that is enough"""
     momentum = record.pieces.momentum[:, k]
     change, us = lately(record, momentum)
-    return float(abs(change) / (abs(momentum[-1]) + NOTHING) * 0.1 * tstop_us / us)
+    return float(abs(change) / (abs(momentum[-1]) + NOTHING) * 0.1 * enough_us / us)
 
 
 def growth(record, k):

@@ -59,17 +59,17 @@ class Run:
     def of_wall(self, k, what):
         return self.plan[f"wall{k}_{what}"]
 
-    def rims(self):
+    def outers(self):
         """{type of the particles in the outer part of a wall: wall}"""
-        return {int(self.plan[key]): k for k in range(1, self.walls + 1) if (key := f"wall{k}_rim_type") in self.plan}
+        return {int(self.plan[key]): k for k in range(1, self.walls + 1) if (key := f"wall{k}_outer_type") in self.plan}
 
-    def by_type(self, values, rim):
-        """values of the projectile and the walls as an array over types, 0 is none; rim(value): of the outer part of a wall"""
-        rims = self.rims()
-        found = np.zeros(1 + max([len(values), *rims]), dtype=np.asarray(values).dtype)
+    def by_type(self, values, outer):
+        """values of the projectile and the walls as an array over types, 0 is none; outer(value): of the outer part of a wall"""
+        outers = self.outers()
+        found = np.zeros(1 + max([len(values), *outers]), dtype=np.asarray(values).dtype)
         found[1:1 + len(values)] = values
-        for kind, k in rims.items():
-            found[kind] = rim(values[k])
+        for kind, k in outers.items():
+            found[kind] = outer(values[k])
         return found
 
     def bodies(self):

@@ -97,7 +97,7 @@ class Shield:
         self.n = len(self.walls)
         self.images = 4 if self.geometry.quarter else 1
         self.elements = [k for k, wall in enumerate(case.walls, 1) if wall.method != "sph"]
-        self.rims = [k for k, wall in enumerate(self.walls, 1) if wall.core]  # walls with an outer part of coarser particles
+        self.outers = [k for k, wall in enumerate(self.walls, 1) if wall.core]  # walls with an outer part of coarser particles
         self.seldom = OFTEN * max(1, min(MOST // OFTEN, round(self.steps() / LOOKS / OFTEN)))
 
     @functools.cached_property
@@ -117,7 +117,7 @@ class Shield:
     @property
     def matter(self):
         """types that are no nodes"""
-        return " ".join([f"1:{1 + self.n}", *(str(self.rim_type(k)) for k in self.rims)])
+        return " ".join([f"1:{1 + self.n}", *(str(self.outer_type(k)) for k in self.outers)])
 
     def in_projectile(self):
         """particles of the whole projectile, about"""
@@ -133,9 +133,9 @@ class Shield:
         g = self.geometry
         return (self.in_projectile() + sum(wall.particles for k, wall in enumerate(g.walls, 1) if k not in self.elements)) / self.images
 
-    def rim_type(self, k):
+    def outer_type(self, k):
         """of the particles in the outer part of wall k; None: it has none"""
-        return 2 + self.n + (self.n if self.elements else 0) + self.rims.index(k) if k in self.rims else None
+        return 2 + self.n + (self.n if self.elements else 0) + self.outers.index(k) if k in self.outers else None
 
     def hold(self, k):
         """m from its middle: debris meets elements of wall k up to there, since those beyond hold no particles; None where there are none of these"""
@@ -173,8 +173,8 @@ class Shield:
         box = g.box
         low = [0.0, 0.0] if g.quarter else [box[0], box[2]]
         text("region", f"box block {number(low[0])} {number(box[1])} {number(low[1])} {number(box[3])} {number(box[4])} {number(g.walls[-1].rear + g.a)} units box")
-        kinds = 1 + n + (n if self.elements else 0) + len(self.rims)
-        text("create_box", f"{kinds} box", "types: projectile, walls" + (", nodes of walls" if self.elements else "") + (", outer parts of walls" if self.rims else ""))
+        kinds = 1 + n + (n if self.elements else 0) + len(self.outers)
+        text("create_box", f"{kinds} box", "types: projectile, walls" + (", nodes of walls" if self.elements else "") + (", outer parts of walls" if self.outers else ""))
         body = self.case.projectile.files
         if not body:
             self.projectile(text)
@@ -194,13 +194,13 @@ class Shield:
         text("pair_style", f"hvi/sph {s['kernel']} {s['pair']}{mirrors}")
         rows = [(1, f"{pathlib.Path(self.case.material).name} {self.lengths(g.a, g.a)}")]
         rows += [(1 + k, f"{pathlib.Path(of.material).name} {self.lengths(wall.spacing, wall.dz)}") for k, (wall, of) in enumerate(zip(g.walls, self.case.walls), 1)]
-        rows += [(self.rim_type(k), f"{pathlib.Path(self.case.walls[k - 1].material).name} {self.lengths(g.walls[k - 1].rim.spacing, g.walls[k - 1].rim.dz)}") for k in self.rims]
+        rows += [(self.outer_type(k), f"{pathlib.Path(self.case.walls[k - 1].material).name} {self.lengths(g.walls[k - 1].outer.spacing, g.walls[k - 1].outer.dz)}") for k in self.outers]
         for (kinds, what), comment in itertools.zip_longest(alike(rows), ["smoothing length, masses, densities follow from spacings"]):
             text("pair_coeff", f"{types(kinds)} {types(kinds)} file {what}", comment or "")
         if self.elements:
             text("pair_coeff", f"{n + 2}*{2 * n + 1} {n + 2}*{2 * n + 1} nodes")
-        for k in self.rims:
-            text("pair_coeff", f"{1 + k} {self.rim_type(k)} tension yes", "the two parts of a wall are one body")
+        for k in self.outers:
+            text("pair_coeff", f"{1 + k} {self.outer_type(k)} tension yes", "the two parts of a wall are one body")
         self.masses(text)
         v, angle = 1e3 * self.case.speed_km_s, math.radians(self.case.angle_deg)
         text("velocity", f"ball set {number(round(v * math.sin(angle), 6))} 0 {number(round(v * math.cos(angle), 6))} units box")
@@ -232,16 +232,16 @@ class Shield:
             text("region", f"wall{k} {disc}")
             text("create_atoms", f"{1 + k} region wall{k}")
             return
-        square = (f"block {number(wall.core_at - wall.core)} {number(wall.core_at + wall.core)} {number(-wall.core)} {number(wall.core)} "
+        square = (f"block {number(wall.core_lo)} {number(wall.core_hi)} {number(-wall.core)} {number(wall.core)} "
                   f"{number(wall.front)} {number(wall.rear)} units box")
         self.cells(text, wall)
         text("region", f"wall{k} {square}")
         text("create_atoms", f"{1 + k} region wall{k}")
-        self.cells(text, wall.rim)
+        self.cells(text, wall.outer)
         text("region", f"disc{k} {disc}")
         text("region", f"around{k} {square} side out")
         text("region", f"outer{k} intersect 2 disc{k} around{k}")
-        text("create_atoms", f"{self.rim_type(k)} region outer{k}")
+        text("create_atoms", f"{self.outer_type(k)} region outer{k}")
 
     def cells(self, text, wall):
         """the lattice of a wall"""
@@ -255,11 +255,11 @@ class Shield:
             return
         text("set", f"type 1 mass {share}", "the mass of the projectile over its particles")
         rows = [(1 + k, number(self.rho[k] * wall.spacing**2 * wall.dz)) for k, wall in enumerate(self.walls, 1) if k not in self.elements]
-        rows += [(self.rim_type(k), number(self.rho[k] * self.walls[k - 1].rim.spacing**2 * self.walls[k - 1].rim.dz)) for k in self.rims]
+        rows += [(self.outer_type(k), number(self.rho[k] * self.walls[k - 1].outer.spacing**2 * self.walls[k - 1].outer.dz)) for k in self.outers]
         for kinds, mass in alike(rows):
             text("set", f"type {types(kinds)} mass {mass}")
         text("mass", f"* {number(self.mass())}", "of no use: each particle has its own")
-        for kinds, rho in alike([(1 + k, rho) for k, rho in enumerate(self.rho)] + [(self.rim_type(k), self.rho[k]) for k in self.rims]):
+        for kinds, rho in alike([(1 + k, rho) for k, rho in enumerate(self.rho)] + [(self.outer_type(k), self.rho[k]) for k in self.outers]):
             text("set", f"type {types(kinds)} sph/rho {number(rho)}")
 
     def model(self, text, new):
@@ -298,7 +298,7 @@ class Shield:
         for k, wall in enumerate(self.walls, 1):
             text("region", f"rim{k} cylinder z {number(wall.middle)} 0 {number(wall.radius - rim)} {number(wall.front - wall.thickness)} {number(wall.rear + wall.thickness)} side out units box")
             text("group", f"beyond region rim{k}")
-            text("group", f"wall type {1 + k}" + (f" {1 + self.n + k}" if k in self.elements else "") + (f" {self.rim_type(k)}" if k in self.rims else ""))
+            text("group", f"wall type {1 + k}" + (f" {1 + self.n + k}" if k in self.elements else "") + (f" {self.outer_type(k)}" if k in self.outers else ""))
             text("group", f"rim{k} intersect beyond wall")
             text("group", "beyond delete")
             text("group", "wall delete")
@@ -309,7 +309,7 @@ class Shield:
         g = self.geometry
         rows = []
         for k, wall in enumerate(g.walls, 1):
-            nodes = f" nodes {1 + self.n + k}" if k in self.elements else f" rim {self.rim_type(k)}" if k in self.rims else ""
+            nodes = f" nodes {1 + self.n + k}" if k in self.elements else f" outer {self.outer_type(k)}" if k in self.outers else ""
             rows.append(f"wall {1 + k} {number(wall.front)} {number(wall.thickness)}{nodes} layers {wall.layers} radius {number(self.hold(k) or wall.radius)}"
                         + (f" center {number(wall.middle)} 0 struck {number(wall.struck)} 0" if self.case.angle_deg else ""))
         text.say("what happens to the walls: a row of walls.dat and pieces.dat for each")
@@ -352,7 +352,7 @@ class Shield:
         text("fix", f"lately all ave/time {self.seldom} 1 {self.seldom} f_pieces[33] f_pieces[4] mode vector ave window {LATELY}", "bulge, momentum")
         text("variable", f'quiet equal "v_us > {number(g.arrival_us + g.passage_us + g.crossing_us)} && c_walls[{n}][2] < {number(OVER["share"])}*c_walls[{n}][5]+{number(OVER["coming"] * limit)} && '
              f'1e-6*({power}) < {number(OVER["plastic"] * limit)} && elapsed >= {(LATELY - 1) * self.seldom} && '
-             f'abs({last}[4]-f_lately[{n}][2]) < {number(OVER["push"] / (1e-7 * g.tstop_us))}*{span}*abs({last}[4])+1e-12 && '
+             f'abs({last}[4]-f_lately[{n}][2]) < {number(OVER["push"] / (1e-7 * g.enough_us))}*{span}*abs({last}[4])+1e-12 && '
              f'abs({last}[33]-f_lately[{n}][1]-{span}*{last}[4]/{last}[16]) < {number(OVER["bulge"])}*{span}"',
              "nothing comes, pushes, flows or bulges: Howto_front, When it ends")
         text("variable", f'over equal "v_us >= v_until || v_us >= {tstop} && ({last}[32] >= {self.few} || {last}[32] > 0 && {last}[36] > 0) || v_quiet && (v_us >= {tstop} || {last}[32] == 0 && {last}[36] == 0)"',

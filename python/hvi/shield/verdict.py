@@ -19,6 +19,7 @@ SHARE = 0.03  # of what a wall has been given: less that is still to come does n
 LEAK = 1e-3  # of the energy balance
 BESIDE = 1e-3  # of the projectile
 FINER = 1.05  # particles that much finer than those of a wall slip through between them
+BEYOND = 0.5  # of the plastic strain of a wall's rear, in the coarse particles of its outer part: then these decide, too
 COARSER = 1.2  # a wall of particles that much coarser than those of what strikes it holds what a finer one does not
 HEAT = 1e-3  # of the energy of the shot
 
@@ -121,7 +122,7 @@ RULES = (
          lambda m: f"{100 * m.of('still_to_come'):.2g} percent of the energy of the shot are still on their way to wall {m.d}{m.ended}",
          lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
     Rule("pushed", UNLESS, lambda m: not m.late and m.of("push_percent") > 100 * STILL, f"less than {100 * STILL:g} percent of its momentum in a tenth of the time that is enough is the end of the load",
-         lambda m: f"wall {m.d} is still pushed, its momentum changes by {m.of('push_percent'):.2g} percent in {0.1 * m.shield.geometry.tstop_us:.2g} us{m.ended}",
+         lambda m: f"wall {m.d} is still pushed, its momentum changes by {m.of('push_percent'):.2g} percent in {0.1 * m.shield.geometry.enough_us:.2g} us{m.ended}",
          lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
     Rule("bulges", UNLESS, lambda m: m.last and abs(m.of("bulge_m_s")) > BULGE, f"less than {BULGE:g} m/s is no more than the ringing of an elastic plate, and tears nothing",
          lambda m: f"the bulge of wall {m.d} still moves, at {m.of('bulge_m_s'):.2g} m/s{m.ended}",
@@ -137,7 +138,10 @@ RULES = (
          lambda m: ({"spacings_mm": None}, "take spacings that are alike")),
     Rule("coarser", UNLESS, lambda m: m.last and m.sieve > COARSER, "a single wall struck by a fragment holds from 6 to 15 percent too early with particles 1.4 times as coarse, from 10 to 20 percent and more with twice (examples/crater)",
          lambda m: f"the particles of wall {m.d} are {m.sieve:.2g} times as far apart as those of what strikes it: it holds what a finer one does not",
-         lambda m: ({f"wall {m.d}: spacings_mm": None}, "take spacings for it as fine as those of the projectile; with core_mm they cost little")),
+         lambda m: ({f"wall {m.d}: spacings_mm": None}, "take spacings for it as fine as those of the projectile" + ("; with core_mm they cost little" if m.case.walls[m.d - 1].method == "sph" else ""))),
+    Rule("beyond", UNLESS, lambda m: m.last and m.of("outer_plastic_strain") > BEYOND * m.of("rear_plastic_strain") > 0, "coarse particles hold what finer ones do not, so they must be away from what decides",
+         lambda m: f"beyond its core the rear of wall {m.d} has a plastic strain of {m.of('outer_plastic_strain'):.2g}, {m.of('rear_plastic_strain'):.2g} is the most there is: its outer part is too coarse for that",
+         lambda m: ({f"wall {m.d}: core_mm": None}, "take a larger core_mm for it")),
     Rule("few", UNLESS, lambda m: m.few, f"with fewer than {FEW} particles apart, other shifts of the lattice say anything",
          lambda m: f"no more than {m.parts} particles are apart behind wall {m.d}, and {FEW} are needed", lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
     Rule("no plate", UNLESS, lambda m: m.unknown, "a hole is what a plate around it has",
