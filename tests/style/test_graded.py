@@ -6,6 +6,7 @@ import hvi
 import numpy as np
 import pytest
 from hvi.analysis import hole
+from hvi.errors import HVIError
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
@@ -136,7 +137,7 @@ def test_what_hangs_together_in_smoothing_lengths(run, tmp_path, nranks, newton)
     atoms = "".join(f"create_atoms {k} single {' '.join(f'{c:.17g}' for c in at)} units box\n" for k, at in zip(kind, x))
     style = STYLE.format(coarse=2 * A).replace("pair_coeff 1 2 tension yes", "")
     text = HEAD.replace("boundary", f"newton {newton}\nboundary") + atoms + style + "comm_modify vel no\n" + FIXES
-    run(text + "compute f all hvi/fragment/atom distance 1.1 h\ncompute n all hvi/fragment distance 1.1 h\nrun 0\nprint 'n $(c_n[1])'\nwrite_dump all custom end.dump id type mass x y z c_f modify sort id format float %.17g\n", nranks)
+    run(text + "compute f all hvi/fragment/atom distance 1.1 h\ncompute n all hvi/fragment distance 1.1 h\nrun 0\nprint 'n $(c_n[1])'\nwrite_dump all custom end.dump id type mass x y z vx vy vz c_f modify sort id format float %.17g\n", nranks)
     frame = hvi.Dump(str(tmp_path / "end.dump"), units="si", mirror="none")[0]
     pairs = cKDTree(frame.x).query_pairs(1.1 * 7.2e-4, output_type="ndarray")
     i, j = pairs.T
@@ -145,6 +146,9 @@ def test_what_hangs_together_in_smoothing_lengths(run, tmp_path, nranks, newton)
     number, label = connected_components(coo_matrix((np.ones(near.sum()), (i[near], j[near])), shape=(len(size),) * 2), directed=False)
     lowest = np.array([frame.ids[label == k].min() for k in range(number)])
     assert 20 < number < 390 and not near.all() and np.array_equal(frame["c_f"].astype(int), lowest[label])
+    assert np.array_equal(hvi.find(frame, distance=1.1, sizes=size).label, lowest[label])
+    with pytest.raises(HVIError, match="sizes go with a distance"):
+        hvi.find(frame, column="c_f", sizes=size)
 
 
 @pytest.mark.parametrize("command, message", [

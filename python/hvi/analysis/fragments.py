@@ -66,7 +66,7 @@ class Fragments:
         return pandas.DataFrame(self.table).set_index("id")
 
 
-def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, where=None, failed=None):
+def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, where=None, failed=None, sizes=None):
     """Fragments of a frame, by one of three rules; only particles that count connect others.
 
     source: a Frame, or a Universe or AtomGroup of hvi.open()
@@ -77,6 +77,8 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
     where: mask of particles that count, (n,) of bool, instead of axis and plane
     failed: with distance: particles that stay alone, as with damage yes, so that fragments are the sound pieces: a mask, (n,) of bool, or
         names of columns, see has_failed(); else fragments are what has come apart
+    sizes: with distance, of a frame without mirror planes: lengths of the particles, (n,); the distance is in units of the mean of two, as
+        distance R h of the compute with smoothing lengths
 
     With a column, pieces that hang together only through particles that do not count are still one fragment: the column
     does not tell.
@@ -86,6 +88,8 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
     closer to its image than that hangs together with it. For a column that was found with damage yes say who has failed, too.
     """
     frame = as_frame(source)
+    if sizes is not None and (distance is None or frame.planes or where is not None or axis is not None or plane is not None):
+        raise HVIError("sizes go with a distance, and with all particles of a frame without mirror planes: take frame.whole() or select() first")
     if column is None and bonds is None and distance is None:
         bonds = getattr(getattr(getattr(source, "universe", None), "trajectory", None), "bonds", None)
     _check_rule(column, bonds, distance, frame.planes)
@@ -117,7 +121,7 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
             pairs = _image_pairs(frame, frame.ids[bond_sources.rows_of(pairs, frame.ids)], distance, failed)
         label = components(cloud.ids, bond_sources.rows_of(pairs, cloud.ids))
     else:
-        pairs = _close_pairs(cloud, distance)
+        pairs = _close_pairs(cloud, distance, sizes)
         alone = np.tile(failed, 1 << len(frame.planes))[keep]
         label = components(cloud.ids, pairs[~alone[pairs].any(axis=1)])
     mass, table = cloud.m, tabulate(cloud, label)
@@ -201,16 +205,18 @@ def components(ids, pairs):
     return lowest[component]
 
 
-def _close_pairs(frame, distance):
+def _close_pairs(frame, distance, sizes=None):
     from scipy.spatial import cKDTree
 
     if not (distance > 0.0 and np.isfinite(distance)):
         raise HVIError(f"distance must be > 0, not {distance}")
     if not len(frame):
         return np.zeros((0, 2), dtype=np.int64)
-    x, owner = frame.box.images(frame.box.wrap(frame.x), distance) if frame.box else (frame.x, np.arange(len(frame)))
-    pairs = cKDTree(x).query_pairs(distance, output_type="ndarray")
-    near = np.sum((x[pairs[:, 0]] - x[pairs[:, 1]]) ** 2, axis=1) < distance**2
+    reach = distance if sizes is None else distance * np.max(sizes, initial=0.0)
+    x, owner = frame.box.images(frame.box.wrap(frame.x), reach) if frame.box else (frame.x, np.arange(len(frame)))
+    pairs = cKDTree(x).query_pairs(reach, output_type="ndarray")
+    limit = distance if sizes is None else 0.5 * distance * sizes[owner[pairs]].sum(axis=1)
+    near = np.sum((x[pairs[:, 0]] - x[pairs[:, 1]]) ** 2, axis=1) < limit**2
     return owner[pairs[near]]
 
 

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from .. import figures
 from ..analysis import fragments, maps
 from ..figures import sketch as sketches
+from ..shield.script import HANGS
 from . import render
 
 COLORS = [to_rgb(c) for c in ("#e2603a", "#6f9bd1", "#86b58a", "#b39ad0", "#d8b25a", "#9aa4ad")]  # projectile, wall 1, ...
@@ -153,8 +154,7 @@ def face(run, scene, k, rear):
 def body_of(run, scene, k):
     """particles of the largest sound piece of wall k: what is left of it"""
     mine = np.flatnonzero(scene.body == k)
-    reach = 1.5e-3 * max(run.dx, *(run.of_wall(j, "spacing_mm") * (2 if f"wall{j}_core_mm" in run.plan else 1) for j in range(1, run.walls + 1)))
-    found = fragments.find(scene.whole.select(scene.body == k), distance=reach, failed=fragments.FAILED)
+    found = fragments.find(scene.whole.select(scene.body == k), distance=HANGS, sizes=1e-3 * scene.spacing[mine], failed=fragments.FAILED)
     largest = np.argmax(found.table["mass"])
     return mine[found.row == largest]
 
@@ -180,10 +180,11 @@ def profile(run, scene, k, width=8.4):
     _draw(axes, scene.x[near], scene.radius[near], rgb[near], view, window, pixels)
     for value in (front, rear):
         axes.axhline(value, color="#20262c", lw=0.7, ls=":", zorder=3)
-    edges = np.arange(window[0], window[1] + dx, 1.5 * dx)
+    wide = scene.spacing[scene.body == k].max()
+    edges = np.arange(window[0], window[1] + wide, 1.5 * wide)
     mine = left & slice_
     place = np.digitize(scene.x[mine, 0], edges)
-    height = scene.x[mine, 2] + 0.5 * thick / run.of_wall(k, "layers")
+    height = scene.x[mine, 2] + 0.5 * thick / run.of_wall(k, "layers") * scene.spacing[mine] / run.spacings()[1 + k]
     top = np.array([height[place == j].max() if (place == j).any() else np.nan for j in range(1, len(edges))])
     axes.plot(0.5 * (edges[1:] + edges[:-1]), top, color="#c02020", lw=1.6, zorder=4, label="rear of what hangs together by sound material")
     axes.legend(fontsize=9, frameon=False, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderpad=0.1)

@@ -27,7 +27,7 @@ class Said(dict):
 
 
 class Scene:
-    """A frame of a run, whole, in mm, us and km/s: x, v (n, 3), body (n,): 0 the projectile, k wall k; radius (n,): of spheres of the particles' volume"""
+    """A frame of a run, whole, in mm, us and km/s: x, v (n, 3), body (n,): 0 the projectile, k wall k; radius (n,): of spheres of the particles' volume; spacing (n,)"""
 
     def __init__(self, frame, run):
         self.frame, whole = frame, frame.whole()
@@ -35,7 +35,7 @@ class Scene:
         self.time = 1e6 * frame.time
         self.x, self.v = 1e3 * whole.x, 1e-3 * whole.v
         kind = whole["type"].astype(int)
-        self.body, self.radius = run.bodies()[kind], run.radii()[kind]
+        self.body, self.radius, self.spacing = run.bodies()[kind], run.radii()[kind], run.spacings()[kind]
         self.failed = (whole["damage"] >= 1.0) | (whole["spalled"] > 0.0)
 
 
@@ -75,6 +75,11 @@ class Run:
     def bodies(self):
         """of each type: 0 the projectile, k wall k"""
         return self.by_type(list(range(self.walls + 1)), lambda k: k)
+
+    def spacings(self):
+        """the longest of a particle's cell, mm, for each type"""
+        longest = [self.dx] + [max(self.of_wall(k, "spacing_mm"), self.of_wall(k, "thickness_mm") / self.of_wall(k, "layers")) for k in range(1, self.walls + 1)]
+        return self.by_type(longest, lambda value: 2 * value)
 
     def radii(self):
         """of spheres of the volume of a particle, mm, for each type"""
