@@ -216,8 +216,9 @@ class Case:
 
     def check_core(self, k, wall, wrong):
         """of a wall of particles: its outer part must have two layers"""
-        if wall.core_mm <= 0:
-            wrong(f"wall {k}: core_mm", f"must be more than 0 mm, not {wall.core_mm:g}: it is the half side of the square that has particles of spacings_mm")
+        least = 2 * self.projectile.radius_mm
+        if wall.core_mm < least:
+            wrong(f"wall {k}: core_mm", f"must be {least:g} mm at least, the diameter of the projectile, not {wall.core_mm:g}: it is half the side of the square that has particles of spacings_mm")
         for which in range(len(self.spacings_mm)):
             layers = geometry.layers_of(self, k, which)
             if layers < 4 or layers % 2:

@@ -19,7 +19,7 @@ SHARE = 0.03  # of what a wall has been given: less that is still to come does n
 LEAK = 1e-3  # of the energy balance
 BESIDE = 1e-3  # of the projectile
 FINER = 1.05  # particles that much finer than those of a wall slip through between them
-BEYOND = 0.5  # of the plastic strain of a wall's rear, in the coarse particles of its outer part: then these decide, too
+BEYOND = 0.5  # of the plastic strain of a wall's rear, in the coarse particles of its outer part: then these may decide, too
 COARSER = 1.2  # a wall of particles that much coarser than those of what strikes it holds what a finer one does not
 HEAT = 1e-3  # of the energy of the shot
 
@@ -139,9 +139,6 @@ RULES = (
     Rule("coarser", UNLESS, lambda m: m.last and m.sieve > COARSER, "a single wall struck by a fragment holds from 6 to 15 percent too early with particles 1.4 times as coarse, from 10 to 20 percent and more with twice (examples/crater)",
          lambda m: f"the particles of wall {m.d} are {m.sieve:.2g} times as far apart as those of what strikes it: it holds what a finer one does not",
          lambda m: ({f"wall {m.d}: spacings_mm": None}, "take spacings for it as fine as those of the projectile" + ("; with core_mm they cost little" if m.case.walls[m.d - 1].method == "sph" else ""))),
-    Rule("beyond", UNLESS, lambda m: m.last and m.of("outer_plastic_strain") > BEYOND * m.of("rear_plastic_strain") > 0, "coarse particles hold what finer ones do not, so they must be away from what decides",
-         lambda m: f"beyond its core the rear of wall {m.d} has a plastic strain of {m.of('outer_plastic_strain'):.2g}, {m.of('rear_plastic_strain'):.2g} is the most there is: its outer part is too coarse for that",
-         lambda m: ({f"wall {m.d}: core_mm": None}, "take a larger core_mm for it")),
     Rule("few", UNLESS, lambda m: m.few, f"with fewer than {FEW} particles apart, other shifts of the lattice say anything",
          lambda m: f"no more than {m.parts} particles are apart behind wall {m.d}, and {FEW} are needed", lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
     Rule("no plate", UNLESS, lambda m: m.unknown, "a hole is what a plate around it has",
@@ -159,6 +156,9 @@ RULES = (
          lambda m: f"what has passed wall {m.d} has {m.of('cloud_energy_ratio'):.2g} of the energy of the shot, less than {SPARED:g}"),
     Rule("sound", HOLDS, lambda m: m.last and not m.plugged and not m.unknown and m.hole == 0 and m.apart == 0, "nothing came through",
          lambda m: f"wall {m.d} has no hole and no detached spall"),
+    Rule("beyond", NOTE, lambda m: m.last and m.of("outer_plastic_strain") > BEYOND * m.of("rear_plastic_strain") > 0, "coarse particles hold what finer ones do not, so they should be away from what decides",
+         lambda m: f"beyond its core the rear of wall {m.d} has a plastic strain of {m.of('outer_plastic_strain'):.2g}, {m.of('rear_plastic_strain'):.2g} is the most there is: its outer part is coarse for that",
+         lambda m: ({f"wall {m.d}: core_mm": None}, "take a larger core_mm for it")),
     Rule("heat", NOTE, lambda m: m.r["conversion_heat_ratio"] > HEAT, "energy that is not of the impact",
          lambda m: f"{100 * m.r['conversion_heat_ratio']:.2g} percent of the energy have become heat when elements became particles, and 0.1 are no matter",
          lambda m: ({"core_mm": None}, "take a wider core_mm")),
