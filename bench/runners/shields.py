@@ -41,7 +41,7 @@ class Shields:
     def published(self, names, finer=1.0):
         """[(Shot, Case), ...] of a study"""
         study = shots.Study(self.path)
-        study.rule = {name: value * (1.0 if name == "ratio" else float(finer)) for name, value in study.rule.items()}
+        study.rule = {name: value if name in ("ratio", "core") else value * float(finer) for name, value in study.rule.items()}
         return [(shot, study.case(shot)) for shot in shots.named(study.shots, names, self.path)]
 
     def case(self, variables, folder):
