@@ -263,7 +263,7 @@ def calibrate(*words):
 
 
 SHOTS = """list: shots.csv
-spacing: {across: 10, bumper_layers: 2, wall_layers: 3, ratio: 2}
+spacing: {across: 10, bumper_layers: 2, wall_layers: 3, ratio: 1}
 materials: {AA2017-T4: Al2017-T4, AA6061-T6: Al6061-T6}
 """
 LIST = """source,shotID,proj_mat,proj_diam,angle,velocity,bumper_mat,bumper_thick,standoff,wall_mat,wall_yield,wall_thick,result

@@ -16,7 +16,7 @@ D,B,AA2017-T4,,7.1,AA6061-T6,1.6,50,AA6061-T6,40,1.8,diameter,4.0,4.5,8,-
 """
 STUDY = """list: mine.csv
 across: [10]
-spacing: {bumper_layers: 2, wall_layers: 3, ratio: 2}
+spacing: {bumper_layers: 2, wall_layers: 3, ratio: 1}
 shifts: [0, 0.5]
 materials: {AA2017-T4: Al2017-T4, AA6061-T6: Al6061-T6}
 """
@@ -94,7 +94,7 @@ def test_wrong_list(mine, old, new, message):
 @pytest.mark.parametrize("old, new, message", [
     ("across: [10]", "across: [0]", "line 2: across: must be above 0, not 0"), ("across", "acros", "acros: no such key; did you mean across?"),
     ("across: [10]", "across: [10]\nbrackets: [V]", r"line 3: brackets: no bracket V \(known: W, D\)"),
-    (", AA6061-T6: Al6061-T6", "", "bracket W: no material for AA6061-T6"), ("ratio: 2", "ratio: -1", "spacing: ratio: must be above 0, not -1")])
+    (", AA6061-T6: Al6061-T6", "", "bracket W: no material for AA6061-T6"), ("ratio: 1", "ratio: -1", "spacing: ratio: must be above 0, not -1")])
 def test_wrong_study(mine, old, new, message):
     (mine / "mine.yaml").write_text(STUDY.replace(old, new, 1))
     with pytest.raises(HVIError, match=message):

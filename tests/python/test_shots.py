@@ -17,7 +17,7 @@ A,"two, large",AA99.9%,0.635,30,4,AA6061-T6,0.16,10.16,AA2219-T87,55,0.318,P
 B,middle,AA1100-O,0.4,0,7,AA6061-T6,0.1,10,AA7075-T6,73,0.12,P
 """
 STUDY = """list: mine.csv
-spacing: {across: 10, bumper_layers: 2, wall_layers: 3, ratio: 2}
+spacing: {across: 10, bumper_layers: 2, wall_layers: 3, ratio: 1}
 materials: {AA1100-O: Al1100-O, AA2017-T4: Al2017-T4, AA6061-T6: Al6061-T6, AA7075-T6: Al7075-T6, AA2219-T87: Al2219-T87}
 stand_ins: {AA99.9%: Al1100-O}
 finer: {factor: 0.75, shots: [small]}
@@ -67,6 +67,7 @@ def test_refused_lists(tmp_path, old, new, message):
 
 # ---------------------------------------------------------------------- studies
 def test_one_rule_for_all_shots(mine):
+    (mine / "mine.yaml").write_text(STUDY.replace("ratio: 1}", "ratio: 2}"))
     study = shots.Study("mine.yaml")
     small, large, middle = (study.case(shot) for shot in study.shots)
     assert small.spacings_mm == (0.318, 0.2385)  # D/10, and finer
@@ -78,6 +79,13 @@ def test_one_rule_for_all_shots(mine):
     assert thin.spacings_mm == (0.15, 0.1125) and thin.walls[1].spacings_mm == (0.3, 0.225)  # bumper/2, and twice that
     assert large.angle_deg == 30 and large.walls[1].gap_mm == 101.6
     assert (large.material, *(wall.material for wall in large.walls)) == ("Al1100-O.hvi", "Al6061-T6.hvi", "Al2219-T87.hvi")
+
+
+def test_a_rule_with_a_core(mine):
+    """as fine as the projectile, in a part of the gap"""
+    (mine / "mine.yaml").write_text(STUDY.replace("ratio: 1}", "ratio: 1, core: 0.25}"))
+    small = shots.Study("mine.yaml").case(shots.Study("mine.yaml").shots[0])
+    assert small.walls[1].spacings_mm == small.spacings_mm == (0.318, 0.2385) and small.walls[1].core_mm == 12.7 and small.walls[0].core_mm is None
 
 
 def test_all_shots_of_the_example_are_cases():
