@@ -125,7 +125,7 @@ RULES = (
          lambda m: f"wall {m.d} is still pushed, its momentum changes by {m.of('push_percent'):.2g} percent in {0.1 * m.shield.geometry.enough_us:.2g} us{m.ended}",
          lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
     Rule("bulges", UNLESS, lambda m: m.last and abs(m.of("bulge_m_s")) > BULGE, f"less than {BULGE:g} m/s is no more than the ringing of an elastic plate, and tears nothing",
-         lambda m: f"the bulge of wall {m.d} still moves, at {m.of('bulge_m_s'):.2g} m/s{m.ended}",
+         lambda m: f"the bulge of wall {m.d} still moves, at {m.of('bulge_m_s'):.3g} m/s{m.ended}",
          lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
     Rule("missed", UNLESS, lambda m: m.missed > BESIDE, f"{BESIDE:g} of the projectile is more than a stray particle",
          lambda m: f"{100 * m.missed:.2g} percent of the projectile passed beside wall {m.beside}",
