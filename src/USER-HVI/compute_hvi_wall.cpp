@@ -88,7 +88,7 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
                      arg[iarg + 1]);
       }
       iarg += 2;
-      is_scaled = iarg < narg && strcmp(arg[iarg], "h") == 0;
+      is_scaled = reach > 0.0 && iarg < narg && strcmp(arg[iarg], "h") == 0;
       if (is_scaled) iarg++;
     } else if (is_like)
       error->all(FLERR, "Compute hvi/wall like takes pieces and no other keyword, not {}",

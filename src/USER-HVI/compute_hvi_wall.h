@@ -80,8 +80,7 @@ class ComputeHVIWall : public ComputeHVIMatter {
   };
 
   int axis, across[2];
-  double
-      reach;    // particles closer than this (or times smoothing lengths) hang together; 0: columns without pieces only
+  double reach;    // particles closer than this, or this times h, hang together; 0: no pieces
   std::vector<Wall> walls;
   std::unique_ptr<ComputeHVIFragment> fragment;
   char *id_fix;

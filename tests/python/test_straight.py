@@ -27,7 +27,7 @@ def read(path, text=CASE):
     return cases.read(path)
 
 
-@pytest.mark.parametrize("change", [("", ""), ("speed_km_s: 5", "speed_km_s: 5\nangle_deg: 40"), ("tstop: 8", "tstop: 8, edge: clamp, rim: 1")])
+@pytest.mark.parametrize("change", [("", ""), ("speed_km_s: 5", "speed_km_s: 5\nangle_deg: 40"), ("tstop: 8", "tstop: 8, edge: clamp, rim: 1"), ("gap_mm: 8", "gap_mm: 8, core_mm: 3, spacings_mm: [0.5]")])
 def test_inputs_are_straight(tmp_path, change):
     """no label, jump or condition; at most 80 lines; the second differs only where it goes on"""
     for new in (True, False):
@@ -48,9 +48,10 @@ def test_lines_of_a_further_wall(tmp_path, thickness, gap, material, more):
     assert three - two == more and two <= 72
 
 
-def test_write_run_and_judge(lmp, tmp_path, capsys, monkeypatch):
+@pytest.mark.parametrize("change", [("", ""), ("gap_mm: 8", "gap_mm: 8, core_mm: 3, spacings_mm: [0.5]")], ids=["uniform", "core"])
+def test_write_run_and_judge(lmp, tmp_path, capsys, monkeypatch, change):
     """a folder that LAMMPS alone can run, with no materials elsewhere; cut into three it has the same bits, and both the same verdict"""
-    (tmp_path / "c.yaml").write_text(CASE)
+    (tmp_path / "c.yaml").write_text(CASE.replace(*change))
     monkeypatch.chdir(tmp_path)
     for folder in ("one", "three"):
         assert cli.main(["shield", "c.yaml", "--write", folder]) == 0

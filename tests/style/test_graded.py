@@ -117,7 +117,7 @@ def test_a_hole_in_the_core_is_that_of_a_fine_wall(run, tmp_path, radius):
     assert found["graded"][1:] == pytest.approx(found["uniform"][1:], rel=0.05)
 
 
-def test_strain_and_failure_of_the_outer_part(run):
+def test_strain_of_the_outer_part(run):
     """by hand: all of it strained, wherever the wall stands; layers are those of the core"""
     for front in (0.0, 8e-3, 12.34e-3):
         text = plate(GRADED, 2 * A) + f"displace_atoms all move 0 0 {front} units box\n" + FIXES + f"compute w all hvi/wall axis z wall 1 {front} {THICK} outer 2 layers 4 radius {RADIUS}\n"
@@ -155,6 +155,7 @@ def test_what_hangs_together_in_smoothing_lengths(run, tmp_path, nranks, newton)
     (f"compute w all hvi/wall axis z wall 1 0 {THICK} outer 1*2 wall 2 2e-3 1e-3", "walls 1 and 2 share a type"),
     (f"compute w all hvi/wall axis z wall 1 0 {THICK} outer 3", "out of bounds"),
     (f"compute w all hvi/wall axis z outer 2 wall 1 0 {THICK}", "outer belongs to a wall"),
+    (f"compute w all hvi/wall axis z wall 1 0 {THICK} outer 2 pieces no h", "Unknown compute hvi/wall keyword: h"),
     ("compute f all hvi/fragment distance h 2", "(Expected|expected)")])
 def test_wrong_input(run, command, message):
     r = run(plate(GRADED, 2 * A) + FIXES + command + "\nrun 0\n", expect_fail=True)
