@@ -62,7 +62,7 @@ HVIScheme::Traffic HVISchemeSolid::traffic() const
   t.all_forward += sizeof(Limits) / sizeof(double);
   if (set.laws.art_eps > 0.0) t.all_forward += HVI::SphStress::SENT;
   if (bodies) t.all_forward += HVI::SphPush::SENT;
-  if (set.riemann) t.all_forward += SphGradV::SENT_L;
+  if (set.riemann) t.all_forward += SphGradV::SENT_STRETCH;
   if (bodies) t.all_reverse *= 2;
   if (force->newton_pair) t.all_reverse += HVI::SphRates::FORCE;
   return t;
@@ -238,6 +238,8 @@ static VelocityGradient product(const VelocityGradient &a, const Symmetric &b)
 static Symmetric inverse(const SphGradV &M, double full, const bool *along)
 {
   static constexpr double ALONE = 0.2, ENOUGH = 0.35;
+  const double part = MAX(0.0, MIN(1.0, (full - ALONE) / (ENOUGH - ALONE)));
+  if (part == 0.0) return {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
   const Symmetric N = {along[0] ? M.mxx / M.nu : 1.0,
                        along[1] ? M.myy / M.nu : 1.0,
                        along[2] ? M.mzz / M.nu : 1.0,
@@ -245,7 +247,6 @@ static Symmetric inverse(const SphGradV &M, double full, const bool *along)
                        M.mxz / M.nu,
                        M.myz / M.nu};
   Symmetric inverse = HVI::limited_inverse(N);
-  const double part = MAX(0.0, MIN(1.0, (full - ALONE) / (ENOUGH - ALONE)));
   const double counts = part * part * (3.0 - 2.0 * part);
   double *const c = &inverse.xx;
   for (int k = 0; k < 6; k++) c[k] = counts * c[k] / M.nu + (k < 3 ? 1.0 - counts : 0.0);
@@ -436,7 +437,11 @@ void HVISchemeSolid::exchange()
     forward(records.art);
   }
   if (records.push) forward(records.push);
-  if (set.riemann) forward(records.gradv, SphGradV::SENT_L);
+  if (set.riemann) {
+    for (int i = 0; i < atom->nlocal; i++)
+      if (is_active(i)) records.gradv[i].keep_stretch();
+    forward(records.gradv, SphGradV::SENT_STRETCH);
+  }
   if (set.mirror.planes) images.fill_sums(records);
 }
 

@@ -116,7 +116,7 @@ SCENES = [
     # traction, and with bodies or rubble contact and push; limits, traction and push forward; L, M, nu of either back
     ("", "", 160 + 128 + 128 + 128 + 64, 21 + 20, 2 + 13 + 7, 2 * 16 + 3, ["viscosity", "stress", "corrected forces"],
      ", strength johnson-cook, damage johnson-cook, spall principal", ", liquid"),
-    ("dissipation riemann artstress 0.3 4", "damage no spall none", 160 + 128 + 128 + 128 + 64 + 64, 21 + 20, 8 + 13 + 7 + 9, 2 * 16 + 3,
+    ("dissipation riemann artstress 0.3 4", "damage no spall none", 160 + 128 + 128 + 128 + 64 + 64, 21 + 20, 8 + 13 + 7 + 6, 2 * 16 + 3,
      ["Riemann problems", "stress", "corrected forces", "artificial stress"], ", strength johnson-cook", ", liquid"),
 ]
 

@@ -45,6 +45,29 @@ static inline Vec abs(const Vec &x)
   return x < 0.0 ? -x : x;
 }
 
+// lanes of whole numbers: the bits of doubles, and what compares doubles, all bits where it holds
+
+typedef long long Bits __attribute__((vector_size(8 * LANES), may_alias));
+
+static inline Bits all_lanes(long long bits)
+{
+  return Bits{} + bits;
+}
+
+static inline Vec where(const Bits &holds, const Vec &x)    // else 0
+{
+  return (Vec) (holds & (Bits) x);
+}
+
+static inline bool any(const Bits &holds)
+{
+#if defined(__AVX__)
+  return __builtin_ia32_movmskpd256((Vec) holds) != 0;
+#else
+  return (holds[0] | holds[1]) != 0;
+#endif
+}
+
 static inline double sum(const Vec &x)
 {
   double s = 0.0;

@@ -13,6 +13,7 @@
 #include "hvi_vector.h"
 
 #include <cstdint>
+#include <cstring>
 
 // the records of SPH particles: what the loops over pairs read and add to; no LAMMPS in here
 
@@ -41,17 +42,28 @@ struct alignas(64) SphState {
   double rho;
   double body;    // see code()
 
-  // one number, for vectors: label of the body that it is part of, its type, and whether it is a solid that failed
+  // the bits of a whole number, for vectors: label of the body that it is part of, its type, and whether it is a solid
+  // that failed
 
   static constexpr int MOST_TYPES = 1023;
+  static constexpr int64_t RUBBLE = 1, TYPE = 2 * MOST_TYPES, LABEL = ~(TYPE | RUBBLE);
 
   static double code(int type, int64_t label = 0, bool rubble = false)
   {
-    return static_cast<double>((label << 11) + 2 * type + rubble);
+    const int64_t whole = (label << 11) + 2 * type + rubble;
+    double code;
+    memcpy(&code, &whole, sizeof(code));
+    return code;
   }
-  static int64_t label_of(double code) { return static_cast<int64_t>(code) >> 11; }
-  static int type_of(double code) { return (static_cast<int64_t>(code) >> 1) & MOST_TYPES; }
-  static bool is_rubble(double code) { return static_cast<int64_t>(code) & 1; }
+  static int64_t bits_of(double code)
+  {
+    int64_t whole;
+    memcpy(&whole, &code, sizeof(whole));
+    return whole;
+  }
+  static int64_t label_of(double code) { return bits_of(code) >> 11; }
+  static int type_of(double code) { return (bits_of(code) & TYPE) >> 1; }
+  static bool is_rubble(double code) { return bits_of(code) & RUBBLE; }
 
   int64_t label() const { return label_of(body); }
   int type() const { return type_of(body); }
@@ -90,14 +102,23 @@ struct alignas(64) SphStress {
 ------------------------------------------------------------------------- */
 
 struct alignas(64) SphGradV {
-  static constexpr int SENT = 16, SENT_L = 9;    // all; L only
-  double xx, xy, xz, yx;                         // L_ab: of v_a along b
+  static constexpr int SENT = 16;
+  double xx, xy, xz, yx;    // L_ab: of v_a along b
   double yy, yz, zx, zy;
   double zz, mxx, myy, mzz;
   double mxy, mxz, myz;
   double nu;
 
   Symmetric inverse() const { return {mxx, myy, mzz, mxy, mxz, myz}; }
+
+  // its first numbers are, when forces are evaluated, what Riemann problems need of L M^-1: the symmetric part
+
+  static constexpr int SENT_STRETCH = 6;
+  Symmetric &stretch() { return reinterpret_cast<Symmetric &>(xx); }
+  void keep_stretch()
+  {
+    stretch() = {xx, yy, zz, 0.5 * (xy + yx), 0.5 * (xz + zx), 0.5 * (yz + zy)};
+  }
   Symmetric normal() const { return {xx, yy, zz, xy, xz, yz}; }
   void set_inverse(const Symmetric &s)
   {

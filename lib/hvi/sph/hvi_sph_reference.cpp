@@ -523,8 +523,8 @@ namespace {
       q = 0.5 * si.rho * sj.rho * viscosity(pair);
     else if (pair.vx < 0.0) {
       const Shock shock(pair, T_i.p, T_j.p);
-      const Matrix L_i = matrix(work.records.gradv[pair.i].xx),
-                   L_j = matrix(work.records.gradv[pair.j].xx);
+      const Matrix L_i = symmetric(work.records.gradv[pair.i].stretch().xx),
+                   L_j = symmetric(work.records.gradv[pair.j].stretch().xx);
       const Vector e = pair.x / pair.r;
       const double a = shock.a, c = std::min(si.c, sj.c);
       const double a_i = 2.0 * pair.r * e.dot(L_i * e) - a, a_j = 2.0 * pair.r * e.dot(L_j * e) - a;

@@ -23,22 +23,26 @@ namespace HVI {
 struct SphBonds {
   Vec bonded = {};    // 1: hang together
   Vec rubble = {};    // 1: would, but both have failed
-  double sound;
-  int64_t label;
+  bool failed;
+  Bits own;
   const double *tension;    // by type of the neighbor
+  double own_tension;
 
   SphBonds(const SphState &i, const double *tension_in) :
-      sound(i.is_rubble() ? 0.0 : 1.0), label(i.label()), tension(tension_in)
+      failed(i.is_rubble()), own(all_lanes(SphState::bits_of(i.body))), tension(tension_in),
+      own_tension(tension ? tension[i.type()] : 1.0)
   {
   }
   inline void find(const Vec &body_j)
   {
-    for (int k = 0; k < LANES; k++) {
-      const double tied = tension[SphState::type_of(body_j[k])];
-      const bool failed = SphState::is_rubble(body_j[k]);
-      bonded[k] = !failed && SphState::label_of(body_j[k]) == label ? tied * sound : 0.0;
-      rubble[k] = failed ? tied * (1.0 - sound) : 0.0;
-    }
+    const Bits code = (Bits) body_j, apart = code ^ own;
+    Vec tied = Vec{} + own_tension;
+    if (any((apart & SphState::TYPE) != 0))
+      for (int k = 0; k < LANES; k++) tied[k] = tension[SphState::type_of(body_j[k])];
+    if (failed)
+      rubble = where((code & SphState::RUBBLE) != 0, tied);
+    else
+      bonded = where((apart & (SphState::LABEL | SphState::RUBBLE)) == 0, tied);
   }
 
   // how much of what does not hang together counts: all of it under pressure, or while it comes
@@ -127,8 +131,8 @@ inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int 
       Vec second[4];
       read_columns(state, j, 1, second);
       bonds.find(second[3]);
-      if (sum(bonds.bonded) > 0.0) add(bonds.bonded, gradv, sum_i);
-      if (sum(one - bonds.bonded) > 0.0) {
+      if (any(bonds.bonded > 0.0)) add(bonds.bonded, gradv, sum_i);
+      if (any(bonds.bonded < 1.0)) {
         const Vec rdotv = d[0] * a[0] + d[1] * a[1] + d[2] * a[2];
         Vec sum_c[16] = {};
         add(bonds.touching(si, second[0], second[1], second[2], r, rdotv), contact, sum_c);
@@ -160,7 +164,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
   const SphTwoKernels<Kernel, SCENE> kernels(laws, pi);
   const SphState si = records.state[i];
   const SphTraction T_i = records.traction[i];
-  const SphGradV L_i = SCENE & SPH_RIEMANN ? records.gradv[i] : SphGradV{};
+  const Symmetric L_i = SCENE & SPH_RIEMANN ? records.gradv[i].stretch() : Symmetric{};
   const double c_i = si.c, rho_i = si.rho, V_i = T_i.volume;
   SphBonds bonds(si, laws.row_tension);
 
@@ -194,7 +198,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
     if (SCENE & SPH_BODIES) {
       bonds.find(second[3]);
       bonded = bonds.bonded;
-      for (int k = 0; k < LANES; k++) {
+      for (int k = 0; k < LANES && !(SCENE & SPH_RIEMANN); k++) {
         const int jtype = SphState::type_of(second[3][k]);
         a[k] = laws.row_a[jtype];
         b[k] = laws.row_b[jtype];
@@ -227,26 +231,25 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
 
     // dissipation: a pressure between the two, on the area 2 V_i V_j |grad W|
 
-    const bool nearing = sum(rdotv < 0.0 ? one : zero) > 0.0;
+    const bool nearing = any(rdotv < 0.0);
     Vec q = zero;
     if (nearing && (SCENE & SPH_RIEMANN)) {
-      Vec L[12];
-      for (int k = 0; k < 3; k++) read_columns(records.gradv, j, k, L + 4 * k);
+      Vec L[8];    // as in Symmetric
+      for (int k = 0; k < 2; k++) read_columns(records.gradv, j, k, L + 4 * k);
       const Vec &u = rdotv;
       const auto along = [&](const auto &xx, const auto &yy, const auto &zz, const auto &xy,
                              const auto &xz, const auto &yz) {
         return 2.0 *
-            (d[0] * (xx * d[0] + xy * d[1] + xz * d[2]) + d[1] * (yy * d[1] + yz * d[2]) +
-             zz * d[2] * d[2]);
+            (d[0] * (xx * d[0] + 2.0 * (xy * d[1] + xz * d[2])) +
+             d[1] * (yy * d[1] + 2.0 * yz * d[2]) + zz * d[2] * d[2]);
       };
-      const Vec ahead_i =
-          along(L_i.xx, L_i.yy, L_i.zz, L_i.xy + L_i.yx, L_i.xz + L_i.zx, L_i.yz + L_i.zy);
-      const Vec ahead_j = along(L[0], L[4], L[8], L[1] + L[3], L[2] + L[6], L[5] + L[7]);
+      const Vec ahead_i = along(L_i.xx, L_i.yy, L_i.zz, L_i.xy, L_i.xz, L_i.yz);
+      const Vec ahead_j = along(L[0], L[1], L[2], L[3], L[4], L[5]);
       const Vec p = T_i.p - p_j;
       Vec z_i, z_j;
       sph_impedances(rho_i, c_i, rho_j, c_j, r, u, p, z_i, z_j);
       const Vec c = r * (c_i < c_j ? zero + c_i : c_j);
-      const Vec trace_j = -(L[0] + L[4] + L[8]);
+      const Vec trace_j = -(L[0] + L[1] + L[2]);
       const double trace_i = -(L_i.xx + L_i.yy + L_i.zz);
       const Vec most = trace_i > trace_j ? zero + trace_i : trace_j;
       const Vec steep =
@@ -269,7 +272,7 @@ inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, 
     act(half, half);
 
     if (SCENE & SPH_BODIES) {
-      if (sum(one - bonded) > 0.0) {
+      if (any(bonded < 1.0)) {
         const SphPush P_i = records.push[i];
         Vec P[8];
         for (int k = 0; k < 2; k++) read_columns(records.push, j, k, P + 4 * k);

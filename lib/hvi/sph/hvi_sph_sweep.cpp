@@ -110,7 +110,6 @@ namespace {
         __builtin_prefetch(&work.records.traction[j].zz);
         if (SCENE & SPH_RIEMANN) {
           __builtin_prefetch(&work.records.gradv[j]);
-          __builtin_prefetch(&work.records.gradv[j].zz);
         }
       } else if (SCENE & SPH_RIEMANN) {
         __builtin_prefetch(&work.records.rates[j], 1);
