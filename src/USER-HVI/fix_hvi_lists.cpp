@@ -17,6 +17,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "hvi_mesh.h"
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -40,9 +41,9 @@ static bool making = false;    // else it stands in an input
 /* ---------------------------------------------------------------------- */
 
 FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), moved(nullptr), going(nullptr), nmax(0), farthest{}, beyond{}, unseen{},
-    delay(0), relative(true), ahead(false), made(0), next(0), looked(0), known(false),
-    leaving(false)
+    Fix(lmp, narg, arg), has_rows(false), moved(nullptr), going(nullptr),
+    nmax(0), farthest{}, beyond{}, unseen{}, delay(0), relative(true), ahead(false), made(0),
+    next(0), looked(0), known(false), leaving(false)
 {
   if (!making)
     error->all(FLERR, "Fix hvi/lists is made by pair styles and cannot be given in an input");
@@ -97,6 +98,18 @@ bool FixHVILists::in_charge() const
       !domain->triclinic && comm->mode == Comm::SINGLE;
 }
 
+// else lists lack pairs, or say more of them than that they are neighbors, or cells are much wider than those need
+
+bool FixHVILists::may_keep_rows(double cut) const
+{
+  static constexpr double WIDE = 1.5;
+  if (comm->cutghostuser - neighbor->skin > WIDE * cut) return false;
+  return in_charge() && !utils::strmatch(force->pair_style, "^hybrid") &&
+      neighbor->style == Neighbor::BIN &&
+      neighbor->nex_type + neighbor->nex_group + neighbor->nex_mol == 0 &&
+      atom->molecular == Atom::ATOMIC && !HVI::find_mesh(lmp);
+}
+
 /* ---------------------------------------------------------------------- */
 
 void FixHVILists::setup_pre_neighbor()
@@ -118,6 +131,10 @@ void FixHVILists::pre_neighbor()
 
   const double reach = MAX(cut, comm->cutghostuser - neighbor->skin);
   motion.start(nlocal + atom->nghost, atom->x, reach, neighbor->skin);
+  if (has_rows)
+    made_rows.start(motion,
+                    {nlocal, nlocal + atom->nghost, atom->x, atom->type, neighbor->cutneighsq,
+                     neighbor->cutneighmax * neighbor->cutneighmax, force->newton_pair != 0});
 
   // Exchange reaches the ranks next door.  Who owns the place half-way between two has both, as owned or
   // ghosts, unless they are more than two cutoffs of ghosts apart in some direction.  Both does
@@ -280,5 +297,6 @@ void FixHVILists::unpack_forward_comm(int n, int first, double *buf)
 
 double FixHVILists::memory_usage()
 {
-  return motion.bytes() + (hold.capacity() + (ahead ? 6.0 : 3.0) * nmax) * sizeof(double);
+  return motion.bytes() + made_rows.bytes() +
+      (hold.capacity() + (ahead ? 6.0 : 3.0) * nmax) * sizeof(double);
 }

@@ -17,6 +17,7 @@ FixStyle(hvi/lists,FixHVILists);
 
 #include "fix.h"
 #include "hvi_motion.h"
+#include "hvi_rows.h"
 
 #include <vector>
 
@@ -48,10 +49,19 @@ class FixHVILists : public Fix {
       3;    // doubles to each ghost in each step, while in charge; twice as many if ahead
 
   bool in_charge() const;
+
+  // Rows of the half list are made where they are asked for.  keep_rows(): said in init_style(), for then no
+  // other list is asked for; may_keep_rows(): whether that can be.
+
+  bool may_keep_rows(double cut) const;
+  void keep_rows(bool keeps) { has_rows = keeps; }
+  HVI::NeighborRows *rows() { return has_rows ? &made_rows : nullptr; }
   const HVI::RelativeMotion &cells() const { return motion; }
 
  private:
   HVI::RelativeMotion motion;
+  HVI::NeighborRows made_rows;
+  bool has_rows;
   std::vector<double> hold;    // positions of owned particles when lists were made
   double **moved, **going;     // of owned particles and ghosts, since then; velocities, if ahead
   int nmax;

@@ -400,6 +400,10 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
 
   for (int i = 0; i < atom->nlocal; i++) {
     if (!moves(i)) continue;
+    if (is_still(i)) {
+      for (int k = 0; k < 3; k++) atom->x[i][k] += dtv * atom->v[i][k];
+      continue;
+    }
     const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     if (solid && has_material(i)) {
       missed += first_half_solid(i, dtfm);
@@ -481,7 +485,7 @@ void FixHVISPH::final_integrate()
   swiftest = 0.0;
 
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!moves(i)) continue;
+    if (!moves(i) || is_still(i)) continue;
     const double dtfm = dtf / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]);
     for (int k = 0; k < 3; k++) atom->v[i][k] += dtfm * atom->f[i][k];
     Extra &e = extra[i];
@@ -492,7 +496,7 @@ void FixHVISPH::final_integrate()
       const double beyond = missed_work(i), by_L = -fields.density(i) * fields.divergence(i);
       gain -= beyond;
       missed += dtf * beyond;
-      e.step = dtv;
+      e.step = may_be_still(i) ? -dtv : dtv;
 
       // what is not by L is interface density dissipation
 
@@ -520,11 +524,45 @@ void FixHVISPH::final_integrate()
   }
 }
 
+/* ----------------------------------------------------------------------
+   A particle of a solid is still if it is inactive and a step changes no number of it but its place, so that all else
+   can be left out, to the last bit.  may_be_still() is asked at the end of a step, is_still() as long as step
+   says so.
+------------------------------------------------------------------------- */
+
+bool FixHVISPH::may_be_still(int i) const
+{
+  const Extra &e = extra[i];
+  if (!store->fields.asleep(i) || !is_left_alone(i)) return false;
+  for (int k = 0; k < 3; k++)
+    if (e.old_a[k] != 0.0 || e.v_work[k] != atom->v[i][k]) return false;
+  return std::isnan(e.old_drho) && e.old_de == 0.0 && e.drho == 0.0 && e.de == 0.0;
+}
+
+bool FixHVISPH::is_still(int i) const
+{
+  return store->fields.asleep(i) && extra[i].step < 0.0 && is_left_alone(i);
+}
+
+// by forces, and by fixes that change it themselves
+
+bool FixHVISPH::is_left_alone(int i) const
+{
+  const double *const f = atom->f[i], *const v = atom->v[i], *const vest = atom->vest[i];
+  for (int k = 0; k < 3; k++)
+    if (f[k] != 0.0 || vest[k] != v[k]) return false;
+  return atom->drho[i] == 0.0 && atom->desph[i] == 0.0 && atom->rho[i] == extra[i].new_rho &&
+      atom->esph[i] == extra[i].rates_esph;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void FixHVISPH::post_run()
 {
-  for (int i = 0; i < atom->nlocal; i++) extra[i].mark = remembers(i) ? fingerprint(i) : 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    extra[i].mark = remembers(i) ? fingerprint(i) : 0;
+    if (extra[i].step < 0.0) extra[i].step = last;
+  }
   stepping = 0;
 }
 
@@ -536,6 +574,7 @@ FixHVISPH::Extra FixHVISPH::stored(int i) const
 {
   Extra e = extra[i];
   if (stepping) e.mark = remembers(i) ? fingerprint(i) : 0;
+  if (e.step < 0.0) e.step = last;
   return e;
 }
 

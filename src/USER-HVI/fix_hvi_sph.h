@@ -47,8 +47,11 @@ struct HVISPHExtra {
   double frozen = 0.0;           // 1: takes no part any more
   double body = -1.0;            // of solids: label of what hangs together; -1: none yet
   double new_rho =
-      0.0;              // density at the end of the step that led to the last forces; 0: of a fluid
-  double step = 0.0;    // that ended with the last forces; 0: none
+      0.0;    // density at the end of the step that led to the last forces; 0: of a fluid
+
+  // that ended with the last forces; 0: none; below 0, in a run: the particle is still, see FixHVISPH::is_still()
+
+  double step = 0.0;
 };
 
 class FixHVISPH :
@@ -164,6 +167,9 @@ class FixHVISPH :
   bool remembers(int) const;
   void keep_places();
   double first_half_solid(int, double dtfm);
+  bool is_still(int) const;
+  bool may_be_still(int) const;
+  bool is_left_alone(int) const;
   double missed_work(int) const;
   double missed_kick(int) const;
   uint64_t fingerprint(int) const;

@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 using MathSpecial::square;
@@ -93,16 +94,21 @@ void HVIScheme::start()
     find_neighbors();
   if (set.mirror.planes) find_images();
   const int nrecords = set.mirror.planes ? MAX(atom->nmax, images.end()) : atom->nmax;
-  fields.grow(nrecords, set.mirror.planes ? nrecords / 16 : 0);
+  const bool lost = fields.grow(nrecords, set.mirror.planes ? nrecords / 16 : 0);
   find_inactive();
   gather_limits();
-  gather_records();
   choose_rows();
+  choose_records(lost);
+  gather_records();
   if (set.mirror.planes) images.fill(set.mirror, fields.view());
 
-  const NeighList &list = *pairs.style->list;
   work.records = fields.view();
-  work.list = {(int) rows.size(), rows.data(), list.numneigh, list.firstneigh};
+  if (const HVI::NeighborRows *const made = pairs.lists->rows())
+    work.list = {(int) rows.size(), rows.data(), made->number.data(), made->first.data()};
+  else {
+    const NeighList &list = *pairs.style->list;
+    work.list = {(int) rows.size(), rows.data(), list.numneigh, list.firstneigh};
+  }
   work.type = atom->type;
   work.images = set.mirror.planes ? &images : nullptr;
   work.embedded = fields.embedded.empty() ? nullptr : fields.embedded.data();
@@ -147,15 +153,19 @@ void HVIScheme::gather_records()
   const double *const rho = atom->rho;
   const int nall = atom->nlocal + atom->nghost;
   const HVI::SphView &records = fields.view();
-  fastest = alone = 0.0;
-  narrowest = HVI::NO_BOUND;
+  const bool all = (int) filled.size() == nall;
+  if (all) resting = {};
+  fastest = resting.fastest;
+  narrowest = resting.narrowest;
+  alone = 0.0;
   eos_states.assign(atom->ntypes + 1, EosState());
 
-  for (int i = 0; i < nall; i++) {
+  for (const int i : filled) {
     if (fields.is_idle(i)) continue;
     records.rates[i] = {};
     if (records.gradv) records.gradv[i] = {};
     if (records.contact) records.contact[i] = {};
+    if (records.push) records.push[i] = {};
     if (records.slopes) records.slopes[i] = {};
     const int itype = atom->type[i];
     if (!pairs.is_ours[itype]) continue;    // of another style in a hybrid
@@ -192,8 +202,12 @@ void HVIScheme::gather_records()
     s.rho = rho[i];
     s.body = HVI::SphState::code(itype);
     s.c = std::sqrt(gather(i, known, s));
-    double &most = has_neighbor[i] ? fastest : alone;
+    const bool rests = is_at_rest(i);
+    double &most = has_neighbor[i] || rests ? fastest : alone;
     if (!(s.c <= most * place.h)) most = s.c / place.h;
+    if (!rests) continue;
+    resting.fastest = std::max(resting.fastest, s.c / place.h);
+    resting.narrowest = std::min(resting.narrowest, place.h);
   }
 }
 
@@ -292,6 +306,14 @@ void HVIScheme::find_inactive()
     sleepers[i] = pairs.is_ours[atom->type[i]] && cells.asleep(motion.cell_of(i));
 }
 
+bool HVIScheme::is_at_rest(int i) const
+{
+  const HVI::NeighborRows *const made = pairs.lists->rows();
+  if (!made || fields.sleepers.empty()) return false;
+  const int cell = pairs.lists->cells().cell_of(i);
+  return cells.asleep(cell) && !made->is_lonely(cell);
+}
+
 /* ----------------------------------------------------------------------
    the rows of the list that must be gone through: of active particles, and where these have sums over all of
    their neighbors, of those next to them
@@ -299,17 +321,63 @@ void HVIScheme::find_inactive()
 
 void HVIScheme::choose_rows()
 {
-  const NeighList &list = *pairs.style->list;
   const std::vector<char> &sleepers = fields.sleepers;
   const HVI::RelativeMotion &motion = pairs.lists->cells();
   if (!sleepers.empty() && all_sums) cells.spread(motion);
   rows.clear();
+  if (const HVI::NeighborRows *const made = pairs.lists->rows()) {
+    for (int c = 0; c < made->cells(); c++) {
+      if (!sleepers.empty() && !(all_sums ? cells.near_awake(c) : !cells.asleep(c))) continue;
+      make_rows(c);
+      rows.insert(rows.end(), made->begin(c), made->end(c));
+    }
+    return;
+  }
+
+  const NeighList &list = *pairs.style->list;
   for (int ii = 0; ii < list.inum; ii++) {
     const int i = list.ilist[ii];
     if (fields.is_idle(i)) continue;
     if (sleepers.empty() || (all_sums ? cells.near_awake(motion.cell_of(i)) : !sleepers[i]))
       rows.push_back(i);
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void HVIScheme::choose_records(bool lost)
+{
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  const std::vector<char> &sleepers = fields.sleepers;
+  const HVI::RelativeMotion &motion = pairs.lists->cells();
+  active.clear();
+  for (int i = 0; i < nlocal; i++)
+    if (sleepers.empty() || !sleepers[i]) active.push_back(i);
+
+  reached.swap(reached_before);
+  reached.clear();
+  const bool some = !sleepers.empty() && all_sums && pairs.lists->rows();
+  if (some) {
+    std::vector<int> of_ghosts;
+    for (int i = nlocal; i < nall; i++) of_ghosts.push_back(motion.cell_of(i));
+    cells.reach_out(motion, of_ghosts);
+    for (int i = 0; i < nlocal; i++)
+      if (cells.reached(motion.cell_of(i))) reached.push_back(i);
+  } else
+    reached = active;
+
+  if (!some || lost || neighbor->ago == 0 || looks_at_all()) {
+    filled.resize(nall);
+    std::iota(filled.begin(), filled.end(), 0);
+    return;
+  }
+
+  // what has come to rest is filled once more, as that
+
+  filled = reached;
+  for (const int i : reached_before)
+    if (!cells.reached(motion.cell_of(i))) filled.push_back(i);
+  for (int i = nlocal; i < nall; i++) filled.push_back(i);
 }
 
 /* ----------------------------------------------------------------------
@@ -321,11 +389,12 @@ void HVIScheme::scatter()
 {
   double *const *const f = atom->f;
   const HVI::SphRates *const rates = fields.view().rates;
-  const int n = atom->nlocal + (force->newton_pair ? atom->nghost : 0);
+  const int n = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
   const int integrated = integrator ? integrator->groupbit : 0;
 
   double heating = 0.0;
-  for (int i = 0; i < n; i++) {
+  for (const int i : filled) {
+    if (i >= n) break;
     if (fields.is_idle(i)) continue;
     f[i][0] += rates[i].fx;
     f[i][1] += rates[i].fy;
@@ -341,19 +410,58 @@ void HVIScheme::scatter()
 
 /* ----------------------------------------------------------------------
    Sound counts for the time step where it can go to a neighbor: no particle is within reach that is not in
-   the list.  Of a pair on two ranks the ghost counts on the rank that has the pair.
+   the list.  Of a pair on two ranks the ghost counts on the rank that has the pair.  Rows that are made where they are
+   asked for are those of active particles, and more: inactive ones count as if they had neighbors.
 ------------------------------------------------------------------------- */
 
 void HVIScheme::find_neighbors()
 {
+  const int nall = atom->nlocal + atom->nghost;
+  has_neighbor.assign(nall, 0);
+  if (const HVI::NeighborRows *const made = pairs.lists->rows()) {
+    for (int c = 0; c < made->cells(); c++)
+      if (made->has(c)) note_neighbors(c);
+    return;
+  }
   const NeighList &list = *pairs.style->list;
-  has_neighbor.assign(atom->nlocal + atom->nghost, 0);
   for (int ii = 0; ii < list.inum; ii++) {
     const int i = list.ilist[ii], n = list.numneigh[i];
     const int *const jlist = list.firstneigh[i];
     if (n) has_neighbor[i] = 1;
     for (int jj = 0; jj < n; jj++) has_neighbor[jlist[jj] & NEIGHMASK] = 1;
   }
+}
+
+void HVIScheme::make_rows(int cell)
+{
+  HVI::NeighborRows &made = *pairs.lists->rows();
+  if (made.has(cell)) return;
+  made.make(cell);
+  note_neighbors(cell);
+}
+
+void HVIScheme::note_neighbors(int cell)
+{
+  const HVI::NeighborRows &made = *pairs.lists->rows();
+  for (const int *i = made.begin(cell); i < made.end(cell); i++) {
+    const int *const row = made.first[*i], n = made.number[*i];
+    if (n) has_neighbor[*i] = 1;
+    for (int k = 0; k < n; k++) has_neighbor[row[k]] = 1;
+  }
+}
+
+HVI::SphList HVIScheme::all_pairs()
+{
+  HVI::NeighborRows *const made = pairs.lists->rows();
+  if (!made) {
+    const NeighList &list = *pairs.style->list;
+    return {list.inum, list.ilist, list.numneigh, list.firstneigh};
+  }
+  if ((int) has_neighbor.size() != atom->nlocal + atom->nghost) find_neighbors();
+  for (int c = 0; c < made->cells(); c++) make_rows(c);
+  all_rows.resize(atom->nlocal);
+  std::iota(all_rows.begin(), all_rows.end(), 0);
+  return {atom->nlocal, all_rows.data(), made->number.data(), made->first.data()};
 }
 
 /* ---------------------------------------------------------------------- */

@@ -80,6 +80,7 @@ class HVIScheme : protected Pointers {
   void unpack_reverse(int n, const int *list, const double *buf);
 
   const HVI::Images &mirror_images() const { return images; }
+  HVI::SphList all_pairs();    // the half list, with the rows of inactive particles
   void tighten(HVI::TimeStepBounds &) const;
   std::string fastest_signal() const;    // for an error message: of which particle, and its state
   double bytes() const
@@ -110,6 +111,10 @@ class HVIScheme : protected Pointers {
   virtual void evaluate() = 0;
   virtual double gather(int i, const EosState &, HVI::SphState &) = 0;
   virtual void gather_limits() {}    // of stress, before records of particles are filled
+
+  // whether places of inactive particles are asked for in this step
+
+  virtual bool looks_at_all() const { return false; }
   virtual void forces_done() {}
 
   // at the end of a constructor: terms of the scheme, beside common ones; whether undisturbed matter may be left out
@@ -118,7 +123,11 @@ class HVIScheme : protected Pointers {
   void start();    // images, inactive particles, records of owned particles, ghosts and images
   double mass(int i) const;
   bool has_record(int i) const;    // of this style, and neither idle nor frozen
-  bool is_active(int i) const { return has_record(i) && !fields.asleep(i); }
+  template <class Work> void each_active(const Work &work) const    // owned particle
+  {
+    for (const int i : active)
+      if (has_record(i)) work(i);
+  }
   void take_out(int i);
   [[noreturn]] void no_answer(int i, double rho) const;
   template <class Record> void forward(Record *, int number = Record::SENT, int first = 0);
@@ -135,12 +144,23 @@ class HVIScheme : protected Pointers {
   } quiet;
   bool all_sums = false;    // particles have sums over all of their neighbors, be these inactive
 
+  // Whose records are filled, owned ones first: those of rows, and what is next to these; what has just come to
+  // rest; all ghosts; all when lists are new.  Others keep what they had, for nothing has happened to them since.
+
+  std::vector<int> filled;
+
  private:
   bool prepared = false;
   bool placed = false;    // all particles are in cells
   HVI::SphKept kept;
-  std::vector<char> has_neighbor;      // in the list, or its own image: owned and ghosts
-  std::vector<int> rows;               // of the list, that are gone through
+  std::vector<char> has_neighbor;              // in the list, or its own image: owned and ghosts
+  std::vector<int> rows;                       // of the list, that are gone through
+  std::vector<int> all_rows;                   // if they are made where they are asked for
+  std::vector<int> active;                     // owned particles to which something may happen
+  std::vector<int> reached, reached_before;    // owned, where rows or neighbors in rows can be
+  struct {
+    double fastest = 0.0, narrowest = HVI::NO_BOUND;
+  } resting;    // of inactive particles, since lists were made: the largest 1/time of a signal, the smallest h
   std::vector<EosState> eos_states;    // by type: of the last particle that was asked for
   double fastest =
       0.0;    // of the last forces: 1/time in which signals pass half of what a kernel reaches
@@ -154,10 +174,14 @@ class HVIScheme : protected Pointers {
 
   void find_quiet(bool can);
   void find_neighbors();
+  void make_rows(int cell);
+  void note_neighbors(int cell);
+  bool is_at_rest(int i) const;    // in a cell where nothing happens: owned particle or ghost
   void find_images();
   void find_inactive();
   void gather_records();
   void choose_rows();
+  void choose_records(bool lost);
   void scatter();
   double fastest_to_images(double far) const;
 };

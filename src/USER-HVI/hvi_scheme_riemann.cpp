@@ -117,7 +117,8 @@ double HVISchemeRiemann::gather(int i, const EosState &eos, HVI::SphState &s)
 void HVISchemeRiemann::finish_slopes()
 {
   const HVI::SphView &records = work.records;
-  for (int i = 0; i < atom->nlocal; i++) {
+  for (const int i : filled) {
+    if (i >= atom->nlocal) break;
     if (!pairs.is_ours[atom->type[i]]) continue;
     HVI::SphSlopes &slopes = records.slopes[i];
     const double start = set.h[atom->type[i]], h = records.place[i].h;

@@ -141,13 +141,18 @@ double HVISchemeSolid::gather(int i, const EosState &eos, HVI::SphState &s)
    particles clump only, which heals: then labels are those of the start.
 ------------------------------------------------------------------------- */
 
-void HVISchemeSolid::label_bodies()
+bool HVISchemeSolid::looks_at_all() const
 {
   static constexpr int EVERY = 100;
+  return !integrator->is_due() || (can_fail && update->ntimestep % EVERY == 0);
+}
+
+void HVISchemeSolid::label_bodies()
+{
   if (!(terms() & HVI::SPH_BODIES)) return;
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   if (integrator->is_due()) {
-    if (!can_fail || update->ntimestep % EVERY != 0) return;
+    if (!looks_at_all()) return;
   } else {    // in a setup
     int anew = 0, any;
     for (int i = 0; i < nlocal; i++)
@@ -168,7 +173,7 @@ void HVISchemeSolid::label_bodies()
     if (is_sound(i)) ids[i] = is_embedded(i) ? atom->tag[i] : (int64_t) highest + atom->tag[i];
 
   components.start(ids, nall);
-  const NeighList &list = *pairs.style->list;
+  const HVI::SphList list = all_pairs();
   for (int ii = 0; ii < list.inum; ii++) {
     const int i = list.ilist[ii];
     if (!is_sound(i)) continue;
@@ -209,9 +214,6 @@ void HVISchemeSolid::sum_gradients()
 {
   const HVI::SphView &records = work.records;
   work.half_step = 0.5 * integrator->step();
-  if (records.push)
-    for (int i = 0; i < atom->nlocal; i++)
-      if (fields.asleep(i)) records.push[i] = {};
   sweeps->first(work);
   if (set.mirror.planes) images.fold_sums(records);
   if (!force->newton_pair) return;
@@ -318,8 +320,8 @@ void HVISchemeSolid::correct_gradients()
 {
   const HVI::SphView &records = work.records;
   const double half = 0.5 * integrator->step();
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_active(i) || is_embedded(i)) continue;
+  each_active([&](int i) {
+    if (is_embedded(i)) return;
     const HVI::SphState &s = records.state[i];
     SphTraction &T = records.traction[i];
     SphGradV &own = records.gradv[i];
@@ -342,7 +344,7 @@ void HVISchemeSolid::correct_gradients()
     T.div = L_all.xx + L_all.yy + L_all.zz;
     put_gradient(s.is_rubble() ? L_all : L, own);
     own.set_inverse(by_own);
-  }
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -353,15 +355,15 @@ void HVISchemeSolid::correct_gradients()
 void HVISchemeSolid::advance()
 {
   const HVI::SphView &records = work.records;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_active(i) || is_embedded(i)) continue;
+  each_active([&](int i) {
+    if (is_embedded(i)) return;
     SphTraction &T = records.traction[i];
     T.rho = integrator->advance_density(i, T.div);
     records.rates[i].drho -= T.rho * T.div;
     const HVI::Eos &eos = *store->materials.of(atom->type[i])->eos;
     double csq;
     if (eos.evaluate(T.rho, atom->esph[i] / mass(i), T.p, csq))
-      continue;    // what of p is borne is known with the stress
+      return;    // what of p is borne is known with the stress
     if (!integrator->freeze(i, T.rho)) no_answer(i, T.rho);
 
     // its stress is gone; its volume and velocity are still those that ghosts have
@@ -374,7 +376,7 @@ void HVISchemeSolid::advance()
     T = gone;
     if (records.push) records.push[i] = {};
     if (records.art) records.art[i] = {};
-  }
+  });
   if (mesh) mesh->advance();
   if (integrator->is_due()) strength->advance(integrator->step());
   integrator->advanced();
@@ -389,8 +391,7 @@ void HVISchemeSolid::find_tractions()
 {
   static constexpr Symmetric ONE = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
   const HVI::SphView &records = work.records;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_active(i)) continue;
+  each_active([&](int i) {
     const FixHVIJohnsonCook::Stress borne = strength->stress(i);
     const HVI::Deviator &S = borne.S;
     SphTraction &T = records.traction[i];
@@ -425,7 +426,7 @@ void HVISchemeSolid::find_tractions()
     if (records.push)
       records.push[i] = {-p * by_all.xx, -p * by_all.yy, -p * by_all.zz, -p * by_all.xy,
                          -p * by_all.xz, -p * by_all.yz, push,           0.0};
-  }
+  });
 }
 
 void HVISchemeSolid::exchange()
@@ -438,8 +439,9 @@ void HVISchemeSolid::exchange()
   }
   if (records.push) forward(records.push);
   if (set.riemann) {
-    for (int i = 0; i < atom->nlocal; i++)
-      if (is_active(i)) records.gradv[i].keep_stretch();
+    each_active([&](int i) {
+      records.gradv[i].keep_stretch();
+    });
     forward(records.gradv, SphGradV::SENT_STRETCH);
   }
   if (set.mirror.planes) images.fill_sums(records);

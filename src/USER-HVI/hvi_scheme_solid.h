@@ -39,6 +39,7 @@ class HVISchemeSolid : public HVIScheme {
 
   void evaluate() override;
   void gather_limits() override;
+  bool looks_at_all() const override;
   double gather(int, const EosState &, HVI::SphState &) override;
   void forces_done() override;
 

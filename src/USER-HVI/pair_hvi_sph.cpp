@@ -519,7 +519,11 @@ void PairHVISPH::init_style()
   comm_reverse = scheme->traffic().reverse;
   force->pair->comm_forward = MAX(force->pair->comm_forward, comm_forward);
   force->pair->comm_reverse = MAX(force->pair->comm_reverse, comm_reverse);
-  neighbor->add_request(this);
+  double widest = 0.0;
+  for (int i = 1; i <= ntypes; i++)
+    if (is_ours[i]) widest = MAX(widest, reach(i, i));
+  lists->keep_rows(lists->may_keep_rows(widest));
+  if (!lists->rows()) neighbor->add_request(this);
 }
 
 /* ----------------------------------------------------------------------
@@ -553,6 +557,11 @@ double PairHVISPH::init_one(int i, int j)
     if (mesh && mesh->is_node(itype)) return 0.0;
     if (!is_ours[itype]) error->all(FLERR, "Pair style hvi/sph: type {} has no material", itype);
   }
+  return reach(i, j);
+}
+
+double PairHVISPH::reach(int i, int j) const
+{
   return set.support * (set.variable ? set.hmax : 1.0) * scheme->widest(i, j);
 }
 
@@ -586,7 +595,7 @@ void PairHVISPH::setup()
     report.kept_bytes += strength->bytes_per_particle();
     for (int i = 1; i <= atom->ntypes; i++) report.laws[i] = strength->laws_of(i);
   }
-  report.count({list->inum, list->ilist, list->numneigh, list->firstneigh}, force->newton_pair);
+  report.count(scheme->all_pairs(), force->newton_pair);
   report.write();
   report.warn();
 }
@@ -701,10 +710,11 @@ void PairHVISPH::check_mirror() const
 void PairHVISPH::check_places()
 {
   const double *const *const x = atom->x;
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    for (int jj = 0; jj < list->numneigh[i]; jj++) {
-      const int j = list->firstneigh[i][jj] & NEIGHMASK;
+  const HVI::SphList pairs = scheme->all_pairs();
+  for (int ii = 0; ii < pairs.inum; ii++) {
+    const int i = pairs.ilist[ii];
+    for (int jj = 0; jj < pairs.numneigh[i]; jj++) {
+      const int j = pairs.firstneigh[i][jj] & NEIGHMASK;
       if (x[i][0] == x[j][0] && x[i][1] == x[j][1] && x[i][2] == x[j][2]) overlap(i, j);
     }
   }

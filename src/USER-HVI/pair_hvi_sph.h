@@ -81,6 +81,7 @@ class PairHVISPH :
   void allocate();
   void deallocate();
   void choose_skin();
+  double reach(int, int) const;    // of pairs of two types
   void set_material(int ilo, int ihi, int jlo, int jhi, const std::vector<std::string> &,
                     bool restored);
 

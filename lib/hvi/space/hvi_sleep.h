@@ -88,11 +88,30 @@ class Sleep {
 
   bool near_awake(int cell) const { return cells[cell].near; }
 
+  // where points of those cells may have neighbors, or of cells of other ranks: of_ghosts, cells of ours with
+  // points of theirs, are next to these
+
+  void reach_out(const RelativeMotion &motion, const std::vector<int> &of_ghosts)
+  {
+    for (Cell &c : cells) {
+      c.source = c.near;
+      c.reached = false;
+    }
+    for (const int c : of_ghosts) cells[c].source = true;
+    motion.each_adjacent([this](int a, int b) {
+      if (cells[a].source) cells[b].reached = true;
+      if (cells[b].source) cells[a].reached = true;
+    });
+    for (Cell &c : cells) c.reached = c.reached || c.source;
+  }
+  bool reached(int cell) const { return cells[cell].reached; }
+
  private:
   static constexpr double INF = std::numeric_limits<double>::infinity();
   struct Cell {
     double lo[3] = {INF, INF, INF}, hi[3] = {-INF, -INF, -INF};    // of velocities
     bool disturbed = false, asleep = false, watched = false, near = false;
+    bool source = false, reached = false;
   };
   std::vector<Cell> cells;
   double speed = 0.0;

@@ -56,15 +56,16 @@ template <class Each> void SphFields::each_array(const Each &each)
   each("push", push, records.push, bodies);
 }
 
-void SphFields::grow(int n, int spare)
+bool SphFields::grow(int n, int spare)
 {
-  if (n <= nmax) return;
+  if (n <= nmax) return false;
   nmax = n > 0 ? n + spare : 0;
   each_array([this](const char *, auto &array, auto *&view, bool wanted) {
     using Record = typename std::remove_reference_t<decltype(array)>::element_type;
     array.reset(wanted && nmax ? new Record[nmax] : nullptr);
     view = array.get();
   });
+  return true;
 }
 
 double SphFields::bytes_per_particle()

@@ -76,8 +76,9 @@ class SphFields {
 
   // for the pair style
 
-  void choose(int terms);             // bits of SphScene: which records the scene has
-  void grow(int n, int spare = 0);    // to hold n of each, if they do not: contents are lost
+  void choose(int terms);    // bits of SphScene: which records the scene has
+  bool grow(int n,
+            int spare = 0);    // to hold n of each; true: they did not, and contents are lost
   const SphView &view() const { return records; }
   std::string arrays();    // those of this scene, with bytes per particle: for people
   double bytes_per_particle();
