@@ -111,6 +111,19 @@ def test_asleep_in_flight_awake_when_it_strikes(lmp, tmp_path, words, solid):
     assert t["KinEng"][-1] < 0.98 * t["KinEng"][0]
 
 
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_pushed_while_asleep(lmp, tmp_path, nranks):
+    """another fix pushes what has been asleep for a while, far from the impact: as if all were awake"""
+    push = "region far block 50 INF INF INF INF INF\ngroup far region far\nvariable f equal 0.02*(step>5)\nfix push far addforce 0 0 v_f\n"
+    s, run = impact(), push + "run 14\n" + WRITE
+    lmp(text(s, tmp_path, "no") + run.format("all"))
+    r = lmp(text(s, tmp_path, "") + run.format("some"), nranks=nranks)
+    assert r.thermo["f_sph"][3] > 0.3 * len(s.x)
+    want = columns(tmp_path / "all")
+    error = apart(columns(tmp_path / "some"), want)
+    assert max(error.values()) <= 1e-7 and want["v"][s.x[:, 0] > 60, 2].min() > 1e-3, error
+
+
 def test_velocities_that_differ_do_not_sleep(lmp, tmp_path):
     """two bodies side by side, near each other, out of reach: where they are near both are awake; with one velocity nobody"""
     for velocity, some in (((0.0, 0.0, 0.0), False), ((1e-4, 0.0, 0.0), True), ((0.3e-10 * 4, 0.0, 0.0), False)):

@@ -108,9 +108,7 @@ namespace {
       if (SCENE & SPH_SOLID) {
         __builtin_prefetch(&work.records.traction[j]);
         __builtin_prefetch(&work.records.traction[j].zz);
-        if (SCENE & SPH_RIEMANN) {
-          __builtin_prefetch(&work.records.gradv[j]);
-        }
+        if (SCENE & SPH_RIEMANN) { __builtin_prefetch(&work.records.gradv[j]); }
       } else if (SCENE & SPH_RIEMANN) {
         __builtin_prefetch(&work.records.rates[j], 1);
         __builtin_prefetch(&work.records.slopes[j]);
