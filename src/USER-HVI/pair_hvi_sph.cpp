@@ -523,7 +523,10 @@ void PairHVISPH::init_style()
   for (int i = 1; i <= ntypes; i++)
     if (is_ours[i]) widest = MAX(widest, reach(i, i));
   lists->keep_rows(lists->may_keep_rows(widest));
-  if (!lists->rows()) neighbor->add_request(this);
+
+  // LAMMPS tells its users about the list, and makes it if a compute asks for one like it
+
+  neighbor->add_request(this, lists->rows() ? NeighConst::REQ_OCCASIONAL : NeighConst::REQ_DEFAULT);
 }
 
 /* ----------------------------------------------------------------------

@@ -76,7 +76,7 @@ Symmetric limited_inverse(const Symmetric &N)
   // nearly equal eigenvalues are known to half of the digits only, which is of no account here: the error of
   // the interpolation goes with the product of theirs.
 
-  static constexpr double CLOSE = 1.0e-5, THIRD = 2.0943951023931953;    // 2 pi/3
+  static constexpr double CLOSE = 1.0e-7, THIRD = 2.0943951023931953;    // 2 pi/3
   const double mean = (N.xx + N.yy + N.zz) / 3.0;
   const double dx = N.xx - mean, dy = N.yy - mean, dz = N.zz - mean;
   const double off = N.xy * N.xy + N.xz * N.xz + N.yz * N.yz;
