@@ -79,6 +79,11 @@ def limit_brackets(brackets, rows, equations):
         if points:
             x, y, low, high = zip(*points)
             ax.errorbar(x, y, [low, high], fmt="osD^v"[k % 5], color="black", mfc="white" if k else "black", ms=6, capsize=3, label=f"simulation, {across:g} across")
+    known = {one.name: one for one in brackets}
+    between = [(row["bracket"], sorted(ratio(known[row["bracket"]], row[end]) for end in ("holds", "fails"))) for row in rows
+               if not row["limit"] and row["holds"] and row["fails"]]
+    if between:
+        ax.vlines([where[name] + 0.2 for name, _ in between], *zip(*(ends for _, ends in between)), color="black", ls=":", label="not ended: here")
     ax.axhline(1.0, color="0.4", lw=0.5 * STYLE["line"])
     ax.set_xticks(list(where.values()), [f"{name}\n{one.shot.speed_km_s:g}" for name, one in sorted(((one.name, one) for one in brackets), key=lambda pair: where[pair[0]])])
     _said(ax, "Limits of shields: simulation and equations over what shots bracket", "limit over the measured one: safe above 1")
