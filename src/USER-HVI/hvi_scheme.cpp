@@ -358,7 +358,7 @@ void HVIScheme::choose_records(bool lost)
   reached.clear();
   const bool some = !sleepers.empty() && all_sums && pairs.lists->rows();
   if (some) {
-    std::vector<int> of_ghosts;
+    of_ghosts.clear();
     for (int i = nlocal; i < nall; i++) of_ghosts.push_back(motion.cell_of(i));
     cells.reach_out(motion, of_ghosts);
     for (int i = 0; i < nlocal; i++)

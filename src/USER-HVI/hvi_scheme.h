@@ -158,6 +158,7 @@ class HVIScheme : protected Pointers {
   std::vector<int> all_rows;                   // if they are made where they are asked for
   std::vector<int> active;                     // owned particles to which something may happen
   std::vector<int> reached, reached_before;    // owned, where rows or neighbors in rows can be
+  std::vector<int> of_ghosts;                  // cells with ghosts
   struct {
     double fastest = 0.0, narrowest = HVI::NO_BOUND;
   } resting;    // of inactive particles, since lists were made: the largest 1/time of a signal, the smallest h

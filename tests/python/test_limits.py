@@ -142,3 +142,16 @@ def test_only_these_and_equations(mine, capsys):
     assert "--only: no bracket V (known: W, D)" in capsys.readouterr().err
     assert front("limits", "--equations", case="mine.yaml") == 0
     assert "Reimerdes" in capsys.readouterr().out and not tries(mine)
+
+
+@pytest.mark.parametrize("holds, dotted", [(1.9, True), (None, False)])
+def test_a_search_that_has_not_ended_is_in_the_picture(mine, holds, dotted):
+    """between what holds and what fails, over the middle of the bracket, as a dotted line; with one end alone there is none"""
+    from hvi.figures import limit_brackets
+    found = brackets.read_list(mine / "mine.csv")
+    row = {"bracket": "W", "across": 10.0, "limit": None, "holds": holds, "fails": 1.7}
+    (ax,) = limit_brackets(found, [row], {}).axes
+    ends = [line[:, 1] for one in ax.collections if hasattr(one, "get_segments") for line in one.get_segments()]
+    assert len(ends) == dotted
+    if dotted:
+        assert list(ends[0]) == pytest.approx([1.7 / found[0].middle, 1.9 / found[0].middle])

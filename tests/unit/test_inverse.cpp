@@ -7,6 +7,7 @@
 ------------------------------------------------------------------------- */
 
 #include "hvi_inverse.h"
+#include "hvi_sph_records.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -71,4 +72,21 @@ TEST(LimitedInverse, of_a_multiple_of_1)
 {
   for (const double x : {0.0, 0.1, 0.2, 0.29, 0.5, 1.0})
     EXPECT_LT(error({x, x, x}, Eigen::Matrix3d::Identity()), 1e-13) << x;
+}
+
+// what Riemann problems need of a velocity gradient, in the order of Symmetric
+
+TEST(Stretch, is_the_symmetric_part)
+{
+  HVI::SphGradV g = {};
+  const double L[9] = {1.0, 2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0};
+  std::copy_n(L, 9, &g.xx);
+  g.keep_stretch();
+  const Symmetric s = g.stretch();
+  EXPECT_EQ(s.xx, 1.0);
+  EXPECT_EQ(s.yy, 7.0);
+  EXPECT_EQ(s.zz, 19.0);
+  EXPECT_EQ(s.xy, 3.5);
+  EXPECT_EQ(s.xz, 8.0);
+  EXPECT_EQ(s.yz, 14.0);
 }

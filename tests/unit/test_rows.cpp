@@ -54,14 +54,14 @@ struct Scene {
 void look(const Scene &s, double at, bool above, bool newton,
           std::map<std::pair<int, int>, int> &found, bool by_demand)
 {
-  std::vector<int> who;    // owned points, then ghosts
+  std::vector<int> number_of;    // owned points, then ghosts
   for (const bool owned : {true, false})
     for (int i = 0; i < (int) s.x.size(); i++)
-      if ((s.x[i][0] > at) == (above == owned)) who.push_back(i);
+      if ((s.x[i][0] > at) == (above == owned)) number_of.push_back(i);
   int owned = 0;
   std::vector<const double *> x;
   std::vector<int> type;
-  for (const int i : who) {
+  for (const int i : number_of) {
     owned += (s.x[i][0] > at) == above;
     x.push_back(s.x[i].data());
     type.push_back(s.type[i]);
@@ -93,7 +93,7 @@ void look(const Scene &s, double at, bool above, bool newton,
       if (before[*i]) EXPECT_EQ(before[*i], lists.first[*i]);
       if (!lists.has(c)) EXPECT_EQ(lists.number[*i], 0);
       for (int k = 0; k < lists.number[*i]; k++) {
-        const int a = who[*i], b = who[lists.first[*i][k]];
+        const int a = number_of[*i], b = number_of[lists.first[*i][k]];
         found[{std::min(a, b), std::max(a, b)}]++;
       }
     }
