@@ -22,8 +22,6 @@
 #include "group.h"
 #include "memory.h"
 #include "modify.h"
-#include "neigh_list.h"
-#include "neigh_request.h"
 #include "neighbor.h"
 #include "output.h"
 #include "pair.h"
@@ -60,7 +58,7 @@ ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg
 
 ComputeHVIFragmentAtom::ComputeHVIFragmentAtom(LAMMPS *lmp, int narg, char **arg, int keywords) :
     ComputeHVIMatter(lmp, narg, arg), iarg(3), components(world), cutoff(0.0), mode(BONDS),
-    damage(0), factor(0.0), list(nullptr), nmax(0), fragment(nullptr), node(nullptr)
+    damage(0), factor(0.0), nmax(0), fragment(nullptr), node(nullptr)
 {
   comm_forward = NODE_SIZE;
 
@@ -131,35 +129,15 @@ void ComputeHVIFragmentAtom::init()
                  style, group->names[igroup], none);
   }
 
-  // what the neighbor list would leave out
+  if (comm->mode != Comm::SINGLE)
+    error->all(FLERR, "Compute {} distance requires comm_modify mode single", style);
 
-  if (atom->nbonds > 0)
-    for (int i = 1; i <= 3; i++)
-      if (force->special_lj[i] == 0.0 && force->special_coul[i] == 0.0)
-        error->all(FLERR,
-                   "Compute {} distance would miss bonded pairs: use special_bonds with weights "
-                   "other than 0, or mode bonds",
-                   style);
-  if (neighbor->style != Neighbor::BIN && neighbor->style != Neighbor::NSQ)
-    error->all(FLERR, "Compute {} distance requires neighbor style bin or nsq", style);
-
-  // the list is built when first asked for after a rebuild, and used until the next: meanwhile
-  // particles that were half a skin from home may have come half a skin to the other side
-
-  const double cutlist = cutoff + 2.0 * neighbor->skin;
-  // ghosts must reach as far, for which communication is set up after init() of computes
+  // ghosts must reach as far, for which communication is set up after init() of computes: between two lists particles
+  // come nearer by a skin at most
 
   const double cutghost =
       MAX(force->pair ? force->pair->cutforce + neighbor->skin : 0.0, comm->cutghostuser);
-  if (cutlist > cutghost) comm->cutghostuser = cutlist;
-  neighbor->add_request(this, NeighConst::REQ_OCCASIONAL)->set_cutoff(cutlist);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void ComputeHVIFragmentAtom::init_list(int /*which*/, NeighList *ptr)
-{
-  list = ptr;
+  if (cutoff + neighbor->skin > cutghost) comm->cutghostuser = cutoff + neighbor->skin;
 }
 
 /* ----------------------------------------------------------------------
@@ -300,23 +278,39 @@ double ComputeHVIFragmentAtom::reach(int itype, int jtype) const
 void ComputeHVIFragmentAtom::join_close(const HVI::Mesh *mesh)
 {
   comm->forward_comm();    // ghosts are behind if the box has changed since
-  neighbor->build_one(list);
 
-  const double *const *const x = atom->x;
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    if (id[i] == 0) continue;
-    for (int jj = 0; jj < list->numneigh[i]; jj++) {
-      const int j = list->firstneigh[i][jj] & NEIGHMASK;
-      const double delx = x[i][0] - x[j][0];
-      const double dely = x[i][1] - x[j][1];
-      const double delz = x[i][2] - x[j][2];
-      const double cut = reach(atom->type[i], atom->type[j]);
-      if (delx * delx + dely * dely + delz * delz < cut * cut &&
-          !(mesh && mesh->is_node(atom->type[j])))
-        components.join(i, j);
-    }
+  const int nlocal = atom->nlocal, *const type = atom->type;
+  close.clear();
+  for (int i = 0; i < nlocal + atom->nghost; i++)
+    if ((i >= nlocal || id[i] != 0) && !(mesh && mesh->is_node(type[i]))) close.add(i, atom->x[i]);
+  close.each(cutoff, [&](int i, int j, double rsq) {
+    const double cut = reach(type[i], type[j]);
+    if (rsq < cut * cut && (i < nlocal || j < nlocal) && !excluded(i, j)) components.join(i, j);
+  });
+}
+
+/* ----------------------------------------------------------------------
+   neigh_modify exclude: such pairs are in no list
+------------------------------------------------------------------------- */
+
+bool ComputeHVIFragmentAtom::excluded(int i, int j) const
+{
+  if (!neighbor->exclude) return false;
+  const int *const type = atom->type, *const mask = atom->mask;
+  for (int m = 0; m < neighbor->nex_type; m++) {
+    const int a = neighbor->ex1_type[m], b = neighbor->ex2_type[m];
+    if ((type[i] == a && type[j] == b) || (type[i] == b && type[j] == a)) return true;
   }
+  for (int m = 0; m < neighbor->nex_group; m++) {
+    const int a = neighbor->ex1_bit[m], b = neighbor->ex2_bit[m];
+    if ((mask[i] & a && mask[j] & b) || (mask[i] & b && mask[j] & a)) return true;
+  }
+  for (int m = 0; m < neighbor->nex_mol; m++) {
+    const int bit = neighbor->ex_mol_bit[m];
+    const bool one = atom->molecule[i] == atom->molecule[j];
+    if (mask[i] & bit && mask[j] & bit && one == (neighbor->ex_mol_intra[m] != 0)) return true;
+  }
+  return false;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -340,5 +334,5 @@ void ComputeHVIFragmentAtom::unpack_forward_comm(int n, int first, double *buf)
 double ComputeHVIFragmentAtom::memory_usage()
 {
   return (double) nmax * sizeof(double) + (double) id.capacity() * sizeof(int64_t) +
-      components.memory_usage();
+      components.memory_usage() + close.bytes();
 }

@@ -16,6 +16,7 @@ ComputeStyle(hvi/fragment/atom,ComputeHVIFragmentAtom);
 #define LMP_COMPUTE_HVI_FRAGMENT_ATOM_H
 
 #include "compute_hvi_matter.h"
+#include "hvi_close.h"
 #include "hvi_components.h"
 #include "hvi_mesh.h"
 
@@ -37,7 +38,6 @@ class ComputeHVIFragmentAtom : public ComputeHVIMatter {
   ComputeHVIFragmentAtom(class LAMMPS *, int, char **);
   ~ComputeHVIFragmentAtom() override;
   void init() override;
-  void init_list(int, class NeighList *) override;
   void compute_peratom() override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
@@ -68,7 +68,7 @@ class ComputeHVIFragmentAtom : public ComputeHVIMatter {
   int damage;               // 1: failed particles stay alone
   double factor;            // of smoothing lengths, 0: cutoff is a length
   std::vector<double> h;    // by type, with a factor
-  class NeighList *list;
+  HVI::ClosePairs close;
   int nmax;
   double *fragment;
   HVI::Components::Node *node;    // what forward communication carries
@@ -76,6 +76,7 @@ class ComputeHVIFragmentAtom : public ComputeHVIMatter {
   const double *find_damage() const;
   void join_bonds();
   void join_close(const HVI::Mesh *);
+  bool excluded(int, int) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -442,7 +442,7 @@ run 0
     ("compute x all hvi/fragment distance 0.5 damage", "damage"),
     ("compute x all hvi/fragment distance 0.5 damage maybe", "maybe"),
     ("compute x all hvi/fragment distance 0.5 damage yes", "d_hvi_damage"),
-    ("neighbor 0.3 multi\ncomm_modify mode multi\ncompute x all hvi/fragment distance 0.5", "neighbor style bin"),
+    ("neighbor 0.3 multi\ncomm_modify mode multi\ncompute x all hvi/fragment distance 0.5", "comm_modify mode single"),
     ("compute x all hvi/cloud plane 1", "axis"),
     ("compute x all hvi/cloud axis x", "plane"),
     ("compute x all hvi/cloud axis w plane 1", "not w"),
@@ -464,7 +464,7 @@ def test_ghosts_reach_as_far_as_is_looked(lmp, nranks):
         return r.thermo["c_x[1]"][0], float(re.search(r"ghost atom cutoff = ([\d.]+)", r.log)[1])
 
     (alone, reach), (given, _) = fragments(""), fragments("comm_modify cutoff 5\n")
-    assert alone == given < 20 and reach == 2.6  # and twice the skin
+    assert alone == given < 20 and reach == 2.3  # and the skin
 
 
 def test_bonds_need_bonds(lmp):
@@ -472,11 +472,31 @@ def test_bonds_need_bonds(lmp):
     assert "atom style with bonds" in r.error
 
 
-def test_distance_without_bonded_pairs_in_the_list(lmp):
-    line = "bond_style zero\nbond_coeff * 1.0\ncreate_bonds single/bond 1 1 2\ncompute x all hvi/fragment distance 0.5"
-    r = lmp(SMALL.format(style="bond", extra="bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 9",
-                         line="neighbor 9 bin\ncomm_modify cutoff 20\n" + line), expect_fail=True)
-    assert "special_bonds" in r.error
+@pytest.mark.parametrize("line,pieces", [("", 1), ("special_bonds lj/coul 0 0 0\n", 1), ("neigh_modify exclude type 1 1\n", 2), ("group one id 1\nneigh_modify exclude group one all\n", 2),
+                                         ("neigh_modify exclude molecule/intra all\n", 2), ("neigh_modify exclude molecule/inter all\n", 1)])
+def test_what_lists_leave_out(lmp, line, pieces):
+    """bonded pairs of weight 0 are in no list, but near each other; excluded ones do not connect"""
+    text = f"""
+units lj
+atom_style molecular
+atom_modify map array
+boundary f f f
+region box block 0 4 0 4 0 4
+create_box 1 box bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 9
+create_atoms 1 single 1.5 2 2
+create_atoms 1 single 2.5 2 2
+mass 1 1
+pair_style zero 1.2
+pair_coeff * *
+set group all mol 1
+bond_style zero
+bond_coeff * 1.0
+{{}}create_bonds single/bond 1 1 2
+{line}compute x all hvi/fragment distance 1.1
+thermo_style custom step c_x[1]
+run 0
+"""
+    assert lmp(text.format("special_bonds lj/coul 1 1 1\n")).thermo["c_x[1]"][0] == pieces
 
 
 def test_bond_longer_than_the_ghosts_reach(lmp, tmp_path):
