@@ -22,6 +22,8 @@
 #include "hvi_interface.h"
 #include "update.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -37,10 +39,12 @@ enum {
 };
 // clang-format on
 
+static constexpr double LARGE_DRIFT = 0.01;    // of the energy in a run: is warned of
+
 /* ---------------------------------------------------------------------- */
 
 ComputeHVIEnergy::ComputeHVIEnergy(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), ledger(nullptr), clampbit(0)
+    Compute(lmp, narg, arg), ledger(nullptr), clampbit(0), run_start(HUGE_VAL), warned(false)
 {
   if (igroup != 0)
     error->all(FLERR, "Compute hvi/energy is the ledger of the whole system: group must be all");
@@ -98,6 +102,7 @@ void ComputeHVIEnergy::init()
 
 void ComputeHVIEnergy::setup()
 {
+  run_start = HUGE_VAL;
   if (update->eflag_global == update->ntimestep) compute_vector();
   invoked_vector = -1;
 }
@@ -110,6 +115,20 @@ double ComputeHVIEnergy::compute_scalar()
   invoked_scalar = invoked_vector;
   scalar = vector[TOTAL];
   return scalar;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIEnergy::warn(double drift)
+{
+  warned = true;
+  if (comm->me == 0)
+    error->warning(
+        FLERR,
+        "Compute hvi/energy: {:.3g} of the energy has {} since the run began, at step {}: does "
+        "another fix do work (a thermostat, a wall that moves: see keyword clamps) or "
+        "bring particles, or is the time step too long?",
+        std::fabs(drift), drift > 0.0 ? "come" : "gone", update->ntimestep);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -185,4 +204,9 @@ void ComputeHVIEnergy::compute_vector()
   vector[RATIO] = start[0] != 0.0 ? vector[TOTAL] / start[0] : 1.0;
   for (int k = 0; k < 3; k++) vector[P0X + k] = start[1 + k];
   vector[MASS0] = start[4];
+  if (run_start == HUGE_VAL) run_start = vector[TOTAL];
+  double scale = std::fabs(run_start);
+  for (int n = KINETIC; n <= SPRING; n++) scale = std::max(scale, std::fabs(vector[n]));
+  const double drift = vector[TOTAL] - run_start;
+  if (!warned && std::fabs(drift) > LARGE_DRIFT * scale) warn(drift / scale);
 }

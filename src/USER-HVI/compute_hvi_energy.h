@@ -30,7 +30,11 @@ class ComputeHVIEnergy : public Compute {
 
  private:
   class FixHVILedger *ledger;
-  int clampbit;    // groups named by clamps
+  int clampbit;        // groups named by clamps
+  double run_start;    // total when this run began
+  bool warned;
+
+  void warn(double drift);
 };
 
 }    // namespace LAMMPS_NS

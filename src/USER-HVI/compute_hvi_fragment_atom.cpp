@@ -302,11 +302,12 @@ bool ComputeHVIFragmentAtom::excluded(int i, int j) const
     if ((type[i] == a && type[j] == b) || (type[i] == b && type[j] == a)) return true;
   }
   for (int m = 0; m < neighbor->nex_group; m++) {
-    const int a = neighbor->ex1_bit[m], b = neighbor->ex2_bit[m];
+    const int a = group->bitmask[neighbor->ex1_group[m]],
+              b = group->bitmask[neighbor->ex2_group[m]];
     if ((mask[i] & a && mask[j] & b) || (mask[i] & b && mask[j] & a)) return true;
   }
   for (int m = 0; m < neighbor->nex_mol; m++) {
-    const int bit = neighbor->ex_mol_bit[m];
+    const int bit = group->bitmask[neighbor->ex_mol_group[m]];
     const bool one = atom->molecule[i] == atom->molecule[j];
     if (mask[i] & bit && mask[j] & bit && one == (neighbor->ex_mol_intra[m] != 0)) return true;
   }

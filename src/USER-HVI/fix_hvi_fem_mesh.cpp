@@ -527,10 +527,10 @@ void FixHVIFEMMesh::write_data_section_size(int section, int &nx, int &ny)
 
 void FixHVIFEMMesh::write_data_section_keyword(int section, FILE *fp)
 {
-  if (section)
-    fmt::print(fp, "\n{}_state_{}\n\n", id, section - 1);
-  else
-    fmt::print(fp, "\nElements\n\n");
+  const std::string name = section ? fmt::format("{}_state_{}", id, section - 1) : "Elements";
+  utils::logmesg(lmp, "  section {1}: for read_data, fix {0} {2} {1}\n", id, name,
+                 section ? "NULL" : "elements");
+  fmt::print(fp, "\n{}\n\n", name);
 }
 
 void FixHVIFEMMesh::write_data_section_pack(int section, double **buf)

@@ -22,11 +22,13 @@
 #include "hvi_material.h"
 #include "hvi_vector.h"
 #include "modify.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 using namespace LAMMPS_NS;
 
@@ -323,9 +325,26 @@ void FixHVIJohnsonCook::make_models()
   wd_section = takes_time ? VOIDS + 1 : VOIDS;    // the last one, or without
   if (!anywhere || (liquids && !here))
     error->all(FLERR,
-               "Fix hvi/johnson-cook: no material {}has a section strength {}; strength none is "
-               "for those that bear no shear",
-               anywhere ? fmt::format("of group {} ", group->names[igroup]) : "", options.strength);
+               "Fix hvi/johnson-cook: no material {}has a section strength {} (there are: {}); "
+               "strength none is for those that bear no shear",
+               anywhere ? fmt::format("of group {} ", group->names[igroup]) : "", options.strength,
+               known_strengths());
+}
+
+std::string FixHVIJohnsonCook::known_strengths() const
+{
+  std::set<std::string> found;
+  for (int itype = 1; itype <= atom->ntypes; itype++)
+    if (const HVI::Material *const material = store->materials.of(itype)) {
+      bool any = false;
+      for (const HVI::Section &section : material->sections)
+        if (section.kind == "strength") {
+          found.insert(fmt::format("{} of {}", section.law, material->name));
+          any = true;
+        }
+      if (!any) found.insert("none of " + material->name);
+    }
+  return utils::join_words({found.begin(), found.end()}, ", ");
 }
 
 void FixHVIJohnsonCook::count_particles()
@@ -468,6 +487,21 @@ void FixHVIJohnsonCook::start(int i, bool anew)
     model->start(extra[i], input(i), anew);
   else if (anew || !HVI::SolidModel::started(extra[i]))
     HVI::SolidModel::liquefy(extra[i]);
+}
+
+// in a run, between two steps
+
+void FixHVIJohnsonCook::start_newcomer(int i)
+{
+  const bool was = in_setup;
+  if (models[atom->type[i]] && !of(i))
+    error->one(
+        FLERR,
+        "Fix hvi/johnson-cook: particle {} (type {}), a solid, comes at step {} and is not in "
+        "group {}: let fix deposit have that group",
+        atom->tag[i], atom->type[i], update->ntimestep, group->names[igroup]);
+  start(i, true);
+  in_setup = was;
 }
 
 /* ---------------------------------------------------------------------- */

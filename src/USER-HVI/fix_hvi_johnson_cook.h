@@ -42,6 +42,7 @@ class FixHVIJohnsonCook :
   // stress, plastic strain, damage and tensile failure, t -> t + dt
 
   void start(int i, bool anew);
+  void start_newcomer(int i);
   void begin_step();
   void reflect(int i, int op);
   void advance(double dt);
@@ -92,6 +93,8 @@ class FixHVIJohnsonCook :
 
  private:
   static const Field FIELDS[];
+
+  std::string known_strengths() const;
 
   HVI::SolidOptions options;
   std::vector<std::unique_ptr<HVI::SolidModel>> models;    // of types; null: no solid

@@ -134,7 +134,8 @@ void FixHVILists::pre_neighbor()
   if (has_rows)
     made_rows.start(motion,
                     {nlocal, nlocal + atom->nghost, atom->x, atom->type, neighbor->cutneighsq,
-                     neighbor->cutneighmax * neighbor->cutneighmax, force->newton_pair != 0});
+                     neighbor->cutneighmax * neighbor->cutneighmax, force->newton_pair != 0,
+                     neighbor->oneatom});
 
   // Exchange reaches the ranks next door.  Who owns the place half-way between two has both, as owned or
   // ghosts, unless they are more than two cutoffs of ghosts apart in some direction.  Both does

@@ -75,7 +75,7 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
   void restart(char *buf) override { restored = buf; }
   void write_data_section_size(int, int &, int &) override;
   void write_data_section_pack(int, double **) override;
-  void write_data_section_keyword(int k, FILE *fp) override { sections[k].write_keyword(fp); }
+  void write_data_section_keyword(int k, FILE *fp) override { sections[k].write_keyword(fp, id); }
   void write_data_section(int k, FILE *fp, int n, double **buf, int) override
   {
     sections[k].write(fp, n, buf);

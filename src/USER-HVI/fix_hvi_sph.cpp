@@ -224,6 +224,18 @@ void FixHVISPH::init()
   follow = igroup != 0 && !set.is_stock() && modify->get_fix_by_style("^sph$").empty();
   reset_dt();
   checked = 0;
+
+  for (const Fix *const other : modify->get_fix_list()) {
+    if (!other->time_integrate || utils::strmatch(other->style, "^hvi/")) continue;
+    bigint here = 0, both;
+    for (int i = 0; i < atom->nlocal; i++) here += moves(i) && (atom->mask[i] & other->groupbit);
+    MPI_Allreduce(&here, &both, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    if (both)
+      error->all(FLERR,
+                 "Fix {} ({}) moves {} particles that fix hvi/sph moves, too: give one of them a "
+                 "group without these",
+                 other->id, other->style, both);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -277,26 +289,65 @@ bool FixHVISPH::remembers(int i) const
   return integrates(i) || (store->fields.settings.solid && has_material(i));
 }
 
+// at the start of its first run, and the smoothing length that goes with it
+
+void FixHVISPH::give_density(int i)
+{
+  const HVI::SphSettings &set = store->fields.settings;
+  const int itype = atom->type[i];
+  Extra &e = extra[i];
+  if (atom->rho[i] == 0.0 && e.mark == 0 && e.frozen == 0.0 &&
+      store->materials.entry(itype).volume > 0.0)
+    atom->rho[i] = store->materials.of(itype)->eos->rho0();
+  if (e.hscale != 0.0) return;
+  if (set.variable && !(atom->rho[i] > 0.0))
+    error->one(
+        FLERR,
+        "Fix hvi/sph: h variable needs the density of particle {} at the start of its first run, "
+        "or, if it comes during a run, a spacing or volume in pair_coeff; its density is {}",
+        atom->tag[i], atom->rho[i]);
+  e.hscale = set.hscale(itype, atom->rho[i]);
+}
+
+/* ----------------------------------------------------------------------
+   What comes during a run, by fix deposit for instance, begins as all do at the start of a run: density, velocity and mass
+   before they are sent to ghosts, the state of a solid when all fixes have made their records.  What comes in the same
+   step is one body, with a label that is no ID.
+------------------------------------------------------------------------- */
+
+void FixHVISPH::set_arrays(int i)
+{
+  static constexpr int64_t NO_ID = (int64_t) 1 << 51;
+  FixHVIRecords::set_arrays(i);
+  if (!stepping || !store || !integrates(i) || extra[i].mark != 0) return;
+  if (atom->rmass) atom->rmass[i] = atom->mass[atom->type[i]];
+  give_density(i);
+  for (int k = 0; k < 3; k++) atom->vest[i][k] = extra[i].v_work[k] = atom->v[i][k];
+  set_body(i, NO_ID + update->ntimestep);
+}
+
+void FixHVISPH::pre_neighbor()
+{
+  count_frozen();
+  if (!stepping || !store->fields.settings.solid) return;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (extra[i].new_rho == 0.0 && extra[i].frozen == 0.0 && integrates(i)) {
+      if (strength) strength->start_newcomer(i);
+      extra[i].new_rho = atom->rho[i];
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
 void FixHVISPH::setup_pre_force(int /*vflag*/)
 {
   const HVI::SphSettings &set = store->fields.settings;
   double longest = 0.0;
   setup_rho.assign(atom->nlocal, 0.0);
   for (int i = 0; i < atom->nlocal; i++) {
-    const int itype = atom->type[i];
     if (!has_material(i)) continue;
     Extra &e = extra[i];
-    if (atom->rho[i] == 0.0 && e.mark == 0 && e.frozen == 0.0 &&
-        store->materials.entry(itype).volume > 0.0)
-      atom->rho[i] = store->materials.of(itype)->eos->rho0();
-    if (e.hscale == 0.0) {
-      if (set.variable && !(atom->rho[i] > 0.0))
-        error->one(FLERR,
-                   "Fix hvi/sph: h variable needs the density of particle {} at the start of its "
-                   "first run, not {}",
-                   atom->tag[i], atom->rho[i]);
-      e.hscale = set.hscale(itype, atom->rho[i]);
-    }
+    give_density(i);
     const bool anew = set.is_stock() || !remembers(i) || e.mark != fingerprint(i) ||
         set.solid != (e.new_rho != 0.0);
     if (anew && (integrates(i) || follow))

@@ -64,7 +64,8 @@ class FixHVISPH :
   int setmask() override;
   void init() override;
   void setup_pre_force(int) override;
-  void pre_neighbor() override { count_frozen(); }
+  void set_arrays(int) override;
+  void pre_neighbor() override;
   void pre_force(int) override;
   void post_integrate() override;
   void setup(int) override;
@@ -138,10 +139,11 @@ class FixHVISPH :
   class FixHVIJohnsonCook *strength;    // of solids; null: there are none
   HVI::SphStep *evaluation;             // of the pair style
   double dtv, dtf;
-  double power;                     // viscous, of the last force evaluation
-  double push[3];                   // of mirror planes, likewise
-  double last;                      // step, of which forces are the end
-  bool due;                         // density and stress of solids are those of its begin
+  double power;      // viscous, of the last force evaluation
+  double push[3];    // of mirror planes, likewise
+  double last;       // step, of which forces are the end
+  bool due;          // density and stress of solids are those of its begin
+  void give_density(int i);
   std::vector<double> setup_rho;    // in a setup: of the rates that forces are asked for
   bool in_setup = false;            // in it: rho and esph of particles are these
   int stepping;                     // in a run, so that the state is the one the last step left

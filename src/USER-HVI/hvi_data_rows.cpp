@@ -31,8 +31,9 @@ HVIDataRows::HVIDataRows(LAMMPS *lmp, const std::string &title, const std::strin
 
 /* ---------------------------------------------------------------------- */
 
-void HVIDataRows::write_keyword(FILE *fp) const
+void HVIDataRows::write_keyword(FILE *fp, const std::string &id) const
 {
+  utils::logmesg(lmp, "  section {1}: for read_data, fix {0} NULL {1}\n", id, name);
   std::string line = fmt::format("\n{} # id", name);
   for (const std::string &column : columns) line += " " + column;
   utils::print(fp, "{}\n\n", line);

@@ -31,8 +31,8 @@ class HVIDataRows : protected Pointers {
   const std::string &title() const { return name; }
   int width() const { return 1 + columns.size(); }
 
-  void write_keyword(FILE *) const;
-  void pack_ids(double **) const;    // into the first column
+  void write_keyword(FILE *, const std::string &fix_id) const;    // and says how to read it
+  void pack_ids(double **) const;                                 // into the first column
   void write(FILE *, int n, double **) const;
 
   // what a row means is the caller's: given the particle and the numbers

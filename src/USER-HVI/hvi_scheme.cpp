@@ -235,9 +235,13 @@ void HVIScheme::no_answer(int i, double rho) const
     error->one(
         FLERR,
         "Pair hvi/sph: particle {} (type {}) has no density at step {}: give it one before the "
-        "run (set ... sph/rho, or pair_coeff ... spacing).  What comes during a run, by fix "
-        "deposit for instance, has none: add particles between runs",
-        atom->tag[i], itype, update->ntimestep);
+        "run (set ... sph/rho){}",
+        atom->tag[i], itype, update->ntimestep,
+        integrator
+            ? ", or a spacing or volume to its type (pair_coeff ... spacing), which is what "
+              "particles need "
+              "that come during a run, by fix deposit in the group of fix hvi/sph for instance"
+            : "");
   error->one(FLERR,
              "Pair hvi/sph: equation of state {} of particle {} (type {}) has no answer at "
              "density {} and energy per mass {} at step {}",
@@ -436,7 +440,18 @@ void HVIScheme::make_rows(int cell)
 {
   HVI::NeighborRows &made = *pairs.lists->rows();
   if (made.has(cell)) return;
-  made.make(cell);
+  const int crowded = made.make(cell);
+  if (crowded >= 0) {
+    const int itype = atom->type[crowded];
+    error->one(
+        FLERR,
+        "Pair hvi/sph: particle {} (type {}) has {} neighbors within reach and skin at step {}, "
+        "more than the {} that neigh_modify one allows: is a smoothing length of {:.6g} that of "
+        "its "
+        "spacing?  Else raise it",
+        atom->tag[crowded], itype, made.number[crowded], update->ntimestep, neighbor->oneatom,
+        set.h[itype]);
+  }
   note_neighbors(cell);
 }
 

@@ -497,6 +497,7 @@ void PairHVISPH::init_style()
 
   const int ntypes = atom->ntypes;
   is_ours.assign(ntypes + 1, 0);
+  looked_for.resize(ntypes + 1, 0);
   for (int i = 1; i <= ntypes; i++) is_ours[i] = set.h[i] > 0.0 && store->materials.of(i);
   choose_skin();
   check_fixes();
@@ -660,9 +661,24 @@ void PairHVISPH::check_materials() const
    what may be meant: said at the start of a run, not whenever LAMMPS initializes
 ------------------------------------------------------------------------- */
 
-void PairHVISPH::warn() const
+void PairHVISPH::warn()
 {
+  std::vector<bigint> here(atom->ntypes + 1, 0), all(atom->ntypes + 1);    // particles
+  for (int i = 0; i < atom->nlocal; i++) here[atom->type[i]]++;
+  MPI_Allreduce(here.data(), all.data(), all.size(), MPI_LMP_BIGINT, MPI_SUM, world);
   if (comm->me != 0) return;
+  const bool comes = HVI::find_mesh(lmp) || !modify->get_fix_by_style("^deposit").empty() ||
+      !modify->get_fix_by_style("^pour").empty();
+  for (int i = 1; i <= atom->ntypes; i++) {
+    if (!is_ours[i] || looked_for[i]) continue;
+    looked_for[i] = 1;
+    if (all[i] == 0 && !comes)
+      error->warning(
+          FLERR,
+          "Pair style hvi/sph: there are no particles of type {}, which has material {}: "
+          "beside a lattice, regions are in its spacings unless they say units box",
+          i, store->materials.of(i)->name);
+  }
   if (!integrator && modify->get_fix_by_style("^sph").empty() &&
       modify->get_fix_by_style("meso").empty())
     error->warning(FLERR,

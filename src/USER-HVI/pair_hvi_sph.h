@@ -77,6 +77,7 @@ class PairHVISPH :
   class FixHVIJohnsonCook *strength;    // null: there are no solids
   std::unique_ptr<HVIScheme> scheme;    // what a force evaluation does
   std::vector<char> is_ours;            // by type: has a material of this pair style
+  std::vector<char> looked_for;         // by type: whether there are particles of it
 
   void allocate();
   void deallocate();
@@ -93,7 +94,7 @@ class PairHVISPH :
   void check_places();
   void check_sides() const;
   void check_extent();
-  void warn() const;
+  void warn();
 
   // told by the sweeps
 

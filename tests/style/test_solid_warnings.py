@@ -117,10 +117,10 @@ def test_particles_that_nobody_integrates(lmp, files, nranks):
     s = state()
     rest = s.x[:, 0] >= 4.0
     groups = "region left block INF 4.0 INF INF INF INF units box\nregion low block INF INF INF 2.5 INF INF units box\ngroup left region left\ngroup low region low\n"
-    groups += "group rest subtract all left\n"
+    groups += "group rest subtract all left\ngroup both intersect rest low\n"
     cases = [("fix sph left hvi/sph\n", rest.sum()), ("fix sph left hvi/sph walls low\n", (rest & (s.x[:, 1] > 2.5)).sum()),
              ("fix sph left hvi/sph walls low walls rest\n", 0), ("fix sph left hvi/sph walls all\n", 0),
-             ("fix sph left hvi/sph\nfix piston rest move linear 0.1 0 0\n", 0), ("fix sph left hvi/sph\nfix nve low nve\n", rest.sum()),
+             ("fix sph left hvi/sph\nfix piston rest move linear 0.1 0 0\n", 0), ("fix sph left hvi/sph\nfix nve both nve\n", rest.sum()),
              ("fix sph left hvi/sph\nfix still low sph/stationary\n", (rest & (s.x[:, 1] > 2.5)).sum()),
              ("fix sph left hvi/sph\nfix hold rest setforce 0 0 0\n", rest.sum()), ("fix sph all hvi/sph\n", 0)]
     text = "".join("clear\n" + head(files, words="strength none", jc="left hvi/johnson-cook strength none spall none", groups=groups, fix=fix) + f"run 1\nprint 'case {k}'\n"
@@ -140,7 +140,7 @@ def test_no_section_spall_once(lmp, files):
 
 def test_no_material_of_the_group(lmp, files):
     r = lmp(head(files, two="water", jc="two hvi/johnson-cook", groups="group two type 2\n") + "run 1\n", expect_fail=True)
-    assert "no material of group two has a section strength johnson-cook; strength none is for those that bear no shear" in r.error, r.error
+    assert "no material of group two has a section strength johnson-cook (there are: johnson-cook of metal.hvi, none of water.hvi); strength none is for those that bear no shear" in r.error, r.error
     r = lmp(head(files, jc="all hvi/johnson-cook strength cowper-symonds") + "run 1\n", expect_fail=True)
     assert "no material has a section strength cowper-symonds" in r.error, r.error
     # a group that is still empty has nothing against it

@@ -75,7 +75,7 @@ void look(const Scene &s, double at, bool above, bool newton,
   HVI::RelativeMotion motion;
   motion.start(x.size(), x.data(), 0.9, SKIN);
   HVI::NeighborRows lists;
-  lists.start(motion, {owned, (int) x.size(), x.data(), type.data(), rows, 1.0, newton});
+  lists.start(motion, {owned, (int) x.size(), x.data(), type.data(), rows, 1.0, newton, 1000000});
   ASSERT_EQ(lists.cells(), motion.cells());
 
   // in any order, some twice; rows that are there stay where they are
@@ -138,6 +138,6 @@ TEST(NeighborRows, of_nothing)
   HVI::RelativeMotion motion;
   motion.start(0, nullptr, 0.9, SKIN);
   HVI::NeighborRows lists;
-  lists.start(motion, {0, 0, nullptr, nullptr, nullptr, 1.0, true});
+  lists.start(motion, {0, 0, nullptr, nullptr, nullptr, 1.0, true, 1000000});
   EXPECT_EQ(lists.cells(), 0);
 }

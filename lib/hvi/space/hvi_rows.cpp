@@ -121,9 +121,9 @@ inline void NeighborRows::look(int type, const double *at, int from, int to, con
   length = n;
 }
 
-void NeighborRows::make(int cell)
+int NeighborRows::make(int cell)
 {
-  if (made[cell]) return;
+  if (made[cell]) return -1;
   made[cell] = 1;
   const auto any_point = [](int) {
     return true;
@@ -155,8 +155,10 @@ void NeighborRows::make(int cell)
       for (int k = before_first[cell]; k < before_first[cell + 1]; k++) all(before[k]);
     }
     number[i] = length;
+    if (number[i] > points.longest) return i;
     first[i] = keep();
   }
+  return -1;
 }
 
 // rows stay where they are until the next start()

@@ -36,12 +36,16 @@ class NeighborRows {
     const double *const *cutsq;
     double most;
     bool newton;
+    int longest;    // neighbors of a point
   };
   void start(const RelativeMotion &, const Points &);
 
   int cells() const { return made.size(); }
   bool has(int cell) const { return made[cell]; }
-  void make(int cell);    // the rows of its owned points, unless they are there
+
+  // the rows of its owned points, unless they are there; the point whose row is too long, else -1
+
+  int make(int cell);
 
   // owned points of a cell, in ascending order
 
