@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import pathlib
+import re
 
 import pytest
 import yaml
@@ -293,6 +294,20 @@ def test_calibrate(mine, capsys, monkeypatch):  # noqa: F811
             assert one.test == ("holds" if one.wall_mm >= 1.8 else "fails" if one.wall_mm <= 1.6 else "between") and (one.verdict == "fails") == (one.apart_over_projectile > 0)
     monkeypatch.setattr(calibration, "FILE", mine / "mine-records.csv")
     assert calibrate("--file", "mine-records.csv") == 0 and f"{len(found.runs)} runs of 3 shields" in capsys.readouterr().out
+    # a study a part at a time: what was recorded before is kept, and judged with the rest
+    text, whole = (mine / "mine.yaml").read_text(), found
+    for shift in ("0", "0.5"):
+        write(mine / "mine.yaml", text.replace("shifts: [0, 0.5]", f"shifts: [{shift}]"))
+        assert calibrate("mine.yaml", "--file", f"{shift}.csv", *(("--add", "0.csv") if shift == "0.5" else ())) == 0
+    found, brackets_of = calibration.read(mine / "0.5.csv"), [one for one in whole.runs if one.on != "-" and one.limit == one.limit]
+    assert sorted(map(str, found.runs)) == sorted(map(str, brackets_of)) and found.check() == dataclasses.replace(whole, runs=tuple(brackets_of)).check() and "--add those of" in found.head["command"]
+    assert calibrate("mine.yaml", "--file", "no.csv", "--add", "0.5.csv") == 1 and "with 10 across, shift 0.5, is in those records and in the study" in capsys.readouterr().err
+    write(mine / "other.csv", (mine / "0.csv").read_text().replace("ratio: 1.0", "ratio: 2.0"))
+    assert calibrate("mine.yaml", "--file", "no.csv", "--add", "other.csv") == 1 and "have other spacings, settings or another model" in capsys.readouterr().err
+    write(mine / "other.csv", re.sub(r"(Al6061-T6.hvi: )'?[0-9a-f]+'?", r"\1'0123'", (mine / "0.csv").read_text()))
+    assert calibrate("mine.yaml", "--file", "no.csv", "--add", "other.csv") == 1 and "with another Al6061-T6.hvi than the study" in capsys.readouterr().err
+    assert calibrate("--add", "0.csv") == 1 and "--add needs a study" in capsys.readouterr().err and not (mine / "no.csv").exists()
+    write(mine / "mine.yaml", text)
     # a search that was not ended has no limit; runs of other settings are refused
     for path in (mine / "runs/mine/W").glob("W_across-10_shift-0_wall-1.6*"):
         (path / "result.yaml").unlink()

@@ -16,6 +16,7 @@ EXAMPLES = """  python3 -m hvi calibrate examples/whipple-shield/limits/limits.y
 def add_arguments(parser):
     parser.add_argument("study", nargs="?", metavar="STUDY.yaml", help="of hvi limits, whose runs are made into records; without it a file is only looked at")
     parser.add_argument("--shots", metavar="STUDY.yaml", help="of hvi shots, whose runs are taken, too")
+    parser.add_argument("--add", type=pathlib.Path, metavar="FILE.csv", help="records that were made before, of the same rule of spacings, which are kept beside those of the study")
     parser.add_argument("--runs", type=pathlib.Path, default="runs", metavar="DIR", help="folder of their runs (default: runs)")
     parser.add_argument("--file", type=pathlib.Path, metavar="FILE.csv", help="the records; needed with a study (hvi shield and hvi limit read %s)" % within(calibration.FILE))
 
@@ -23,12 +24,14 @@ def add_arguments(parser):
 def main(args):
     if args.study and not args.file:
         raise HVIError("a study needs --file FILE.csv, where its records go")
+    if args.add and not args.study:
+        raise HVIError("--add needs a study, beside whose records these are kept")
     if args.shots and not args.study:
         raise HVIError("--shots needs a study of hvi limits, whose rule of spacings is theirs")
     args.file = args.file or calibration.FILE
     if args.study:
         published = shots.Study(args.shots) if args.shots else None
-        collected.write(args.file, collected.collect(brackets.Study(args.study), args.runs.resolve(), published))
+        collected.write(args.file, collected.collect(brackets.Study(args.study), args.runs.resolve(), published, calibration.read(args.add) if args.add else None))
     records = calibration.read(args.file)
     head, fine = records.head, records.finest()
     rows = []

@@ -57,8 +57,8 @@ class Collected:
                 self.runs += [run] if run else []
 
 
-def collect(study, runs, published=None):
-    """the Records of a study of hvi limits and one of hvi shots, from the folder of their runs"""
+def collect(study, runs, published=None, before=None):
+    """the Records of a study of hvi limits and one of hvi shots, from the folder of their runs; before: Records whose runs are kept, of the same rule"""
     collected = Collected(study)
     for across in sorted(study.across):
         for shift in study.shifts:
@@ -74,10 +74,31 @@ def collect(study, runs, published=None):
     command = f"python3 -m hvi calibrate {within(study.path)}" + (f" --shots {within(published.path)}" if published else "")
     head = {"command": command, "date": datetime.date.today().isoformat(), "rows": len(collected.runs), "shields": len({run.shield for run in collected.runs}),
             "spacing": {"across": sorted(study.across), **study.rule}, "settings": study.settings, "model": collected.model, "materials": dict(sorted(collected.materials.items())), "versions": sorted(collected.versions)}
+    if before:
+        join(head, before, collected.runs)
     records = calibration.Records(head, tuple(collected.runs))
     checked = records.finest().check()
     head.update(limits=len(records.finest().limits), margin=min(calibration.MARGINS, key=lambda name: checked["scores_by_other_reports"][name]), **checked)
     return records
+
+
+def join(head, before, runs):
+    """the runs of earlier records, with the head of all; HVIError: they are of another rule, or one of them was run again"""
+    def rule(of):
+        return {**of["spacing"], "across": None}, of["settings"], of["model"]
+
+    if rule(before.head) != rule(head):
+        raise HVIError("--add: those records have other spacings, settings or another model than the study")
+    for name, digest in before.head["materials"].items():
+        if head["materials"].setdefault(name, digest) != digest:
+            raise HVIError(f"--add: those records were run with another {name} than the study: run them again")
+    searches = [{(run.shield, run.across, run.shift) for run in some} for some in (before.runs, runs)]
+    if twice := sorted(searches[0] & searches[1]):
+        raise HVIError(f"--add: {twice[0][0]} with {twice[0][1]:g} across, shift {twice[0][2]:g}, is in those records and in the study")
+    runs[:0] = before.runs
+    across = sorted({*before.head["spacing"]["across"], *head["spacing"]["across"]})
+    head.update(rows=len(runs), shields=len({run.shield for run in runs}), spacing={**head["spacing"], "across": across}, materials=dict(sorted(head["materials"].items())),
+                versions=sorted({*before.head.get("versions", ()), *head["versions"]}), command=f"{head['command']} --add those of {before.head['date']}: {before.head['command']}")
 
 
 def within(path):
