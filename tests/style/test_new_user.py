@@ -32,6 +32,13 @@ thermo_modify lost error
 {more}
 run {steps}
 """
+
+
+@pytest.fixture(autouse=True)
+def materials(root, monkeypatch):
+    monkeypatch.setenv("LAMMPS_POTENTIALS", str(root / "potentials"))
+
+
 COPPER = "Cu-OFHC.hvi spacing 0.001"
 COMES = """region aside block -0.0095 -0.0092 -0.006 0.006 0 0.002 units box
 fix dep all deposit 6 3 5 4711 region aside near 0.0008 vx 600 600 vy 0 0 vz 0 0 units box
