@@ -139,11 +139,10 @@ class FixHVISPH :
   class FixHVIJohnsonCook *strength;    // of solids; null: there are none
   HVI::SphStep *evaluation;             // of the pair style
   double dtv, dtf;
-  double power;      // viscous, of the last force evaluation
-  double push[3];    // of mirror planes, likewise
-  double last;       // step, of which forces are the end
-  bool due;          // density and stress of solids are those of its begin
-  void give_density(int i);
+  double power;                     // viscous, of the last force evaluation
+  double push[3];                   // of mirror planes, likewise
+  double last;                      // step, of which forces are the end
+  bool due;                         // density and stress of solids are those of its begin
   std::vector<double> setup_rho;    // in a setup: of the rates that forces are asked for
   bool in_setup = false;            // in it: rho and esph of particles are these
   int stepping;                     // in a run, so that the state is the one the last step left
@@ -167,6 +166,7 @@ class FixHVISPH :
   void check_step() const;
   void reflect();
   bool remembers(int) const;
+  void give_density(int);
   void keep_places();
   double first_half_solid(int, double dtfm);
   bool is_still(int) const;

@@ -239,8 +239,8 @@ void HVIScheme::no_answer(int i, double rho) const
         atom->tag[i], itype, update->ntimestep,
         integrator
             ? ", or a spacing or volume to its type (pair_coeff ... spacing), which is what "
-              "particles need "
-              "that come during a run, by fix deposit in the group of fix hvi/sph for instance"
+              "particles need that come during a run, by fix deposit in the group of fix hvi/sph "
+              "for instance"
             : "");
   error->one(FLERR,
              "Pair hvi/sph: equation of state {} of particle {} (type {}) has no answer at "
@@ -446,9 +446,8 @@ void HVIScheme::make_rows(int cell)
     error->one(
         FLERR,
         "Pair hvi/sph: particle {} (type {}) has {} neighbors within reach and skin at step {}, "
-        "more than the {} that neigh_modify one allows: is a smoothing length of {:.6g} that of "
-        "its "
-        "spacing?  Else raise it",
+        "more than the {} that neigh_modify one allows: is a smoothing length of {:.6g} that "
+        "of its spacing?  Else raise it",
         atom->tag[crowded], itype, made.number[crowded], update->ntimestep, neighbor->oneatom,
         set.h[itype]);
   }

@@ -49,7 +49,7 @@ def scene(more="", third=COPPER, words="dissipation riemann", solid="fix solid a
     return TARGET.format(more=more, third=third, words=words, solid=solid, steps=steps)
 
 
-@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("nranks", [1, 2, 3])
 @pytest.mark.parametrize("newton", ["on", "off"])
 @pytest.mark.parametrize("words,solid", [("dissipation riemann", True), ("h variable dissipation riemann", True), ("viscosity 1 2", False), ("dissipation riemann", False)])
 def test_deposit(lmp, tmp_path, nranks, newton, words, solid):
@@ -78,14 +78,22 @@ def test_deposit_with_masses_of_particles(lmp, tmp_path, nranks):
     assert (rows[:, 1] == 3).sum() == 6 and np.allclose(rows[rows[:, 1] == 3, 2], 8.93e-6, rtol=1e-5)
 
 
-def test_deposit_then_another_run(lmp, tmp_path):
-    """labels of bodies are those of one run: what has come apart does not pull, and a restart finds them"""
-    more = COMES.replace("fix dep all deposit 6 3 5 4711", "fix dep all deposit 6 3 2 4711") + "compute b all hvi/atom body\n"
-    ends = []
-    for runs in ("run 60", "run 30\nrun 30", "run 30\nwrite_restart half\nrun 30"):
-        t = lmp(scene(more).replace("run 60", runs), cwd=tmp_path).thermo
-        ends.append((t["c_book[1]"][-1], t["c_book[8]"][-1]))
-    assert ends[1] == pytest.approx(ends[0], rel=1e-6) and ends[2] == pytest.approx(ends[0], rel=1e-6)
+@pytest.mark.parametrize("nranks", [1, 2, 3])
+def test_deposit_in_parts(lmp, tmp_path, nranks):
+    """two runs, and a run from a restart file, end as one run does: energies, and what belongs to which body"""
+    tail = "compute b all hvi/atom body\nthermo 10\nthermo_style custom step c_book[1] c_book[2]\n"
+    last = "write_dump all custom {} id type x vx c_b modify sort id format float %.17g\n"
+    solid = "fix solid all hvi/johnson-cook damage yes spall voids"
+    text = scene(COMES.replace("deposit 6 3 5 4711", "deposit 6 3 2 4711") + tail, solid=solid)
+    fixes = "".join(line + "\n" for line in text.splitlines() if line.startswith(("fix", "compute", "thermo", "region aside", "pair_"))).replace("thermo_style custom step dt atoms c_book[1] c_book[8] c_book[9]\n", "")
+    lmp(text.replace("run 60", "run 60\n" + last.format("one")), cwd=tmp_path, nranks=nranks)
+    lmp(text.replace("run 60", "run 30\nwrite_restart half\nrun 30\n" + last.format("two")), cwd=tmp_path, nranks=nranks)
+    lmp("read_restart half\n" + fixes + "run 30\n" + last.format("three"), cwd=tmp_path, nranks=nranks)
+    one, two, three = (np.loadtxt(tmp_path / name, skiprows=9) for name in ("one", "two", "three"))
+    assert len(one) == len(two) == len(three) and (one[:, 1] == 3).sum() == 6 and len(set(one[one[:, 1] == 3, 4])) == 6
+    for other in (two, three):
+        assert np.array_equal(one[:, 4], other[:, 4])
+        assert np.allclose(one[:, 2], other[:, 2], rtol=0, atol=1e-9) and np.allclose(one[:, 3], other[:, 3], rtol=0, atol=1e-3)
 
 
 def test_bodies_of_what_comes(lmp, tmp_path):

@@ -43,7 +43,8 @@ class NeighborRows {
   int cells() const { return made.size(); }
   bool has(int cell) const { return made[cell]; }
 
-  // the rows of its owned points, unless they are there; the point whose row is too long, else -1
+  // makes the rows of the owned points of a cell, unless they are there; returns the first point with too many
+  // neighbors, or -1
 
   int make(int cell);
 
