@@ -138,6 +138,8 @@ WRONG = [
     (change("diameter_mm: 5", "side_mm: 5\n  diameter_mm: 5"), 3, "projectile: side_mm: a sphere has none: diameter_mm"),
     (change("diameter_mm: 5", "shape: hollow sphere\n  thickness_mm: 3\n  diameter_mm: 5"), 4, "projectile: thickness_mm: must be below the radius, 2.5 mm"),
     (change("diameter_mm: 5", "shape: hollow sphere\n  thickness_mm: 0.5\n  diameter_mm: 5"), 13, "spacings_mm: 0.4 mm leaves fewer than 2 particles through the shell of 0.5 mm"),
+    (change("diameter_mm: 5", "fill: sand\n  diameter_mm: 5"), 3, "projectile: fill: must be lattice or glass, not sand"),
+    (change("diameter_mm: 5", "shape: file\n  fill: glass\n  file: none.stl"), 4, "projectile: fill: a file has its own particles"),
     (change("diameter_mm: 5", "shape: file\n  file: none.stl"), 4, "projectile: file: cannot read "),
     (change("diameter_mm: 5", "shape: cylinder\n  diameter_mm: 5\n  length_mm: 3\n  pitch_deg: 20") + "settings: {quarter: yes}\n", 16,
      "settings: quarter: yes needs mirror planes, and a cylinder of 5 mm, 3 mm long, pitched by 20 degrees has none"),
@@ -552,6 +554,31 @@ def test_real_shapes(root, lmp, tmp_path, shape, number):
     else:
         r = np.linalg.norm(x, axis=1)
         assert 2.4 <= r.min() < 2.8 and 3.6 < r.max() <= 4.0
+
+
+@pytest.mark.parametrize("shape, quarter", [("diameter_mm: 6", True), ("shape: hollow sphere, diameter_mm: 8, thickness_mm: 1.6", True), ("shape: cube, side_mm: 4", True),
+                                            ("shape: cylinder, diameter_mm: 4, length_mm: 6, pitch_deg: 30", False)])
+def test_real_glass(root, lmp, tmp_path, shape, quarter):
+    """particles without rows: the exact mass, inside of the body, another glass for each shift, the same one again; a quarter has no images closer than others"""
+    (tmp_path / "hit.yaml").write_text(REAL.replace("{diameter_mm: 6", "{fill: glass, " + shape).replace("[0.8, 0.66]", "[0.4]"))
+    case = cases.read(tmp_path / "hit.yaml")
+    made = {name: chain.write_run(case, 0, shift, tmp_path / name) for name, shift in (("run", 0.0), ("again", 0.0), ("other", 0.25))}
+    assert made["run"].images == (4 if quarter else 1) and cases.read(tmp_path / "run/case.yaml").projectile.mapping() == case.projectile.mapping()
+    text = {name: (tmp_path / name / "ball.data").read_text() for name in made}
+    assert text["run"] == text["again"] != text["other"]
+    lmp(tmp_path / "run/in.shield", cwd=tmp_path / "run", vars={"until": 0.02})
+    frame = hvi.Dump(str(sorted((tmp_path / "run").glob("film.*.dump"))[0]))[0]
+    ball = frame.select(frame["type"] == 1)
+    assert made["run"].images * ball.m.sum() == pytest.approx(2790e-9 * case.projectile.volume_mm3, rel=5e-6)  # a dump has six digits of a mass
+    x = 1e3 * ball.x + [0, 0, case.projectile.radius_mm]
+    if quarter:
+        assert x[:, :2].min() > 0.1  # of 0.4 mm
+    else:
+        c, s = math.cos(math.radians(30)), math.sin(math.radians(30))
+        x = np.column_stack([c * x[:, 0] - s * x[:, 2], x[:, 1], s * x[:, 0] + c * x[:, 2]])
+        assert abs(x[:, 2]).max() < 3 and 1.6 < np.hypot(x[:, 0], x[:, 1]).max() < 2
+    near = np.sort(np.linalg.norm(x[:, None] - x, axis=2), axis=1)[:, 1]
+    assert near.min() > 0.7 * 0.4 and len(set(np.round(x[:, 0], 4))) > 0.9 * len(x)
 
 
 def test_real_bodies_of_files(root, lmp, tmp_path):

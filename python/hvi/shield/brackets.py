@@ -13,7 +13,8 @@ import pathlib
 from ..errors import HVIError, reading
 from . import ble, decision, shots
 from .limit import Search
-from .reader import REQUIRED, Reader
+from .projectile import FILLS
+from .reader import REQUIRED, Reader, choice
 
 COLUMNS = ("name", "source", "proj_mat", "D_mm", "km_s", "bumper", "tb_mm", "gap_mm", "wall", "yield_ksi", "tw_mm", "on", "low", "high", "fails", "holds")
 ON = {"wall": "wall_mm", "diameter": "diameter_mm"}  # what varies: member of Shot
@@ -105,10 +106,12 @@ class Study:
             "list": (reader.text, REQUIRED), "brackets": (reader.several(reader.text, distinct=True), None),
             "across": (reader.several(reader.number(above=0), distinct=True), REQUIRED),
             "spacing": (lambda node, key: reader.mapping(node, key, {**{name: (whole, REQUIRED) for name in ("bumper_layers", "wall_layers", "ratio")}, "core": (whole, None)}), REQUIRED),
-            "shifts": (reader.several(reader.number(least=0, below=1), distinct=True), (0.0,)),
+            "shifts": (reader.several(reader.number(least=0, below=1), distinct=True), (0.0,)), "fill": (choice(*FILLS)(reader), FILLS[0]),
             "step": (reader.number(above=0, below=0.5), 0.05), "range": (reader.number(above=1, below=10), 2.0),
             "settings": (lambda node, key: shots.cases.read_settings(reader, node, key), {}), "materials": (table, REQUIRED), "stand_ins": (table, {})})
         self.name, self.across, self.rule, self.shifts, self.settings = path.stem, data["across"], data["spacing"], data["shifts"], data["settings"]
+        if data["fill"] != FILLS[0]:
+            self.rule = {**self.rule, "fill": data["fill"]}
         self.materials, self.stand_ins = {**data["materials"], **data["stand_ins"]}, data["stand_ins"]
         self.step, self.brackets = 1 + data["step"], read_list(path.parent / data["list"])
         self.half = math.ceil(math.log(data["range"]) / math.log(self.step))

@@ -63,7 +63,7 @@ KEYS = {
     "angle_deg": Key(number(least=0, below=90), 0.0, "from the normal of the walls; at 0 a quarter is modelled"),
     "walls": Key(lambda reader: functools.partial(read_walls, reader), REQUIRED, "a list, the first is struck first"),
     "spacings_mm": Key(several(number(above=0), distinct=True), REQUIRED, f"of particles: two or more for a verdict, the largest {RATIO:g} times the smallest at least"),
-    "shifts": Key(several(number(least=0, below=1), distinct=True), (0.0, 0.25), "of the projectile's lattice along z, parts of a spacing: what they change is chance"),
+    "shifts": Key(several(number(least=0, below=1), distinct=True), (0.0, 0.25), "of the projectile's lattice along z, parts of a spacing, or each another glass: what they change is chance"),
     "method": Key(choice(*METHODS, hint=MODEL), "sph", "of walls: sph, particles; hybrid, elements that become particles where they fail; tied, elements that never do"),
     "not_modelled": Key(several(word), (), "what the shield has and the model has not, [MLI, stuffing, honeycomb]: the verdict is undecided"),
     "settings": Key(lambda reader: functools.partial(read_settings, reader), {}, "of the model"),
@@ -109,6 +109,8 @@ class Case:
                  "material": [wall.material for wall in walls]}
         if self.projectile.shape != "sphere":
             found["shape"] = self.projectile.shape
+        if self.projectile.fill == "glass":
+            found["fill"] = "glass"
         if self.projectile.files:
             found["file"] = self.file(which)
         if any(wall.spacings_mm for wall in walls):

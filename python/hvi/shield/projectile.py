@@ -1,5 +1,5 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""The projectile of a case: a sphere, cylinder, cube or hollow sphere, a closed surface (STL), or particles of a file."""
+"""The projectile of a case: a sphere, cylinder, cube or hollow sphere, on a lattice or like glass, a closed surface (STL), or particles of a file."""
 
 import dataclasses
 import functools
@@ -18,6 +18,7 @@ from .reader import REQUIRED, Key, choice, fields, number
 # shape: keys that it needs, keys that it may have
 SHAPES = {"sphere": (("diameter_mm",), ()), "cylinder": (("diameter_mm", "length_mm"), ("pitch_deg",)), "cube": (("side_mm",), ("pitch_deg",)),
           "hollow sphere": (("diameter_mm", "thickness_mm"), ()), "file": (("file",), ())}
+FILLS = ("lattice", "glass")
 LEAST = 8  # particles of a body of a file
 LENGTHS = ("diameter_mm", "length_mm", "side_mm", "thickness_mm")
 
@@ -42,6 +43,7 @@ KEYS = {
     "shape": Key(choice(*SHAPES), "sphere", ", ".join(SHAPES)),
     **{name: Key(number(above=0), None, of(name)) for name in LENGTHS},
     "pitch_deg": Key(number(above=-90, below=90), 0.0, of("pitch_deg", ": its axis is turned about y, from the normal of the walls towards x")),
+    "fill": Key(choice(*FILLS), FILLS[0], "lattice, glass: particles on a cubic lattice, or even without rows (Howto_bodies); not of a file"),
     "file": Key(words, (), "an STL file in mm, or particle files of hvi body, one for each spacing"),
 }
 
@@ -61,6 +63,7 @@ class Projectile:
     side_mm: float = None
     thickness_mm: float = None
     pitch_deg: float = 0.0
+    fill: str = FILLS[0]
     files: tuple = ()
     of_files: tuple = ()
 
@@ -90,6 +93,11 @@ class Projectile:
         return min(value for value in (self.diameter_mm, self.length_mm, self.side_mm, self.equivalent_mm) if value)
 
     @property
+    def in_data(self):
+        """True if its particles come with a data file, not from a lattice of the input"""
+        return bool(self.files) or self.fill == "glass"
+
+    @property
     def symmetric(self):
         """True if the planes x = 0 and y = 0 may be mirrors"""
         return self.shape != "file" and not self.pitch_deg
@@ -115,11 +123,22 @@ class Projectile:
 
     def mapping(self):
         """as in a case, beside its files"""
-        found = {"material": pathlib.Path(self.material).name, **({"shape": self.shape} if self.shape != "sphere" else {})}
+        found = {"material": pathlib.Path(self.material).name, **({"shape": self.shape} if self.shape != "sphere" else {}),
+                 **({"fill": self.fill} if self.fill != FILLS[0] else {})}
         found.update({name: value for name in (*LENGTHS, "pitch_deg") if (value := getattr(self, name))})
         return {**found, **({"file": [pathlib.Path(path).name for path in self.files]} if self.files else {})}
 
     # ------------------------------------------------------------------ in the input
+    def body(self, quarter):
+        """bodies.Shape, in m, its axis along z"""
+        size = {name: 1e-3 * value for name in LENGTHS if (value := getattr(self, name)) is not None}
+        if self.shape == "cube":
+            return bodies.box([size["side_mm"]] * 3, quarter)
+        radius = 0.5 * size["diameter_mm"]
+        if self.shape == "cylinder":
+            return bodies.cylinder(radius, size["length_mm"], quarter=quarter)
+        return bodies.sphere(radius, radius - size["thickness_mm"] if "thickness_mm" in size else 0.0, quarter)
+
     def regions(self, number):
         """lines of LAMMPS that define the region ball, its center R before wall 1; number: of a length or angle, as text"""
         R, z = 1e-3 * self.radius_mm, number(-1e-3 * self.radius_mm)
@@ -148,6 +167,8 @@ def read(reader, node, key):
     for name in (*LENGTHS, "pitch_deg", "file"):
         if name not in needs + may and (names if name == "file" else found[name]):
             reader.wrong(f"{key}: {name}", f"a {shape} has none: {', '.join(needs + may)}")
+    if shape == "file" and found["fill"] != FILLS[0]:
+        reader.wrong(f"{key}: fill", "a file has its own particles, or is filled by a lattice")
     if shape == "hollow sphere" and 2 * found["thickness_mm"] >= found["diameter_mm"]:
         reader.wrong(f"{key}: thickness_mm", f"must be below the radius, {0.5 * found['diameter_mm']:g} mm")
     files = tuple(str((reader.path.parent / name).resolve()) for name in names)
@@ -187,13 +208,29 @@ def particles(path):
     return frame.x, float(frame.m.sum())
 
 
-def write(path, source, spacing, shift, density):
-    """A data file of the projectile, its middle at 0 0 0: particles of a file; of an STL file the sites of the lattice that are inside, which share its mass
+def write(path, of, spacing, shift, density, quarter):
+    """A data file of the Projectile `of`, its middle at 0 0 0: particles of its file; of an STL file the sites of the lattice that are inside, which share its
+    mass; of a shape particles like in a glass
 
-    spacing: m; shift: of the lattice along z, in spacings; density: kg/m^3
+    spacing: m; shift: of the lattice along z, in spacings, or another glass for each; density: kg/m^3; quarter: x > 0, y > 0 alone, of a glass
     """
+    if of.files:
+        x, mass, title, planes = *from_file(of.files[0], spacing, shift, density), pathlib.Path(of.files[0]).name, ()
+    else:
+        made = bodies.make(of.body(quarter), spacing, "glass", 1 + round(1e4 * shift))
+        c, s = math.cos(math.radians(of.pitch_deg)), math.sin(math.radians(of.pitch_deg))
+        x, mass = made.x @ np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]]), density * made.volume * len(made.x)
+        title, planes = f"{of}, glass", (0, 1) if quarter else ()
+    low = x.min(axis=0) - spacing
+    low[list(planes)] = 0.0
+    bodies.write_data(path, x, 1, [mass / len(x)], density, low, x.max(axis=0) + spacing, planes, title)
+
+
+def from_file(source, spacing, shift, density):
+    """(places (n, 3), their middle at 0; mass): m, kg"""
     if not is_surface(source):
         x, mass = particles(source)
+        x = x - stl.middle(x)
     else:
         triangles = 1e-3 * stl.read(source)
         mass = density * stl.volume(triangles)
@@ -205,5 +242,4 @@ def write(path, source, spacing, shift, density):
         x = np.concatenate([np.column_stack([np.full(len(k), lines[0][i]), np.full(len(k), lines[1][j]), lines[2][k]]) for i, j, k in sites]) if sites else np.zeros((0, 3))
     if len(x) < LEAST:
         raise HVIError(f"{source} holds {len(x)} particles of a spacing of {1e3 * spacing:g} mm, {LEAST} at least are needed: is it in mm?")
-    x = x - stl.middle(x) if not is_surface(source) else x
-    bodies.write_data(path, x, 1, [mass / len(x)], density, x.min(axis=0) - spacing, x.max(axis=0) + spacing, (), pathlib.Path(source).name)
+    return x, mass

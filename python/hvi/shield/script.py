@@ -4,6 +4,7 @@
 Both end a run by LAMMPS's fix halt: at the time `until`, or when the event is over, and write the restart file `to`.
 """
 
+import dataclasses
 import functools
 import itertools
 import math
@@ -33,7 +34,7 @@ ETA = 1.2  # of pair_coeff ... spacing: smoothing length in spacings
 FRICTION = 3 * 5300.0  # m/s: a wave loses exp(-3) of its amplitude on the way through an absorbing rim and back
 
 
-BALL = "ball.data"  # the projectile, if it is of a file
+BALL = "ball.data"  # the projectile, if it is no lattice
 
 
 def make(path, **words):
@@ -144,8 +145,11 @@ class Shield:
     def files(self):
         """{file: words of make()} of what is not on a lattice"""
         found = elements.of_case(self.case, self.which)
-        if self.case.projectile.files:
-            found[BALL] = {"source": self.case.file(self.which), "spacing": self.geometry.a, "shift": self.shift, "density": self.rho[0]}
+        body = self.case.projectile
+        if body.in_data:
+            files = (self.case.file(self.which),) if body.files else ()
+            found[BALL] = {"of": dataclasses.replace(body, files=files), "spacing": self.geometry.a, "shift": self.shift, "density": self.rho[0],
+                           "quarter": self.geometry.quarter}
         return found
 
     # ------------------------------------------------------------------ parts of the input
@@ -175,7 +179,7 @@ class Shield:
         text("region", f"box block {number(low[0])} {number(box[1])} {number(low[1])} {number(box[3])} {number(box[4])} {number(g.walls[-1].rear + g.a)} units box")
         kinds = 1 + n + (n if self.elements else 0) + len(self.outers)
         text("create_box", f"{kinds} box", "types: projectile, walls" + (", nodes of walls" if self.elements else "") + (", outer parts of walls" if self.outers else ""))
-        body = self.case.projectile.files
+        body = self.case.projectile.in_data
         if not body:
             self.projectile(text)
         for k, (wall, of) in enumerate(zip(g.walls, self.case.walls), 1):
@@ -215,7 +219,7 @@ class Shield:
     def projectile(self, text):
         """a cubic lattice about its center, or a file"""
         g = self.geometry
-        if self.case.projectile.files:
+        if self.case.projectile.in_data:
             text("read_data", f"{BALL} add append shift 0 0 {number(-g.R)}")
             return
         origin = 0.5 + self.shift - g.R / g.a

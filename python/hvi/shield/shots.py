@@ -16,7 +16,7 @@ from ..material import laws
 from ..version import ROOT
 from . import ble, decision
 from . import case as cases
-from .projectile import Projectile
+from .projectile import FILLS, Projectile
 from .reader import REQUIRED, Reader
 
 SETTINGS = ROOT / "examples" / "whipple-shield" / "shots" / "all.yaml"  # of a list that comes without a study
@@ -155,12 +155,12 @@ def spacings(rule, diameter, bumper, wall):
 def case_of(shot, rule, materials, shifts, settings, where, factors=(1.0,)):
     """A shot as a case of hvi shield: the projectile and wall 1 at one spacing, the rear wall no coarser than ratio times that, in a square alone if there is a core
 
-    rule: across, bumper_layers, wall_layers, ratio, core (half side of the square over the gap, or None); materials: {alloy: material}; where: what messages begin with; factors: of the spacings
+    rule: across, bumper_layers, wall_layers, ratio, core (half side of the square over the gap, or None), fill (of the projectile); materials: {alloy: material}; where: what messages begin with; factors: of the spacings
     """
     near, far = spacings(rule, shot.diameter_mm, shot.bumper_mm, shot.wall_mm)
     first, last = (tuple(round(dx * factor, 4) for factor in factors) for dx in (near, far))
     ball, bumper, wall = (materials[alloy] for alloy in shot.alloys())
-    case = cases.Case(name=shot.folder, projectile=Projectile(ball, diameter_mm=shot.diameter_mm), speed_km_s=shot.speed_km_s, angle_deg=shot.angle_deg,
+    case = cases.Case(name=shot.folder, projectile=Projectile(ball, diameter_mm=shot.diameter_mm, fill=rule.get("fill", FILLS[0])), speed_km_s=shot.speed_km_s, angle_deg=shot.angle_deg,
                       walls=(cases.Wall(shot.bumper_mm, bumper, spacings_mm=first, method="sph"),
                              cases.Wall(shot.wall_mm, wall, gap_mm=shot.gap_mm, spacings_mm=last, method="sph", yield_ksi=shot.yield_ksi,
                                         core_mm=round(rule["core"] * shot.gap_mm, 3) if rule.get("core") else None)),
