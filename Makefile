@@ -74,16 +74,16 @@ verify:
 	@cmake/deps.sh build test browser
 	@$(MAKE) build
 	@python=$$(cmake/find-python.sh numpy scipy matplotlib pytest) && \
-	  cmake/env.sh $$python tests/shocks.py --lmp $(OUT)/lmp --out $(OUT)/verify --ranks $(RANKS) $(VERIFY_ARGS) && \
-	  cmake/env.sh $$python tests/solids.py --lmp $(OUT)/lmp --out $(OUT)/verify $(SOLIDS_ARGS) && \
-	  cmake/env.sh $$python tests/states.py --lmp $(OUT)/lmp --out $(OUT)/verify $(STATES_ARGS) && \
-	  cmake/env.sh $$python tests/expansion.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
-	  cmake/env.sh $$python tests/interface.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
-  cmake/env.sh $$python tests/hard.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
+	  cmake/env.sh $$python tests/verify/shocks.py --lmp $(OUT)/lmp --out $(OUT)/verify --ranks $(RANKS) $(VERIFY_ARGS) && \
+	  cmake/env.sh $$python tests/verify/solids.py --lmp $(OUT)/lmp --out $(OUT)/verify $(SOLIDS_ARGS) && \
+	  cmake/env.sh $$python tests/verify/states.py --lmp $(OUT)/lmp --out $(OUT)/verify $(STATES_ARGS) && \
+	  cmake/env.sh $$python tests/verify/expansion.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
+	  cmake/env.sh $$python tests/verify/interface.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
+	  cmake/env.sh $$python tests/verify/hard.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
 	  ctest --test-dir $(BUILD) --output-on-failure -C long -L long -j $(JOBS) && export PYTHONPATH=$(TOP)/python && \
 	  { cmake/env.sh $$python -m hvi shield $(DEMO)/cases/quick.yaml --lmp $(OUT)/lmp --runs $(OUT)/verify --jobs $(RANKS) --ranks 1; code=$$?; \
 	    [ $$code = 0 ] || [ $$code = 3 ] || [ $$code = 4 ] || exit $$code; } && \
-	  $$python -m hvi report $(OUT)/verify/quick && $$python tests/browser.py $(OUT)/verify/quick/report.html $(OUT)/verify/browser
+	  $$python -m hvi report $(OUT)/verify/quick && $$python tests/verify/browser.py $(OUT)/verify/quick/report.html $(OUT)/verify/browser
 
 sanitize:
 	@$(MAKE) test BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON

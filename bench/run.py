@@ -82,7 +82,7 @@ def key_of(name, settings):
 
 def made_of():
     """inputs, scenes of tests, materials and Python that runs are made of"""
-    for pattern in ("bench/runners/*.py", "bench/stock/*", "bench/dem/*", "bench/sph/*", "tests/*.py", "tests/reference/*.py", "python/hvi/**/*.py",
+    for pattern in ("bench/runners/*.py", "bench/stock/*", "bench/dem/*", "bench/sph/*", "tests/lib/*.py", "tests/reference/*.py", "python/hvi/**/*.py",
                     "examples/*/in.*", "examples/*/legs.*", "examples/whipple-shield/*/*.yaml", "examples/*/shots.csv", "examples/whipple-shield/shots/*.csv", "potentials/*.hvi"):
         for path in sorted(ROOT.glob(pattern)):
             if path.is_file() and not path.name.startswith("hard"):

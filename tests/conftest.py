@@ -1,4 +1,4 @@
-"""Fixtures for all Python tests: run LAMMPS, read its thermo output.
+"""Fixtures for all Python tests: run LAMMPS.
 
 Run by ctest (`make test`) or by hand: `pytest tests/style/test_x.py` uses build/. Tests marked long run with `-m long` only, as in
 `make verify`.
@@ -6,16 +6,15 @@ Run by ctest (`make test`) or by hand: `pytest tests/style/test_x.py` uses build
 
 import os
 import pathlib
-import re
 import shlex
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 
 ROOT = pathlib.Path(os.environ.get("HVI_ROOT", pathlib.Path(__file__).resolve().parents[1]))
-sys.path.insert(0, str(ROOT / "python"))
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent / "lib"), str(ROOT / "python")]  # pytest itself puts tests there, for reference
+from lammps_runs import Result  # noqa: E402
 
 
 def _built(variable, name):
@@ -23,66 +22,6 @@ def _built(variable, name):
     if not path.exists():
         pytest.fail(f"{path} does not exist: run make first, or set {variable}", pytrace=False)
     return path
-
-
-class Result:
-    """What one LAMMPS run left behind.
-
-    stdout, stderr, log: text; returncode; command; cwd (a Path)
-    runs: for every run or minimize one dict of NumPy columns; thermo: the last of them
-    """
-
-    def __init__(self, command, cwd, returncode, stdout, stderr, log):
-        self.command, self.cwd, self.returncode = command, cwd, returncode
-        self.stdout, self.stderr, self.log = stdout, stderr, log
-        self.runs = read_thermo(log)
-
-    @property
-    def thermo(self):
-        if not self.runs:
-            raise AssertionError("no thermo output in the log\n" + str(self))
-        return self.runs[-1]
-
-    @property
-    def warnings(self):
-        return [line for line in self.log.splitlines() if line.startswith("WARNING")]
-
-    @property
-    def error(self):
-        """the text of LAMMPS's error line, '' if there is none"""
-        found = re.search(r"^ERROR[^:\n]*: *(.*)$", self.log + "\n" + self.stdout, re.M)
-        return found.group(1) if found else ""
-
-    def __str__(self):
-        return (f"in {self.cwd}: {shlex.join(map(str, self.command))}\nreturn code {self.returncode}\n"
-                f"{self.stdout[-6000:]}\n{self.stderr[-3000:]}")
-
-
-def read_thermo(log):
-    """Thermo tables of a log in the default (one) style: a list of {column: array}."""
-    runs, names, rows = [], None, []
-
-    def close():
-        if names:
-            table = np.array(rows, dtype=float).reshape(len(rows), len(names))
-            runs.append({n: table[:, i] for i, n in enumerate(names)})
-
-    for line in log.splitlines():
-        words = line.split()
-        if words and words[0] == "Step":
-            close()
-            names, rows = words, []
-        elif names:
-            if line.startswith("Loop time"):
-                close()
-                names, rows = None, []
-            elif len(words) == len(names):
-                try:
-                    rows.append([float(w) for w in words])
-                except ValueError:
-                    pass  # a warning between the lines
-    close()
-    return runs
 
 
 def pytest_configure(config):

@@ -17,7 +17,7 @@ import sys
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-for folder in (ROOT / "python", ROOT / "tests"):
+for folder in (ROOT / "python", ROOT / "tests", ROOT / "tests" / "lib"):
     if str(folder) not in sys.path:
         sys.path.insert(0, str(folder))
 

@@ -27,20 +27,16 @@ import math
 import os
 import pathlib
 import re
-import sys
 import time
 
-from . import Cannot, shields
+from . import ROOT, Cannot, shields
 
-BENCH = pathlib.Path(__file__).resolve().parents[1]
-ROOT = BENCH.parent
-sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests")]
+from hvi.errors import HVIError
+from hvi.jobs import engine, measures
+from hvi.shield import elements, shots
+from lammps_runs import Stopped, executor
 
-from hard import Stopped, executor  # noqa: E402
-from hvi.errors import HVIError  # noqa: E402
-from hvi.jobs import engine, measures  # noqa: E402
-from hvi.shield import elements, shots  # noqa: E402
-
+BENCH = ROOT / "bench"
 OPEN = 1e-3  # of the initial energy: a ledger that is farther off at the end is a failure; during the impact of few particles it swings by more
 OURS = ("method", "ranks", "repeat")  # settings that are none of the input's
 OWN = ("scene", "measures", "finest", "meshes", "cannot")  # words of a method that are none, either

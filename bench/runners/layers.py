@@ -12,7 +12,7 @@ import yaml
 
 from . import ROOT, answer, merged
 
-from hard import Stopped, executor
+from lammps_runs import Stopped, executor
 from reference import fronts, layers, measures
 
 sys.path.insert(0, str(ROOT / "examples" / "layered-shock"))

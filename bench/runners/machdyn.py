@@ -13,7 +13,7 @@ import numpy as np
 
 from . import Cannot, answer
 
-from hard import Stopped
+from lammps_runs import Stopped
 from face_scenes import CL, NU, RHO, E
 from reference.elastic_plastic import impact
 from state_scenes import LAYERS, SPACING, distance

@@ -11,7 +11,7 @@ from hvi.jobs import engine
 from hvi.shield import chain, elements, geometry, script, shots
 from hvi.shield import case as cases
 
-from hard import Stopped
+from lammps_runs import Stopped
 from . import Cannot
 
 OF_A_CASE, OF_A_STUDY = ("dx", "shift", "method"), ("shot", "finer")  # variables beside the settings of a case
@@ -67,7 +67,7 @@ class Shields:
         return chain.write_run(case, 0, case.shifts[0], folder)
 
     def run(self, lmp, variables, folder, **how):
-        """(Result of the run, result.yaml); lmp: tests/hard.py's executor"""
+        """(Result of the run, result.yaml); lmp: tests/lib/lammps_runs.py's executor"""
         shield = self.write(variables, folder)
         r = lmp(folder / script.BEGIN, **how)
         (folder / "log.lammps").write_text(r.log)

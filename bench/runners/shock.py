@@ -1,5 +1,5 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""Standard shocks of tests/shock_scenes.py: gas, fluid flyer plates. Errors: L1 over space in percent of the range, by element.
+"""Standard shocks of tests/lib/shock_scenes.py: gas, fluid flyer plates. Errors: L1 over space in percent of the range, by element.
 
 Of a method: words (of pair_style hvi/sph), or stock: sph (LAMMPS's package SPH), ulsph, tlsph (its package MACHDYN).
 Settings: n, kernel, h (in spacings), variable (h follows the density), C (of fix hvi/dt), skin (in units of h), octant (of a ball, between mirrors).
@@ -8,7 +8,7 @@ Settings: n, kernel, h (in spacings), variable (h follows the density), C (of fi
 from . import Cannot, answer, machdyn, merged
 
 import shock_runs
-from hard import executor
+from lammps_runs import executor
 from shock_scenes import CASES
 
 WORDS = {"kernel": "kernel", "C": "courant", "skin": "skin", "variable": "variable", "h": "eta", "octant": "mirrors"}

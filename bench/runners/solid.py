@@ -1,7 +1,7 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """Solids: waves in bulk and walls, bending, Verney's shell and cylinder, Taylor's cylinder, by particles, elements, and MACHDYN's tlsph.
 
-Scenes are those of tests/solids.py, tests/face_scenes.py and tests/fem_mechanics_scenes.py. Errors in percent.
+Scenes are those of tests/lib/verney_taylor_scenes.py, tests/lib/face_scenes.py and tests/lib/fem_mechanics_scenes.py. Errors in percent.
 Of a method: kind (particles, elements, tlsph), and words (of pair_style hvi/sph), or fem (of fix hvi/fem).
 Settings: layers (through a thickness) or n (per radius, per width of a pulse), kernel, h (in spacings), variable, C, skin (in units of h/1.2).
 """
@@ -12,8 +12,8 @@ from . import answer, machdyn, merged
 
 import face_scenes
 import fem_mechanics_scenes as fem
-import solids
-from hard import Stopped, executor
+import verney_taylor_scenes as vt
+from lammps_runs import Stopped, executor
 
 LENGTH, FOOT = (21.4, 21.7), (6.97, 7.24)  # mm, of Taylor's cylinder by other codes
 RADIUS = 3.2e-3
@@ -38,8 +38,8 @@ def shell(lmp, folder, s):
     if s["kind"] == "elements":
         o = fem.verney(lmp, folder, s["layers"], t_end=115.0, **of_elements(s))
     else:
-        o = solids.verney(lmp, folder, 2.0 / s["layers"], t_end=115.0, octant=True, **of_particles(s))
-    errors = {"inner radius": off(o["inner"] / 4), "strength": off(solids.strength(o["inner"]))}
+        o = vt.verney(lmp, folder, 2.0 / s["layers"], t_end=115.0, octant=True, **of_particles(s))
+    errors = {"inner radius": off(o["inner"] / 4), "strength": off(vt.strength(o["inner"]))}
     return o, errors, {"inner_cm": o["inner"], "stops_at_us": o["stops_at"]}
 
 
@@ -55,7 +55,7 @@ def taylor(lmp, folder, s):
     elif s["kind"] == "tlsph":
         o = machdyn.taylor(lmp, folder, dx, fem.COPPER, 70e-6, s)
     else:
-        o = solids.taylor(lmp, folder, dx, laws=fem.COPPER, quarter=True, t_end=70e-6, **of_particles(s))
+        o = vt.taylor(lmp, folder, dx, laws=fem.COPPER, quarter=True, t_end=70e-6, **of_particles(s))
     return o, of_shape(o["length"], o["foot"]), {"length_mm": o["length"], "foot_mm": o["foot"]}
 
 

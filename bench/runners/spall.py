@@ -6,7 +6,7 @@ Of a method: words (of pair_style hvi/sph). Settings: n (particles through the f
 
 from . import ROOT, answer, merged
 
-from hard import Stopped, executor
+from lammps_runs import Stopped, executor
 from hvi.errors import HVIError
 from hvi.jobs import measures
 

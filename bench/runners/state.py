@@ -1,5 +1,5 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""Flyers of elastic, perfectly plastic solids and the piston: tests/state_scenes.py, against the exact states.
+"""Flyers of elastic, perfectly plastic solids and the piston: tests/lib/state_scenes.py, against the exact states.
 
 Errors in percent, the worse side: L1 of sigma_x, rho, u, e over the layers that the first wave has passed, in units of the jump; of the
 plateaus, and of the speed of the plastic shock and its precursor.
@@ -11,7 +11,7 @@ import numpy as np
 
 from . import answer, machdyn, merged
 
-from hard import Stopped, executor
+from lammps_runs import Stopped, executor
 from state_scenes import CASES, FIELDS, flyer
 
 HOW = {"kernel": "kernel", "h": "h", "words": "words", "variable": "variable", "C": "courant", "skin": "skin", "dim": "dim", "gap": "gap"}

@@ -5,7 +5,7 @@
                                 FOLDER/profile.png
     python3 plot.py             the runs of run.sh: the same, and the figures and tables of README.md
 
-Exact solutions: tests/reference/gas.py, impedance.py. Errors: L1 over space, by the range of the exact field, as in tests/shock_scenes.py.
+Exact solutions: tests/reference/gas.py, impedance.py. Errors: L1 over space, by the range of the exact field, as in tests/lib/shock_scenes.py.
 """
 
 import glob
@@ -20,7 +20,8 @@ import numpy as np
 import yaml
 
 here = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(os.environ.get("HVI_ROOT", os.path.join(here, "..", "..")), "tests"))
+tests = os.path.join(os.environ.get("HVI_ROOT", os.path.join(here, "..", "..")), "tests")
+sys.path[:0] = [tests, os.path.join(tests, "lib")]
 import shock_scenes as scenes
 from reference import impedance
 

@@ -1,6 +1,6 @@
 """Where elements of fix hvi/fem and free particles meet: what it reflects, that it carries stress at rest, and what is conserved.
 
-More kernels, n, angles and layers: tests/interface.py, Howto_fem_interface.
+More kernels, n, angles and layers: tests/verify/interface.py, Howto_fem_interface.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Bodies that expand until they break, against Grady's size of fragments: bars held sideways by spall voids, thin rings. Long form: tests/expansion.py"""
+"""Bodies that expand until they break, against Grady's size of fragments: bars held sideways by spall voids, thin rings. Long form: tests/verify/expansion.py"""
 
 import numpy as np
 import pytest

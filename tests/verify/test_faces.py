@@ -1,4 +1,4 @@
-"""The measurements of face_scenes.py themselves: theory in its limits, bulk, thin walls. The rest of what faces bear is in `make verify` (tests/solids.py)."""
+"""The measurements of face_scenes.py themselves: theory in its limits, bulk, thin walls. The rest of what faces bear is in `make verify` (tests/verify/solids.py)."""
 
 import numpy as np
 import pytest

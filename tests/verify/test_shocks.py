@@ -1,4 +1,4 @@
-"""Standard shocks (tests/shocks.py) in their short form: errors, energy, momentum and symmetry within the bounds written down before.
+"""Standard shocks (tests/verify/shocks.py) in their short form: errors, energy, momentum and symmetry within the bounds written down before.
 
 What a dissipation misses is in shocks.csv with its convergence: such a run counts as an expected failure as long as it misses nothing
 else and no more than it did. A run that stopped, or is ten times its bound off, is only told. `make verify` is the long form, which
@@ -83,7 +83,7 @@ def test_riemann_gets_through_everything():
 
 
 def test_the_table_of_the_howto():
-    """is that of shocks.csv: python3 tests/shocks.py --table"""
+    """is that of shocks.csv: python3 tests/verify/shocks.py --table"""
     text = (HERE.parents[1] / "doc" / "src" / "Howto_sph.rst").read_text()
     assert "".join(f"   {line}\n" for line in shocks.table().splitlines()) in text
 

@@ -1,4 +1,4 @@
-"""Plates of aluminum of different spacings (tests/spacing_scenes.py): plateaus and the contact against the exact states."""
+"""Plates of aluminum of different spacings (tests/lib/spacing_scenes.py): plateaus and the contact against the exact states."""
 
 import pytest
 from spacing_scenes import plates

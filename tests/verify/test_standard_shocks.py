@@ -1,4 +1,4 @@
-"""examples/standard-shocks: the inputs run, measure what they say, and agree with the scenes of tests/shocks.py"""
+"""examples/standard-shocks: the inputs run, measure what they say, and agree with the scenes of tests/verify/shocks.py"""
 
 import re
 import sys
@@ -49,7 +49,7 @@ def run(lmp, root, example, tmp_path):
     ("in.flyer", dict(n=100, v0=5750, **AL_CU), "al-cu-5750", 100),
 ])
 def test_as_the_scene(run, lmp_exe, tmp_path, script, variables, case, n):
-    """the same problem as in tests/shock_scenes.py, set up in LAMMPS's own words: the same errors"""
+    """the same problem as in tests/lib/shock_scenes.py, set up in LAMMPS's own words: the same errors"""
     import shock_runs
     import shock_scenes
 

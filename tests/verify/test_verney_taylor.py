@@ -1,11 +1,11 @@
-"""Large plastic strain, short form; `make verify` has the long one (tests/solids.py).
+"""Large plastic strain, short form; `make verify` has the long one (tests/verify/solids.py).
 
 The place of a surface is known to half a spacing: that is the bound on lengths, and in parts of the thickness on strength, of a body of so
 many particles across; it shrinks with the spacing.
 """
 
 import pytest
-from solids import stop, strength, taylor, verney
+from verney_taylor_scenes import stop, strength, taylor, verney
 
 ENERGY = 1e-3
 

@@ -1,7 +1,7 @@
 """Whether a change of the sources has left every bit where it was: short runs of the examples' scenes with hashes of the state that they end in.
 
-    cmake/env.sh /usr/bin/python3 tests/net.py --lmp OLD/lmp --hashes FILE      writes FILE, where there is none
-    cmake/env.sh /usr/bin/python3 tests/net.py --lmp NEW/lmp --hashes FILE      compares; [--only WORD ...] for some scenes
+    cmake/env.sh /usr/bin/python3 tests/verify/net.py --lmp OLD/lmp --hashes FILE      writes FILE, where there is none
+    cmake/env.sh /usr/bin/python3 tests/verify/net.py --lmp NEW/lmp --hashes FILE      compares; [--only WORD ...] for some scenes
 
 Both with make CMAKE_ARGS=-DCMAKE_CXX_FLAGS=-ffp-contract=off: where products and sums are fused is up to the compiler, and changes with the code around
 them. The state is x, v, rho, e and stress of every particle, with all digits. Scenes called rare use options that are held to 1e-12
@@ -21,7 +21,7 @@ import tempfile
 
 import yaml
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"
 SPH = """compute net all hvi/atom p sxx syy szz sxy sxz syz
 compute net_rho all sph/rho/atom

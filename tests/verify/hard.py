@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Hard cases: which methods live through them, and which do not and why. The scenes are in hard_gas.py and hard_solids.py.
 
-    python3 tests/hard.py --out build/verify       all cases and methods, stock LAMMPS beside: hard.csv, hard.md
-    python3 tests/hard.py --criteria FILE          the criteria, without running anything
-    python3 tests/hard.py --table                  the table of doc/src/Howto_hard.rst from tests/verify/hard.csv
+    python3 tests/verify/hard.py --out build/verify       all cases and methods, stock LAMMPS beside: hard.csv, hard.md
+    python3 tests/verify/hard.py --criteria FILE          the criteria, without running anything
+    python3 tests/verify/hard.py --table                  the table of doc/src/Howto_hard.rst from tests/verify/hard.csv
 
 Criteria are in tests/verify/hard_criteria.csv, written down before the first run but for those of cases that came later, as it says there. What is
 known to miss one has its cause in the case.
@@ -14,54 +14,16 @@ import csv
 import dataclasses
 import pathlib
 import re
-import subprocess
 import sys
-import typing
 
 import numpy as np
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
-from conftest import Result  # noqa: E402
-
-ENERGY, MOMENTUM = 1e-3, 1e-12  # of the initial total; of the sum of |p|: what every case asks for where the books are closed
-BOOKS = {"energy": ENERGY, "momentum": MOMENTUM}
-
-
-class Stopped(Exception):
-    """a run that ended with an error, did not end, or has numbers that are none; str: what is said of it"""
-
-
-class Cannot(Exception):
-    """the method has no such law, dimension or boundary; str: why"""
-
-
-@dataclasses.dataclass
-class Case:
-    """a scene with what is asked of it
-
-    name, title: a word and a line for the table.
-    scene(lmp, folder, setting): runs it in a folder (`lmp`: see executor) and returns {measure: number};
-      raises Stopped or Cannot.  Not finite measures stop it, too.
-    methods: {name: setting}; names that begin with "stock" are other packages, which nothing is asked of.
-    criteria: {measure: upper bound}, or (lower, upper).
-    short: methods that run in make test (seconds each); all of them in make verify.
-    known: {method: {measure or "run": cause}}: what it misses, one line each; one that clearly misses no more fails the test.
-    since: "first" if the criteria were written down before the first run, "after" if numbers were known
-    """
-
-    name: str
-    title: str
-    scene: typing.Callable
-    methods: dict
-    criteria: dict
-    short: tuple = ()
-    known: dict = dataclasses.field(default_factory=dict)
-    since: str = "first"
-
-    def bounds(self, measure):
-        b = self.criteria[measure]
-        return b if isinstance(b, tuple) else (-np.inf, b)
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS / "lib"), str(TESTS.parent / "python")]
+import hard_gas  # noqa: E402
+import hard_solids  # noqa: E402
+from hard_cases import Cannot, Case  # noqa: E402, F401
+from lammps_runs import Stopped, executor  # noqa: E402
 
 
 @dataclasses.dataclass
@@ -80,32 +42,6 @@ class Outcome:
         absent = set(case.criteria) - set(self.measures) if not self.method.startswith("stock") else set()
         assert not absent, f"{case.name}, {self.method}: not measured: {absent}"
         return {m: v for m, v in self.measures.items() if m in lo and not lo[m][0] <= v <= lo[m][1]}
-
-
-def executor(exe, folder):
-    """lmp(text or Path, nranks=1, vars={}, timeout=600) -> conftest's Result; what goes wrong is raised as Stopped; lmp.exe: the program"""
-    count = 0
-
-    def lmp(text, nranks=1, vars=None, timeout=600):
-        nonlocal count
-        count += 1
-        infile = text
-        if not isinstance(text, pathlib.Path):
-            infile = folder / f"in.{count}"
-            infile.write_text(text)
-        log = folder / f"log.{count}"
-        command = [HERE.parent / "cmake" / "env.sh", *(["mpirun", "-np", nranks] if nranks > 1 else []), exe, "-in", infile, "-log", log]
-        for name, value in (vars or {}).items():
-            command += ["-var", name, *(value if isinstance(value, (list, tuple)) else [value])]
-        command = ["timeout", "-k", "5", str(timeout), *map(str, command)]
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", stdin=subprocess.DEVNULL)
-        r = Result(command, folder, done.returncode, done.stdout, done.stderr, log.read_text() if log.exists() else "")
-        if done.returncode:
-            raise Stopped(r.error or (f"no end after {timeout} s" if done.returncode in (124, 137) else f"ended with {done.returncode}"))
-        return r
-
-    lmp.exe = exe  # for runners of their own
-    return lmp
 
 
 def run(case, method, lmp, folder):
@@ -168,9 +104,6 @@ def unexpected(case, outcome, rows=None):
 
 
 def cases():
-    import hard_gas
-    import hard_solids
-
     return [*hard_gas.CASES, *hard_solids.CASES]
 
 
@@ -184,7 +117,7 @@ def as_row(case, o):
 
 def write_criteria(path):
     with open(path, "w", newline="") as f:
-        f.write("# python3 tests/hard.py --criteria: since first: written down before the first run; after: when numbers were known\n")
+        f.write("# python3 tests/verify/hard.py --criteria: since first: written down before the first run; after: when numbers were known\n")
         w = csv.writer(f, lineterminator="\n")
         w.writerow(["case", "measure", "least", "most", "since"])
         for c in cases():
@@ -226,15 +159,15 @@ def table(rows):
     return "\n".join(out) + "\n"
 
 
-def read(path=HERE / "verify" / "hard.csv"):
+def read(path=TESTS / "verify" / "hard.csv"):
     with open(path) as f:
         return list(csv.DictReader(line for line in f if line[0] != "#"))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--lmp", default=HERE.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
-    parser.add_argument("--out", default=HERE.parent / "build" / "verify", type=pathlib.Path)
+    parser.add_argument("--lmp", default=TESTS.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
+    parser.add_argument("--out", default=TESTS.parent / "build" / "verify", type=pathlib.Path)
     parser.add_argument("--form", choices=("short", "long"), default="long")
     parser.add_argument("--cases", default="", help="names, by commas")
     parser.add_argument("--methods", default="", help="names, by commas")
@@ -265,7 +198,7 @@ def main():
                 wrong.append(f"{case.name}, {method}: {unexpected(case, o)}")
             print(" | ".join(rows[-1]), flush=True)
             with open(out / "hard.csv", "w", newline="") as f:
-                f.write("# python3 tests/hard.py --form long\n")
+                f.write("# python3 tests/verify/hard.py --form long\n")
                 w = csv.writer(f, lineterminator="\n")
                 w.writerow(COLUMNS), w.writerows(rows)
     print("\n".join(wrong) or "all as it is said", f"\n{out}/hard.csv", sep="")
@@ -274,6 +207,4 @@ def main():
 
 
 if __name__ == "__main__":
-    import hard  # so that Stopped and Cannot of scenes are those that are looked for
-
-    hard.main()
+    main()

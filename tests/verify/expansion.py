@@ -1,6 +1,6 @@
-"""Fragments of bodies that expand, long form: python3 tests/expansion.py --lmp build/lmp [--out FOLDER] writes expansion.md; a part of `make verify`.
+"""Fragments of bodies that expand, long form: python3 tests/verify/expansion.py --lmp build/lmp [--out FOLDER] writes expansion.md; a part of `make verify`.
 
-Number of sound pieces over that of Grady's theory, length/s with s of compute hvi/atom fragsize: bars of 6061-T6 held sideways (tests/expansion_scenes.py),
+Number of sound pieces over that of Grady's theory, length/s with s of compute hvi/atom fragsize: bars of 6061-T6 held sideways (tests/lib/expansion_scenes.py),
 24 s long, over strain rate, particles in a length s, scatter of strength and over what length it is one; thin rings.
 """
 
@@ -10,10 +10,10 @@ import sys
 
 import numpy as np
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS / "lib"), str(TESTS.parent / "python")]
 from expansion_scenes import bar, count, grady, ring  # noqa: E402
-from solids import runner  # noqa: E402
+from lammps_runs import runner  # noqa: E402
 
 LENGTH = 24
 # rate, particles in s, lengths of one strength in s (None: every particle its own), modulus of the scatter, h in spacings
@@ -63,7 +63,7 @@ def main():
     with open(args.out / "expansion.md", "w") as report:
         for title, lines in (("Bars held sideways", bars), ("Rings of 20 mm radius, plane strain, h 1.5 spacings", rings)):
             report.write(f"\n## {title}\n\n")
-            for line in lines(runner(args.lmp.resolve(), folder), HERE.parent, folder):
+            for line in lines(runner(args.lmp.resolve(), folder), TESTS.parent, folder):
                 report.write(line + "\n")
                 print(line, flush=True)
 

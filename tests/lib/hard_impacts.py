@@ -10,14 +10,15 @@ import numpy as np
 import plate_scenes
 import yaml
 from fem_mechanics_scenes import collision
-from hard import BOOKS, Case, Stopped
+from hard_cases import BOOKS, Case
 from hard_stock import stock
 from hvi.jobs import engine
 from hvi.model import bodies, mesh_plate
+from lammps_runs import Stopped
 from solid_runs import material
 from tensile_scenes import nearest
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 ALUMINUM = ROOT / "potentials" / "Al6061-T6.hvi"
 DENSITY = 2703.0
 WORDS = {"riemann": "dissipation riemann", "viscosity": "viscosity 1 2"}

@@ -8,8 +8,9 @@ MACHDYN (the same reach and step, viscosity 1): liquids only, since its gas has 
 import dataclasses
 
 import numpy as np
-from hard import Cannot, Stopped
+from hard_cases import Cannot
 from hard_gas_rows import paired
+from lammps_runs import Stopped
 from reference.elastic_plastic import METALS
 from reference.gas import shock
 from solid_runs import momentum_error

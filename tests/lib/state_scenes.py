@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Flyers of elastic, perfectly plastic solids in three dimensions, measured against the exact states of reference/elastic_plastic.py.
 
-    python3 tests/state_scenes.py --lmp build/lmp --case al-al-5000 --kernel wendland2 --h 1.6 --words "viscosity 1 2"
+    python3 tests/lib/state_scenes.py --lmp build/lmp --case al-al-5000 --kernel wendland2 --h 1.6 --words "viscosity 1 2"
 
 prints errors in percent: of sigma_x = p - Sxx, rho and e on the plateau, of u in units of the jump, of the speeds of the fronts; on both
 sides of the contact. Columns of m x m particles, periodic across: without jitter the numbers do not depend on m, so m is 1. The plates are
@@ -25,13 +25,13 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.special import erf
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS.parent / "python")]
 from reference.elastic_plastic import METALS, Solid, impact  # noqa: E402
 from hvi.model import bodies  # noqa: E402
 from shock_runs import read_log  # noqa: E402
 from solid_runs import STATE, material, read_frames  # noqa: E402
-from solids import runner  # noqa: E402
+from lammps_runs import runner  # noqa: E402
 from sph_scenes import Fluid  # noqa: E402
 
 LAYERS, ACROSS, SPACING, COURANT = 256, 1, 1e-4, 0.2
@@ -209,7 +209,7 @@ def run_case(exe, case, liquid=False, **how):
 
 if __name__ == "__main__":
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    a.add_argument("--lmp", default=HERE.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
+    a.add_argument("--lmp", default=TESTS.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
     a.add_argument("--case", default="al-al-5000", choices=CASES)
     a.add_argument("--kernel", default="wendland2")
     a.add_argument("--h", default=1.6, type=float, help="in spacings")

@@ -6,7 +6,7 @@ smoothing lengths on both sides smear, or 1 % of a plateau. At rest: a row 2 % o
 says (on_row in two and three dimensions: a quarter, since shocks squeeze the lattice in one direction).
 """
 
-from hard import BOOKS, Case
+from hard_cases import BOOKS, Case
 from hard_gas_flows import contrast, faces, impact, kelvin_helmholtz, random_rest, shear, spacings, spinning, twins, vortices
 from hard_gas_known import KNOWN
 from hard_gas_rows import ColdBlast, ColdNoh, Dome, HotGas, Release, Spaced, SpacedRest, Spalled, bounds_of, long_step, on_row, tabled

@@ -9,7 +9,7 @@ import numpy as np
 from hvi.model.mesh import block
 from scipy.spatial import cKDTree
 
-ALUMINUM = pathlib.Path(__file__).resolve().parents[1] / "potentials" / "Al6061-T6.hvi"
+ALUMINUM = pathlib.Path(__file__).resolve().parents[2] / "potentials" / "Al6061-T6.hvi"
 
 RHO, C0, G = 2703.0, 5240.0, 27.6e9  # of Al6061-T6.hvi
 C = np.sqrt(C0**2 + 4 / 3 * G / RHO)  # of longitudinal waves

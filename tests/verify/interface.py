@@ -1,7 +1,7 @@
-"""What the interface of elements and particles reflects, long form: python3 tests/interface.py --lmp build/lmp [--out FOLDER] [--only WORD] writes
+"""What the interface of elements and particles reflects, long form: python3 tests/verify/interface.py --lmp build/lmp [--out FOLDER] [--only WORD] writes
 interface.md and interface.png (Howto_fem_interface); a part of `make verify`.
 
-A pulse starts 100 spacings away (tests/interface_scenes.py).  What comes back is what differs, when it is there again, from a run of the same
+A pulse starts 100 spacings away (tests/lib/interface_scenes.py).  What comes back is what differs, when it is there again, from a run of the same
 step in which all are elements (or all particles, if it started in these), over the peak of the pulse as it arrived.
 """
 
@@ -12,10 +12,10 @@ import sys
 import numpy as np
 from scipy.spatial import cKDTree
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS / "lib"), str(TESTS.parent / "python")]
 from interface_scenes import bar, mistake, reflection, spun, squeezed  # noqa: E402
-from solids import runner  # noqa: E402
+from lammps_runs import runner  # noqa: E402
 
 RIEMANN = "dissipation riemann"
 MONAGHAN = "dissipation monaghan"

@@ -2,7 +2,7 @@
 
 import pathlib
 
-FOLDER = pathlib.Path(__file__).resolve().parents[1] / "examples" / "single-plate"
+FOLDER = pathlib.Path(__file__).resolve().parents[2] / "examples" / "single-plate"
 
 
 def replaced(text, old, new):

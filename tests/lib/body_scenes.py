@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Blocks of aluminum at rest, of particles on a lattice or like glass: how much they move by themselves.
 
-    python3 tests/body_scenes.py --lmp build/lmp --fill glass --words "dissipation riemann" --compressed 0.05
+    python3 tests/lib/body_scenes.py --lmp build/lmp --fill glass --words "dissipation riemann" --compressed 0.05
 
 prints speeds (rms and largest, m/s, and rms over the speed of sound), kinetic energy over that of compression, and the scatter of stress
 in GPa after 5 us. A cube of 12 spacings of 0.5 mm, an elastic-plastic solid, free at density rho0, or, with --compressed E, periodic and
@@ -15,11 +15,11 @@ import tempfile
 
 import numpy as np
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "python")]
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS.parent / "python")]
 from hvi.model import bodies  # noqa: E402
 from solid_runs import STATE, material, read_frames  # noqa: E402
-from solids import runner  # noqa: E402
+from lammps_runs import runner  # noqa: E402
 
 DX, RHO, SOUND, SHEAR, YIELD, ACROSS = 0.5e-3, 2703.0, 5240.0, 27.6e9, 0.29e9, 12
 
@@ -62,7 +62,7 @@ write_dump all custom end.dump id type x y z vx vy vz c_R c_S[*] modify time yes
 
 if __name__ == "__main__":
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    a.add_argument("--lmp", default=HERE.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
+    a.add_argument("--lmp", default=TESTS.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
     a.add_argument("--fill", default="glass", choices=("glass", "lattice"))
     a.add_argument("--words", default="viscosity 1 2", help="of the pair style")
     a.add_argument("--kernel", default="wendland2")

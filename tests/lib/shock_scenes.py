@@ -24,13 +24,9 @@ Orders: shocks are captured with first order; less what measured orders scatter,
 
 import dataclasses
 import functools
-import pathlib
-import sys
 
 import numpy as np
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from reference import gas, impedance  # noqa: E402
+from reference import gas, impedance
 
 ETA, KERNEL, COURANT, REACH = 1.2, "gauss", 0.2, 3.0
 ORDER = dict(rho=0.6, u=0.8, p=0.8)

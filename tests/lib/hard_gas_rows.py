@@ -9,23 +9,21 @@ what REACH smoothing lengths on both sides smear.
 import csv
 import functools
 import pathlib
-import sys
 
 import numpy as np
-from hard import Cannot, Stopped
+from hard_cases import Cannot
+from hvi.material import library
+from hvi.material.curves import Eos
+from hvi.material.eos_table import write_eos_table
+from lammps_runs import Stopped
+from reference import impedance
 from scipy.optimize import brentq
 from scipy.spatial import cKDTree
 from shock_runs import cannot, prepared, read_frame, read_log, run, script, stock_step, write_data
 from shock_scenes import COURANT, ETA, REACH, Interface, NohRow, Plates, Row, Tube, mean_around, row
 from shock_scenes import CASES as SHOCKS
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "python"))
-from hvi.material import library  # noqa: E402
-from hvi.material.curves import Eos  # noqa: E402
-from hvi.material.eos_table import write_eos_table  # noqa: E402
-from reference import impedance  # noqa: E402
-
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PARTICLE_MEANS = ("rho", "u", "p")
 
 
@@ -40,7 +38,7 @@ def paired(x, spacing, kind, near=0.5):
 
 def bounds_of(name):
     """n, {measure: bound} of a case of shock_scenes.py"""
-    with open(HERE / "verify" / "shock_bounds.csv") as f:
+    with open(ROOT / "tests" / "verify" / "shock_bounds.csv") as f:
         r = next(r for r in csv.DictReader(line for line in f if line[0] != "#") if r["case"] == name)
     return int(r["n"]), {k: float(r[f"l1_{k}"]) for k in PARTICLE_MEANS if r[f"l1_{k}"]}
 
@@ -164,7 +162,7 @@ class Spalled(Plates):
     def __init__(self, speed, n):
         super().__init__("vacuum-plate", impedance.AL6061, impedance.AL6061, speed, (n,), (n,))
         self.times = [1.5 * self.solution.last]
-        law, u = Eos(library.read(str(HERE.parent / "potentials" / "Al6061-T6.hvi"))), 0.5 * speed
+        law, u = Eos(library.read(str(ROOT / "potentials" / "Al6061-T6.hvi"))), 0.5 * speed
         _, _, rho, e = (float(a) for a in law.hugoniot(u))
         r, _, p, _, v = along_isentrope(law.pressure, rho, e, 0.6 * rho)
         self.surface = np.interp(0.0, -p, v)  # what expansion to p = 0 gives
@@ -188,7 +186,7 @@ class Dome(Row):
     gamma, units, length = None, "si", 0.01
 
     def __init__(self, pressure, n, later=()):
-        self.law = Eos(library.read(str(HERE.parent / "potentials" / "Al-Tillotson.hvi")))
+        self.law = Eos(library.read(str(ROOT / "potentials" / "Al-Tillotson.hvi")))
         energy = lambda rho: 0.5 * pressure * (1 / self.law.rho0 - 1 / rho)  # noqa: E731
         self.rho = brentq(lambda rho: float(self.law.pressure(rho, energy(rho))) - pressure, 1.05 * self.law.rho0, 4 * self.law.rho0)
         self.e = energy(self.rho)

@@ -1,26 +1,28 @@
 #!/usr/bin/env python3
 """Standard shocks against exact solutions: tables and pictures. The scenes are in shock_scenes.py, the runner in shock_runs.py.
 
-    python3 tests/shocks.py --out build/verify      all methods, the resolutions of the long form: report.md, shocks.csv, pictures
-    python3 tests/shocks.py --bounds FILE           the bounds, without running anything
-    python3 tests/shocks.py --table                 the table of doc/src/Howto_sph.rst from tests/verify/shocks.csv
+    python3 tests/verify/shocks.py --out build/verify      all methods, the resolutions of the long form: report.md, shocks.csv, pictures
+    python3 tests/verify/shocks.py --bounds FILE           the bounds, without running anything
+    python3 tests/verify/shocks.py --table                 the table of doc/src/Howto_sph.rst from tests/verify/shocks.csv
 """
 
 import argparse
 import csv
 import pathlib
+import sys
 import time
 
 import numpy as np
-from shock_runs import cannot, known, measure, run
-from shock_scenes import ALL, CASES, COURANT, ENERGY, ETA, FIELDS, KERNEL, METHODS, MOMENTUM, ORDER, SYMMETRY
 
-HERE = pathlib.Path(__file__).resolve().parent
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS / "lib"), str(TESTS.parent / "python")]
+from shock_runs import cannot, known, measure, run  # noqa: E402
+from shock_scenes import ALL, CASES, COURANT, ENERGY, ETA, FIELDS, KERNEL, METHODS, MOMENTUM, ORDER, SYMMETRY  # noqa: E402
 
 
 def table_of_bounds(path):
     with open(path, "w", newline="") as f:
-        f.write("# python3 tests/shocks.py --bounds: written down before the first run; L1 relative to the range, order, numbers relative\n")
+        f.write("# python3 tests/verify/shocks.py --bounds: written down before the first run; L1 relative to the range, order, numbers relative\n")
         out = csv.writer(f, lineterminator="\n")
         out.writerow(["case", "n", *(f"l1_{k}" for k in FIELDS), *(f"order_{k}" for k in FIELDS), "energy", "momentum", "symmetry", "numbers"])
         for c in ALL:
@@ -113,7 +115,7 @@ SHOWN = {"sod": "a", "sod-spacing": "a", "blast-left": "a b", "blast-right": "a 
          "al-al-5000": "", "al-al-10000": "", "al-cu-5750": ""}
 
 
-def table(path=HERE / "verify" / "shocks.csv"):
+def table(path=TESTS / "verify" / "shocks.csv"):
     """reST: the finest n of monaghan, riemann and stock: error, order, time; what misses its bound in brackets"""
     with open(path) as f:
         rows = {(r["case"], r["method"], int(r["n"])): r for r in csv.DictReader(line for line in f if line[0] != "#")}
@@ -144,8 +146,8 @@ def table(path=HERE / "verify" / "shocks.csv"):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--lmp", default=str(HERE.parent / "build" / "lmp"))
-    parser.add_argument("--out", default=str(HERE.parent / "build" / "verify"))
+    parser.add_argument("--lmp", default=str(TESTS.parent / "build" / "lmp"))
+    parser.add_argument("--out", default=str(TESTS.parent / "build" / "verify"))
     parser.add_argument("--ranks", type=int, default=1, help="of the scenes in two and three dimensions")
     parser.add_argument("--cases", default=",".join(CASES))
     parser.add_argument("--methods", default=",".join(METHODS))
@@ -172,7 +174,7 @@ def main():
             rows = [r for r in csv.reader(line for line in f if line[0] != "#")][1:]
         rows = [r for r in rows if not (r[0] in names and r[1] in methods)]
     start = time.strftime("%Y-%m-%d")
-    head = f"# python3 tests/shocks.py --form {args.form}; {start}; kernel {KERNEL}, h {ETA} spacings, fix hvi/dt {COURANT}"
+    head = f"# python3 tests/verify/shocks.py --form {args.form}; {start}; kernel {KERNEL}, h {ETA} spacings, fix hvi/dt {COURANT}"
 
     def save():
         rows.sort(key=lambda r: (list(CASES).index(r[0]), list(METHODS).index(r[1]), int(r[2])))

@@ -7,10 +7,11 @@ import numpy as np
 import spacing_scenes
 from body_scenes import SOUND, rest
 from face_scenes import CL, COURANT, ELASTIC, G, JC, NU, RHO, block, go, spinning
-from hard import BOOKS, ENERGY, Case, Stopped
+from hard_cases import BOOKS, ENERGY, Case
 from hard_impacts import ALUMINUM, WORDS
 from hard_impacts import CASES as IMPACTS
 from hard_stock import stock
+from lammps_runs import Stopped
 from solid_runs import Gruneisen, bisect, material, momentum_error, run
 from sph_scenes import Fluid
 from tensile_scenes import nearest, rings, strip

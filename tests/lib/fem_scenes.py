@@ -5,7 +5,7 @@ import pathlib
 import numpy as np
 from hvi.model.mesh import block
 
-ALUMINUM = pathlib.Path(__file__).resolve().parents[1] / "potentials" / "Al6061-T6.hvi"
+ALUMINUM = pathlib.Path(__file__).resolve().parents[2] / "potentials" / "Al6061-T6.hvi"
 
 EDGE, N = 1.0e-3, 2  # of an element; particles along it
 DX = EDGE / N

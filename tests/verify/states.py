@@ -1,6 +1,6 @@
-"""Exact states of solids, long form: python3 tests/states.py --lmp build/lmp --out FOLDER writes a table, states.md; a part of `make verify`.
+"""Exact states of solids, long form: python3 tests/verify/states.py --lmp build/lmp --out FOLDER writes a table, states.md; a part of `make verify`.
 
-Flyers of elastic, perfectly plastic plates and the hypoelastic piston (tests/state_scenes.py, which says where is measured) with two kernels,
+Flyers of elastic, perfectly plastic plates and the hypoelastic piston (tests/lib/state_scenes.py, which says where is measured) with two kernels,
 h constant and variable: errors in percent of the exact states (tests/reference/elastic_plastic.py). Of asymmetric impacts the flyer comes
 first, the target second. Bold is what misses its bound on the plateau. --words "dissipation riemann" or others for another pair style.
 """
@@ -11,8 +11,8 @@ import pathlib
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS / "lib"), str(TESTS.parent / "python")]
 from state_scenes import CASES, run_case  # noqa: E402
 
 KERNELS = [("wendland2", 1.6, False), ("wendland2", 1.6, True), ("cubic", 1.2, False), ("cubic", 1.2, True)]
@@ -49,7 +49,7 @@ def marked(row):
 
 if __name__ == "__main__":
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    a.add_argument("--lmp", default=HERE.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
+    a.add_argument("--lmp", default=TESTS.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
     a.add_argument("--out", default="verify-states", type=pathlib.Path)
     a.add_argument("--words", default="viscosity 1 2", help="of the pair style")
     a.add_argument("--cases", default=",".join(CASES), help="some of the cases")
