@@ -14,7 +14,9 @@ import pytest
 
 ROOT = pathlib.Path(os.environ.get("HVI_ROOT", pathlib.Path(__file__).resolve().parents[1]))
 sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent / "lib"), str(ROOT / "python")]  # pytest itself puts tests there, for reference
+from corrected_scenes import commands_of_pair  # noqa: E402
 from lammps_runs import Result  # noqa: E402
+from solid_scenes import MATERIAL  # noqa: E402
 
 
 def _built(variable, name):
@@ -113,3 +115,17 @@ def lmp(tmp_path, lmp_exe):
         return result
 
     return run
+
+
+@pytest.fixture
+def material(tmp_path):
+    """the file of solid_scenes.MATERIAL"""
+    path = tmp_path / "test.hvi"
+    path.write_text(MATERIAL.format(sigma_p=3.0))
+    return path
+
+
+@pytest.fixture
+def pair(tmp_path):
+    """the commands of the two materials of corrected_scenes, as a function of the words of pair_style"""
+    return commands_of_pair(tmp_path)

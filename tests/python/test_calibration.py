@@ -7,7 +7,7 @@ import re
 
 import pytest
 import yaml
-from front_runs import case_folder, front  # noqa: F401
+from front_runs import case_folder, front, mine_folder  # noqa: F401
 from hvi import cli
 from hvi.errors import HVIError
 from hvi.jobs import engine
@@ -15,7 +15,6 @@ from hvi.material import library
 from hvi.shield import brackets, calibration, case as cases, collected
 from hvi.shield.limit import Limit
 from hvi.version import ROOT
-from test_limits import mine_folder  # noqa: F401
 
 STRAIN = "rear_plastic_strain"
 MATERIALS = {name: engine.digest(library.find(name).read_bytes()) for name in ("Al2017-T4.hvi", "Al6061-T6.hvi")}

@@ -1,14 +1,16 @@
 """No circle of includes among the units of lib/hvi and src/USER-HVI, so that each can be understood, and used, with only what is below it; and the
-rooms of lib/hvi include those before them only, without LAMMPS.
+rooms of lib/hvi include those before them only, without LAMMPS. No test imports a test.
 
 A unit is a header with its .cpp files: those whose name is that of the header or begins with it and an underscore (the longest such
 header), else those that include it before any other header of the package. What a unit includes is what all its files include.
 """
 
+import ast
 import collections
 import re
 
 import pytest
+from graphs import circles
 
 
 def includes(path, headers):
@@ -35,38 +37,6 @@ def graph(folder):
             if there != here:
                 edges[here][there].append(path.name)
     return {a: dict(b) for a, b in edges.items()}
-
-
-def circle(edges):
-    """a shortest circle [a, b, ..., a] in {node: its next ones}, None if there is none"""
-    best = None
-    for start in sorted(edges):
-        before, queue = {start: None}, collections.deque([start])
-        while queue:
-            here = queue.popleft()
-            if start in edges.get(here, ()):
-                way = [start]
-                while here is not None:
-                    way.append(here)
-                    here = before[here]
-                if best is None or len(way) < len(best):
-                    best = way[::-1]
-                break
-            for there in sorted(edges.get(here, ())):
-                if there not in before:
-                    before[there] = here
-                    queue.append(there)
-    return best
-
-
-def circles(edges):
-    """circles one after the other, each without the last step of those before, until none is left"""
-    edges = {a: set(b) for a, b in edges.items()}
-    found = []
-    while way := circle(edges):
-        found.append(way)
-        edges[way[-2]].remove(way[-1])
-    return found
 
 
 def story(way, edges):
@@ -113,3 +83,13 @@ def test_circles_are_found(tmp_path, files, want):
     assert [" ".join(way) for way in circles(edges)] == want
     for way in circles(edges):
         assert all(step in story(way, edges) for step in way)
+
+
+def test_no_test_imports_a_test(root):
+    """nor does what they share; no module has the name of another, and in the root of tests there is only conftest.py"""
+    files = sorted((root / "tests").rglob("*.py"))
+    wrong = {f"{path.parent.name}/{path.name} imports {name}" for path in files for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, (ast.Import, ast.ImportFrom))
+             for name in [getattr(node, "module", None) or "", *(alias.name for alias in node.names)] if any(part.startswith("test_") for part in name.split("."))}
+    assert not wrong
+    assert [name for name, n in collections.Counter(path.stem for path in files).items() if n > 1] == []
+    assert [path.name for path in files if path.parent.name == "tests"] == ["conftest.py"]

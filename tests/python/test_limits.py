@@ -4,29 +4,12 @@ import csv
 import math
 
 import pytest
-from front_runs import begun, case_folder, front, tries  # noqa: F401
+from front_runs import HEAD, LIST, STUDY, begun, case_folder, front, mine_folder, tries  # noqa: F401
 from hvi.errors import HVIError
 from hvi.shield import brackets, shots
 from hvi.version import ROOT
 
 EXAMPLE = ROOT / "examples" / "whipple-shield" / "limits" / "limits.yaml"
-HEAD = ",".join(brackets.COLUMNS) + "\n"
-LIST = "# a remark\n" + HEAD + """W,A,AA2017-T4,5,7.1,AA6061-T6,1.6,50,AA6061-T6,40,,wall,1.6,1.8,4 (2.60),E (2.71)
-D,B,AA2017-T4,,7.1,AA6061-T6,1.6,50,AA6061-T6,40,1.8,diameter,4.0,4.5,8,-
-"""
-STUDY = """list: mine.csv
-across: [10]
-spacing: {bumper_layers: 2, wall_layers: 3, ratio: 1}
-shifts: [0, 0.5]
-materials: {AA2017-T4: Al2017-T4, AA6061-T6: Al6061-T6}
-"""
-
-
-@pytest.fixture(name="mine")
-def mine_folder(folder):
-    (folder / "mine.csv").write_text(LIST)
-    (folder / "mine.yaml").write_text(STUDY)
-    return folder
 
 
 def rows_of(folder):

@@ -8,8 +8,8 @@ import sys
 
 import hvi
 import pytest
+from graphs import circles
 from hvi import cli
-from test_includes import circles
 
 GROUND = "errors progress tables units version"  # modules beside the rooms that all of them may import
 BELOW = {"io": "", "material": "", "analysis": "io", "model": "io", "jobs": "material", "shield": "io material model jobs", "figures": "io material analysis shield",

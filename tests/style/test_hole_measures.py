@@ -4,11 +4,11 @@ import hvi
 import numpy as np
 import plate_scenes
 import pytest
+from hole_scenes import THERMO, head, plate, radius, write_data
 from hvi import cli
 from hvi.analysis import hole
 from hvi.io import mirror
 from hvi.io.data import DataFile
-from test_hole import THERMO, head, plate, radius, write_data
 
 CLOSE = 1e-10
 OUT = "write_dump all custom {} id type mass xu yu zu {} modify format float %.17g {}\n"

@@ -2,26 +2,17 @@
 
 import itertools
 
+import mirror_scenes
 import numpy as np
 import pytest
-import test_mirror
-from sph_scenes import Fluid, random_fluid, scene
-from test_solid_forces import MATERIAL, OUT, PAIR, read, state
-from test_sph_report import tables
+from hybrid_scenes import BESIDE, COEFF, STEPS, hybrid, others, text, together
+from solid_scenes import OUT, PAIR, read, state
+from sph_report import tables
+from sph_scenes import random_fluid, scene
 
-STEPS = 10
-BESIDE = {"lj/cut": "lj/cut 2.5", "hvi/contact": "hvi/contact", "zero": "zero 4.5"}
-COEFF = {"lj/cut": "lj/cut 1.0 0.8", "hvi/contact": "hvi/contact 1.0 1.1"}
 RIEMANN = "pair_style hvi/sph cubic dissipation riemann h variable\npair_coeff 1 1 eos tait 1.0 4.0 7 h 1.1\npair_coeff 2 2 eos tait 1.7 3.0 7 h 1.0\n"
 RIEMANN += "pair_coeff 1 2 tension yes\n"
 FLUID_OUT = OUT.replace("eps damage spalled vm sxx syy szz sxy sxz syz", "p p p p p p p p p p")
-
-
-@pytest.fixture
-def material(tmp_path):
-    path = tmp_path / "test.hvi"
-    path.write_text(MATERIAL.format(sigma_p=3.0))
-    return path
 
 
 def parts(kind, material):
@@ -33,45 +24,9 @@ def parts(kind, material):
         return s, PAIR.format(kernel="cubic", words="artstress 0.3 4", path=material) + "pair_coeff 1 2 tension no\n", jc, OUT
     if kind == "riemann":
         return random_fluid(7, seed=53, h=[1.1, 1.0], jitter=0.15), RIEMANN, "", FLUID_OUT
-    s, _ = test_mirror.part("xy")
+    s, _ = mirror_scenes.part("xy")
     words = "viscosity 1 2 mirror x 0.0 lo mirror y 0.0 lo"
     return s, PAIR.format(kernel="cubic", words=words, path=material) + "pair_coeff 1 2 tension no\n", jc, OUT
-
-
-def others(s):
-    """particles of type 3, all over the place and in the midst of those of s, which do not feel them"""
-    t = random_fluid(4, spacing=1.1, jitter=0.1, seed=55, types=1)
-    center = s.x.mean(0)
-    x = t.x - t.x.mean(0) + center
-    return Fluid(x, t.v, np.ones(len(x)), np.zeros(len(x)), np.full(len(x), 3), {**s.mass, 3: 1.0}, s.h, s.box, s.periodic)
-
-
-def together(s, t):
-    a = [np.concatenate([getattr(s, name), getattr(t, name)]) for name in ("x", "v", "rho", "esph", "type")]
-    return Fluid(*a, t.mass, s.h, s.box, s.periodic)
-
-
-def hybrid(pair, style, beside):
-    """the same commands as sub-style of a hybrid"""
-    out = ""
-    for line in pair.splitlines():
-        words = line.split()
-        if words[0] == "pair_style":
-            other = BESIDE[beside] if beside else ""
-            first, second = (" ".join(words[1:]), other) if beside != "lj/cut" else (other, " ".join(words[1:]))
-            out += f"pair_style {style} {first} {second}\n"
-        else:
-            out += " ".join([*words[:3], "hvi/sph", *words[3:]]) + "\n"
-    if beside == "zero":
-        return out + "pair_coeff 1*2 1*2 zero\n"
-    return out + f"pair_coeff 3 3 {COEFF[beside]}\npair_coeff 1*2 3 none\n" if beside else out
-
-
-def text(s, pair, fixes, out, tmp_path, name, group="all", more="", **kw):
-    groups = "" if group == "all" else "group ours type 1 2\ngroup rest type 3\nfix nve rest nve\n"
-    fix = groups + fixes.format(group) + f"fix sph {group} hvi/sph\n"
-    return ("clear\n" + scene(s, tmp_path / f"{name}.data", pair, fix=fix, **kw) + "timestep 0.004\n" + more + f"run {STEPS}\n"
-            + out.format(tmp_path / name))
 
 
 def close(got, want, case):

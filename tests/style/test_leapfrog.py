@@ -6,9 +6,9 @@ import struct
 import numpy as np
 import pytest
 from corrected import rates
-from test_corrected import FAILING, JC, UNBROKEN, body, lump, pair, same, script, solid  # noqa: F401: a fixture
-from test_hybrid import hybrid, others, together
-from test_solid_forces import OUT, read
+from corrected_scenes import FAILING, JC, UNBROKEN, body, lump, same, script, solid
+from hybrid_scenes import hybrid, others, together
+from solid_scenes import OUT, read
 
 DISSIPATION = ["viscosity 1 2", "dissipation riemann"]
 EVERY_STEP = "neigh_modify every 1 delay 0 check no\n"

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from solid_scenes import MATERIAL
 from sph_scenes import Fluid, scene
-from test_solid_forces import MATERIAL
 
 REACH, SKIN = 2.5, 0.3  # cubic, h 1.25
 WATER = "pair_style hvi/sph cubic\npair_coeff * * eos tait 1.0 4.0 7 h 1.25\n"

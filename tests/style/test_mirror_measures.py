@@ -10,7 +10,8 @@ from hvi.analysis.cloud import MEASURES
 from hvi.analysis.fragments import ROW
 from hvi.io import mirror
 from hvi.io.box import Box
-from test_mirror import ROOM, material, start  # noqa: F401
+from mirror_scenes import ROOM, start
+from solid_scenes import MATERIAL
 
 RECORD = {"": ("v_plane", "mirror_none"), "x": ("v_plane", "mirror_x_lo"), "xy": ("v_plane v_plane", "mirror_x_lo mirror_y_lo")}
 REACH = 0.93  # many pieces, some of them across the planes
@@ -57,8 +58,6 @@ def runs(lmp, tmp_path_factory, cache):
     """{planes: (folder, thermo)} of the whole, half and quarter after 40 steps, run once"""
     if not cache:
         top = tmp_path_factory.mktemp("mirror")
-        from test_solid_forces import MATERIAL
-
         (top / "test.hvi").write_text(MATERIAL.format(sigma_p=3.0))
         for planes in RECORD:
             folder = top / (planes or "whole")

@@ -5,15 +5,15 @@ import re
 import numpy as np
 import pytest
 from corrected import rates
+from corrected_scenes import ANEW, H, body, same, script, solid
+from solid_scenes import OUT, read
 from sph_scenes import scene
-from test_corrected import ANEW, H, body, pair, same, script, solid  # noqa: F401: pair is a fixture
-from test_solid_forces import OUT, read
 
 FLUID = "pair_style hvi/sph {}\npair_coeff * * eos tait 1.0 4.0 7 h 1.25\n"
 TIMES = re.compile(r"^  reference loop, pair by pair: takes about (\d) times as long as loops in vectors \(pair_style hvi/sph, Loops\)$", re.M)
 
 
-def test_says_so(lmp, tmp_path, pair):  # noqa: F811
+def test_says_so(lmp, tmp_path, pair):
     """one line of the setup report, where it is so"""
     s = body(n=4)
     words = {"cubic": None, "gauss interface auto h variable": None, "cubic dissipation riemann": None, "quintic": 3, "lucy stock yes viscosity 1 0": 3,
@@ -45,7 +45,7 @@ TERMS = {
 
 @pytest.mark.parametrize("tension", [True, False])
 @pytest.mark.parametrize("name", TERMS)
-def test_solids(lmp, tmp_path, pair, name, tension):  # noqa: F811
+def test_solids(lmp, tmp_path, pair, name, tension):
     """after 12 steps of bodies that expand, with yielding and failed particles: against all pairs in NumPy"""
     words, terms = TERMS[name]
     s = body(seed=61)
@@ -66,7 +66,7 @@ def test_solids(lmp, tmp_path, pair, name, tension):  # noqa: F811
 
 
 @pytest.mark.parametrize("kernel", ["lucy", "quadratic", "quartic", "wendland4", "gauss"])
-def test_kernels_of_solids(lmp, tmp_path, pair, kernel):  # noqa: F811
+def test_kernels_of_solids(lmp, tmp_path, pair, kernel):
     """each by itself, beside those of test_corrected"""
     s = body(seed=62, n=6, periodic=False)
     text = script(s, tmp_path, pair, "artstress 0.3 4", kernel=kernel)

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from solid_scenes import MATERIAL
 from sph_scenes import Fluid, scene
-from test_solid_forces import MATERIAL
 
 WATER = "pair_style hvi/sph cubic {}\npair_coeff * * eos tait 1.0 4.0 7 h 1.25\n"
 METAL = "pair_style hvi/sph cubic {}\npair_coeff 1 1 file m.hvi h 1.25\npair_coeff 2 2 file m.hvi h 1.25\npair_coeff 1 2 tension no\n"

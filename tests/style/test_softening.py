@@ -2,12 +2,9 @@
 
 import numpy as np
 import pytest
-import test_spall_voids as voids
-from test_solid_forces import MATERIAL, start, state
-from test_solid_state import FIXES, NEIGHBOR, factor, reader
-from test_solid_wrong_input import refused  # noqa: F401: a fixture
+import voids_scenes as voids
+from solid_scenes import FIXES, MATERIAL, NEIGHBOR, SOFT, factor, reader, start, state
 
-SOFT = MATERIAL.replace("spall limit", "  u_f 0.04\nspall limit")
 ALWAYS = "neigh_modify check no\n"
 JC = "spall voids weibull 6 17 weibull_size 2"
 
@@ -182,14 +179,17 @@ def test_spacing_of_softening(lmp, tmp_path, material, nranks):
     ("weibull 0.5 1 weibull_size 1", "weibull_size needs a modulus of 1 or more, not 0.5"),
     ("weibull 3 1 weibull_size 1 damage no spall none", "scatters damage and spall: it needs one of them"),
     ("weibull 3 1 weibull_size 0 damage no", "weibull scatters damage: it needs damage yes, or weibull_size")])
-def test_wrong_words(refused, words, message):  # noqa: F811
-    refused(message, jc=f"all hvi/johnson-cook {words}")
+def test_wrong_words(lmp, tmp_path, material, words, message):
+    r = lmp(start(state(), tmp_path, material, jc=words), expect_fail=True)
+    assert message in r.error, r.error
 
 
 @pytest.mark.parametrize("line, message", [
     ("u_f -1", "u_f = -1 must be >= 0"), ("eps_min 0", "eps_min = 0 must be > 0"), ("sigma_spall -2", "sigma_spall = -2 must be >= 0")])
-def test_wrong_values(refused, line, message):  # noqa: F811
-    refused(message, text=MATERIAL.format(sigma_p=3.0).replace("spall limit", f"  {line}\nspall limit"))
+def test_wrong_values(lmp, tmp_path, material, line, message):
+    material.write_text(MATERIAL.format(sigma_p=3.0).replace("spall limit", f"  {line}\nspall limit"))
+    r = lmp(start(state(), tmp_path, material), expect_fail=True)
+    assert message in r.error, r.error
 
 
 def test_restart_with_another_size(lmp, tmp_path, material):

@@ -4,35 +4,14 @@ import numpy as np
 import pytest
 from solid_runs import material as metal
 from solid_runs import run
+from solid_scenes import FIXES, MATERIAL, NEIGHBOR, OUT, PAIR, READ, compare, factor, read, reader, start, state
 from sph_scenes import Fluid, scene
-from test_solid_forces import MATERIAL, OUT, PAIR, material, read, start, state  # noqa: F401: a fixture
-
-NEIGHBOR = "neighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\n"
-FIXES = "fix sph all hvi/sph\nfix jc all hvi/johnson-cook {}\ntimestep 0.004\n"
-READ = """units lj
-boundary p p p
-atom_style sph
-atom_modify map {map} sort 0 0
-region box block 0 1 0 1 0 1
-create_box 2 box
-{fixes}
-read_data half.data add merge fix sph NULL NULL fix sph NULL sph_rates fix jc NULL NULL fix jc NULL jc_forces
-"""
-
-
-def reader(path, words="viscosity 1 2", jc="", map="array"):
-    return READ.format(map=map, fixes=FIXES.format(jc)) + PAIR.format(kernel="cubic", words=words, path=path) + "pair_coeff 1 2 tension yes\n" + NEIGHBOR
-
-
-def compare(one, two, tolerance):
-    for name in one:
-        assert np.abs(one[name] - two[name]).max() <= tolerance * max(1.0, np.abs(one[name]).max()), name
 
 
 @pytest.mark.parametrize("words, jc, nranks, map", [
     ("viscosity 1 2", "", 1, "array"), ("viscosity 1 2", "", 3, "hash"), ("h variable", "spall pressure", 1, "hash"),
     ("h variable", "weibull 4 17 temperature work", 2, "array")])
-def test_data_file(lmp, tmp_path, material, words, jc, nranks, map):  # noqa: F811
+def test_data_file(lmp, tmp_path, material, words, jc, nranks, map):
     """30 steps, write_data, read_data, 30 more: the state to the digits of data files, and then the run as if not interrupted"""
     s = state(seed=23)
     lmp(start(s, tmp_path, material, words, steps=0, jc=jc) + "run 30\nwrite_data half.data\n" + OUT.format("half") + "run 30\n" + OUT.format("whole"))
@@ -45,7 +24,7 @@ def test_data_file(lmp, tmp_path, material, words, jc, nranks, map):  # noqa: F8
     compare(whole, part, 1e-9)
 
 
-def test_data_file_for_another_fix(lmp, tmp_path, material):  # noqa: F811
+def test_data_file_for_another_fix(lmp, tmp_path, material):
     """sections of fixes with other IDs, given by name"""
     s = state(seed=23)
     lmp(start(s, tmp_path, material, steps=30) + "write_data half.data\n" + OUT.format("half"))
@@ -55,7 +34,7 @@ def test_data_file_for_another_fix(lmp, tmp_path, material):  # noqa: F811
     compare(read(tmp_path / "half"), read(tmp_path / "read"), 1e-13)
 
 
-def test_data_file_before_a_run_and_after_changes(lmp, tmp_path, material):  # noqa: F811
+def test_data_file_before_a_run_and_after_changes(lmp, tmp_path, material):
     """particles that were new, or changed after the run, start anew from a data file as they would have without it"""
     s = state(seed=25)
     head = start(s, tmp_path, material, steps=0)
@@ -65,7 +44,7 @@ def test_data_file_before_a_run_and_after_changes(lmp, tmp_path, material):  # n
         compare(read(tmp_path / "whole"), read(tmp_path / "part"), 1e-9)
 
 
-def test_wrong_data_files(lmp, tmp_path, material):  # noqa: F811
+def test_wrong_data_files(lmp, tmp_path, material):
     s = state(seed=23)
     lmp(start(s, tmp_path, material, steps=3) + "write_data half.data\n")
     good = (tmp_path / "half.data").read_text()
@@ -88,20 +67,6 @@ def test_wrong_data_files(lmp, tmp_path, material):  # noqa: F811
     assert "jc" not in (tmp_path / "half.data").read_text()
 
 
-def factor(modulus, seed, tag):
-    """Weibull's factor of mean 1 from SplitMix64's finalizer of seed and ID"""
-    from math import gamma
-
-    def mix(x):
-        x = (x + 0x9e3779b97f4a7c15) % 2**64
-        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9 % 2**64
-        x = (x ^ (x >> 27)) * 0x94d049bb133111eb % 2**64
-        return x ^ (x >> 31)
-
-    u = np.array([((mix(mix(seed) ^ int(t)) >> 12) + 0.5) / 2**52 for t in tag])
-    return (-np.log(u)) ** (1 / modulus) / gamma(1 + 1 / modulus)
-
-
 @pytest.mark.parametrize("nranks", [1, 3])
 def test_weibull(lmp, tmp_path, nranks):
     """as long as nothing fails, damage with scatter is damage without it over the factor of the particle, on any ranks and after a restart"""
@@ -122,7 +87,7 @@ def test_weibull(lmp, tmp_path, nranks):
 
 @pytest.mark.parametrize("words, other", [
     ("", "damage no"), ("", "spall zero"), ("", "temperature work"), ("thermal no", ""), ("", "weibull 3 1"), ("weibull 3 1", "weibull 3 2")])
-def test_restart_with_other_settings(lmp, tmp_path, material, words, other):  # noqa: F811
+def test_restart_with_other_settings(lmp, tmp_path, material, words, other):
     lmp(start(state(), tmp_path, material, steps=3, jc=words) + "write_restart half\n")
     again = "read_restart half\n" + NEIGHBOR
     r = lmp(again + FIXES.format(other) + "run 1\n", expect_fail=True)
@@ -134,7 +99,7 @@ def test_restart_with_other_settings(lmp, tmp_path, material, words, other):  # 
 
 
 @pytest.mark.parametrize("nranks", [1, 2])
-def test_fix_goes_and_comes_back(lmp, tmp_path, material, nranks):  # noqa: F811
+def test_fix_goes_and_comes_back(lmp, tmp_path, material, nranks):
     """the fix is taken away and given again while particles join: all start without stress, under the new fix's limit of tension at once"""
     material.write_text(MATERIAL.format(sigma_p=0.2))
     text = start(state(seed=27), tmp_path, material, steps=10, more="compute book all hvi/energy\nthermo_style custom step atoms c_book[1] c_book[29]\n")
@@ -176,7 +141,7 @@ def test_plastic_work(lmp, tmp_path):
     assert f["eps"][inside] == pytest.approx((end - Y / np.sqrt(3) / G) / np.sqrt(3), rel=5e-3)
 
 
-def test_plastic_work_that_leaves(lmp, tmp_path, material):  # noqa: F811
+def test_plastic_work_that_leaves(lmp, tmp_path, material):
     """plastic work goes on counting what has left the box"""
     s = state(seed=28, periodic=False)
     s.x += 0.5
@@ -190,7 +155,7 @@ def test_plastic_work_that_leaves(lmp, tmp_path, material):  # noqa: F811
     assert (np.diff(plastic) >= -1e-12 * plastic[-1]).all()
 
 
-def test_clamped_rim(lmp, tmp_path, material):  # noqa: F811
+def test_clamped_rim(lmp, tmp_path, material):
     """the rim of a plate is held in three ways: its books of momentum close to round-off"""
     s = state(seed=29)
     s.periodic = (False, False, False)

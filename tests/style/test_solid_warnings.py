@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from solid_scenes import MATERIAL, OUT, read, state
 from sph_scenes import scene
-from test_solid_forces import MATERIAL, OUT, read, state
 
 LIQUID = "has no section strength johnson-cook: its "
 OUTSIDE = "are not in group "

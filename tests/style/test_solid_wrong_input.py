@@ -1,8 +1,8 @@
 """fix hvi/johnson-cook: what cannot be is refused, with a message that says what is wrong."""
 
 import pytest
+from solid_scenes import MATERIAL
 from sph_scenes import random_fluid, scene
-from test_solid_forces import MATERIAL
 
 PAIR = "pair_style hvi/sph cubic {words}\npair_coeff * * file {path} h 1.25\n"
 

@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-import test_spall_voids as voids
-from test_solid_forces import MATERIAL, start, state
-from test_solid_state import FIXES, NEIGHBOR, reader
+import voids_scenes as voids
+from solid_scenes import FIXES, MATERIAL, NEIGHBOR, reader, start, state
 
 LAWS = {"tuler-butcher": "spall tuler-butcher\n  sigma_0 0.1\n  lambda 2\n  K 0.004\n",
         "grady": "spall grady\n  eps_c 0.02\n"}

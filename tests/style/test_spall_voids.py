@@ -2,26 +2,16 @@
 
 import itertools
 
+import hybrid_scenes
+import mirror_scenes
 import numpy as np
 import pytest
-import test_hybrid
-import test_mirror
+import solid_scenes
+from solid_scenes import FIXES, MATERIAL, NEIGHBOR, PAIR, reader, start, state
 from sph_scenes import Fluid, scene
-from test_solid_forces import MATERIAL, PAIR, start, state
-from test_solid_state import FIXES, NEIGHBOR, reader
+from voids_scenes import OUT, VOIDS, read
 
 JC = "damage no spall voids"
-VOIDS = "spall voids\n  sigma 0.6\n  rate 1.0\n  m 0.2\n  phi_c 0.04\n"
-NAMES = "p T eps damage initiation spalled voids void_damage fragsize vm sxx syy szz sxy sxz syz".split()
-OUT = f"""compute S all hvi/atom {' '.join(NAMES)}
-compute R all property/atom drho desph rho esph
-dump d all custom 1 {{0}} id x y z vx vy vz fx fy fz c_R[*] c_S[*]
-dump_modify d format float %.17g sort id
-run 0
-undump d
-uncompute S
-uncompute R
-"""
 
 
 @pytest.fixture
@@ -29,15 +19,6 @@ def material(tmp_path):
     path = tmp_path / "voids.hvi"
     path.write_text(MATERIAL.format(sigma_p=3.0) + VOIDS)
     return path
-
-
-def read(path):
-    lines = path.read_text().splitlines()
-    first = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-    a = np.array([line.split() for line in lines[first:]], dtype=float)[:, 1:]
-    out = dict(x=a[:, :3], v=a[:, 3:6], f=a[:, 6:9], drho=a[:, 9], de=a[:, 10], rho=a[:, 11], esph=a[:, 12])
-    out.update(zip(NAMES, a[:, 13:].T))
-    return out
 
 
 def grown(f):
@@ -115,13 +96,13 @@ def test_pressure(lmp, tmp_path, material):
 
 def test_as_the_whole(lmp, tmp_path, material):
     """half, quarter and eighth models with mirror planes"""
-    text = "".join("clear\n" + test_mirror.start(p, tmp_path, material)[0].replace("hvi/johnson-cook", f"hvi/johnson-cook {JC}") +
-                   test_mirror.OUT.format("f" + p).replace("damage spalled", "void_damage voids") for p in ("", "x", "xyz"))
+    text = "".join("clear\n" + mirror_scenes.start(p, tmp_path, material)[0].replace("hvi/johnson-cook", f"hvi/johnson-cook {JC}") +
+                   solid_scenes.OUT.format("f" + p).replace("damage spalled", "void_damage voids") for p in ("", "x", "xyz"))
     lmp(text)
-    whole = test_mirror.read(tmp_path / "f")
+    whole = solid_scenes.read(tmp_path / "f")
     assert (whole["spalled"] > 1e-4).sum() > 20
     for planes in ("x", "xyz"):
-        test_mirror.same(whole, test_mirror.read(tmp_path / f"f{planes}"), test_mirror.part(planes)[1], planes)
+        mirror_scenes.same(whole, solid_scenes.read(tmp_path / f"f{planes}"), mirror_scenes.part(planes)[1], planes)
 
 
 @pytest.mark.parametrize("nranks", [1, 2])
@@ -129,13 +110,13 @@ def test_hybrid_as_without(lmp, tmp_path, material, nranks):
     """beside lj or hvi/contact: as alone, newton on and off"""
     s = state(seed=22)
     s.rho *= 0.97
-    t = test_hybrid.others(s)
+    t = hybrid_scenes.others(s)
     pair = PAIR.format(kernel="cubic", words="viscosity 1 2", path=material) + "pair_coeff 1 2 tension yes\n"
-    both, fix = test_hybrid.together(s, t), f"fix jc {{0}} hvi/johnson-cook {JC}\n"
-    cases = list(itertools.product(test_hybrid.COEFF, ("on", "off")))
-    commands = test_hybrid.text(s, pair, fix, OUT, tmp_path, "alone", more="run 20\n")
+    both, fix = hybrid_scenes.together(s, t), f"fix jc {{0}} hvi/johnson-cook {JC}\n"
+    cases = list(itertools.product(hybrid_scenes.COEFF, ("on", "off")))
+    commands = hybrid_scenes.text(s, pair, fix, OUT, tmp_path, "alone", more="run 20\n")
     for k, (beside, newton) in enumerate(cases):
-        commands += test_hybrid.text(both, test_hybrid.hybrid(pair, "hybrid", beside), fix, OUT, tmp_path, f"f{k}", "ours", more="run 20\n", newton=newton)
+        commands += hybrid_scenes.text(both, hybrid_scenes.hybrid(pair, "hybrid", beside), fix, OUT, tmp_path, f"f{k}", "ours", more="run 20\n", newton=newton)
     lmp(commands, nranks=nranks)
     alone, n = read(tmp_path / "alone"), len(s.x)
     assert (alone["voids"] > 1e-3).sum() > 5 and (alone["voids"] == 0).sum() > 5

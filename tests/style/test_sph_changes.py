@@ -4,9 +4,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from solid_scenes import MATERIAL, PAIR
 from sph_scenes import RATES as RATES_ONCE
 from sph_scenes import random_fluid, rates, read_rates, scene, tait
-from test_solid_forces import MATERIAL, PAIR
 
 DUMP = "write_dump all custom late id c_S[1] modify format float %.17g sort id\n"
 TOP = "variable top equal c_top\nprint 'top is ${top}'\n"

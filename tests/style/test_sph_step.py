@@ -4,9 +4,9 @@ import itertools
 
 import numpy as np
 import pytest
+from solid_scenes import MATERIAL, OUT, read, state
 from sph_scenes import SUPPORT, Fluid, ideal_gas, random_fluid, scene, tait
-from test_hvi_dt import APPROACH, GROWING, SIGNAL, SHOW, three_pairs
-from test_solid_forces import MATERIAL, OUT, read, state
+from timestep_scenes import APPROACH, GROWING, SHOW, SIGNAL, three_pairs
 
 C = 0.25
 LINES = SHOW.replace("fix nve all nve\n", "")

@@ -3,10 +3,8 @@ came to be, and changes of material and group between runs."""
 
 import numpy as np
 import pytest
-import test_spall_voids as voids
-from test_softening import SOFT
-from test_solid_forces import MATERIAL, start, state
-from test_solid_state import FIXES, reader
+import voids_scenes as voids
+from solid_scenes import FIXES, MATERIAL, SOFT, reader, start, state
 
 LAWS = voids.VOIDS + "spall tuler-butcher\n  sigma_0 0.1\n  lambda 2\n  K 0.004\nspall grady\n  eps_c 0.02\n"
 HARD, SOFT = (text.format(sigma_p=3.0) + LAWS for text in (MATERIAL, SOFT))
