@@ -3,6 +3,7 @@
 import pathlib
 
 import numpy as np
+from dumps import read_dump, vectors
 from hvi.model.mesh import block
 
 ALUMINUM = pathlib.Path(__file__).resolve().parents[2] / "potentials" / "Al6061-T6.hvi"
@@ -61,9 +62,7 @@ def opens(path):
     return dict(spall="voids", material=path)
 
 
-
 # the plate apart: voids are in most elements by step 20, many are pressed shut by step 36
-
 PULL = "velocity all ramp vz -100 100 z -2e-3 0 sum yes units box\n"
 
 
@@ -132,12 +131,5 @@ def strike_plate(v=3000.0, **more):
 
 def read_state(path):
     """{name: array by ID} of a dump made by STATE"""
-    lines = open(path, encoding="ascii").read().split("\n")
-    names = lines[8].split()[2:]
-    table = np.array([line.split() for line in lines[9:] if line], dtype=float)
-    table = table[np.argsort(table[:, 0])]
-    got = {name: table[:, k] for k, name in enumerate(names)}
-    for name in ("x", "v", "f"):
-        keys = [f"{name}{a}" for a in "xyz"] if name != "x" else list("xyz")
-        got[name.upper()] = np.column_stack([got[k] for k in keys])
-    return got
+    got = read_dump(path, sort=True)
+    return {**got, **{name: vectors(got, what) for name, what in (("X", ""), ("V", "v"), ("F", "f"))}}

@@ -8,6 +8,7 @@ MACHDYN (the same reach and step, viscosity 1): liquids only, since its gas has 
 import dataclasses
 
 import numpy as np
+from dumps import read_dump
 from hard_cases import Cannot
 from hard_gas_rows import paired
 from lammps_runs import Stopped
@@ -71,7 +72,7 @@ def go(lmp, folder, s, words, t, laws=None, kernel=KERNEL, boundary=None, fastes
     text += "thermo 1\n" + BOOK + "thermo_modify format float %.17g lost ignore\n" + end
     text += f"write_dump all custom {name}.last id type mass x y vx vy c_R[1] c_R[2]{'' if stock else ' c_P'} modify sort id format float %.17g\n"
     r = lmp(text, timeout=timeout)
-    a = np.loadtxt(folder / f"{name}.last", skiprows=9, ndmin=2)
+    a = read_dump(folder / f"{name}.last").table
     if not np.isfinite(a).all() or not np.isfinite(r.thermo["c_book[9]"]).all():
         raise Stopped("numbers that are none")
     m = a[:, 2]
@@ -124,7 +125,7 @@ def ulsph(lmp, folder, s, t, law, fastest, timeout):
     (folder / "smd.data").write_text("\n".join([*head, "", "Atoms # smd", "", *rows, "", "Velocities", "", *speeds, ""]))
     steps = int(np.ceil(t / (COURANT * half / (1.5 * fastest))))
     r = lmp(ULSPH.format(rho=law[1], c=law[2], gamma=law[3], dt=t / steps, steps=steps), timeout=timeout)
-    a = np.loadtxt(folder / "smd.last", skiprows=9, ndmin=2)
+    a = read_dump(folder / "smd.last").table
     if not np.isfinite(a).all():
         raise Stopped("numbers that are none")
     return closed(dict(id=a[:, 0].astype(int), type=a[:, 1].astype(int), m=a[:, 2], x=a[:, 3:5], v=a[:, 5:7], rho=a[:, 7], thermo=r.thermo), s)

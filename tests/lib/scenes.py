@@ -8,6 +8,7 @@ import itertools
 import pathlib
 
 import numpy as np
+from dumps import read_dump
 
 R_EQ = 2.0 ** (1 / 6)
 KAPPA, R_CUT = 27.0, 1.5  # of the main case of Watson & Steinhauser, reduced; its impact speed is 15.8
@@ -177,23 +178,9 @@ DUMP = "write_dump all custom {} id x y z vx vy vz fx fy fz modify format float 
 BONDS = "write_dump all local {} c_B[1] c_B[2]\n"  # after a run
 
 
-def read_dump(path):
-    """the last frame of a dump custom, {column: array}"""
-    text = path.read_text().rsplit("ITEM: TIMESTEP", 1)[1]
-    head, body = text.split("ITEM: ATOMS", 1)
-    names, *rows = body.splitlines()
-    table = np.array([r.split() for r in rows], dtype=float)
-    return {n: table[:, k] for k, n in enumerate(names.split())}
-
-
-def vectors(dump, what):
-    return np.stack([dump[what + c] for c in "xyz"], axis=1)
-
-
 def read_bonds(path):
     """the bonds of the last frame of a dump local: a set of (lower, higher ID); none is there twice"""
-    text = path.read_text().rsplit("ITEM: ENTRIES", 1)[1]
-    pairs = [tuple(sorted(int(w) for w in line.split()[-2:])) for line in text.splitlines()[1:] if line.strip()]
+    pairs = [tuple(sorted(map(int, row[-2:]))) for row in read_dump(path).table]
     assert len(set(pairs)) == len(pairs)
     return set(pairs)
 

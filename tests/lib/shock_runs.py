@@ -7,6 +7,7 @@ import re
 import subprocess
 
 import numpy as np
+from dumps import named, read_dump
 from shock_scenes import COURANT, ETA, KERNEL, METHODS, Blasts
 
 STOCK_ROWS, STOCK_H, STOCK_ALPHA = 8, 4.0, 0.75  # its own example's: examples/PACKAGES/sph/shock_tube
@@ -144,13 +145,9 @@ class Outcome:
 
 
 def read_frame(path, mass):
-    with open(path) as f:
-        lines = f.read().split("\n")
-    start = next(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-    a = np.array([line.split() for line in lines[start:] if line], dtype=float)
-    rho, e = a[:, 7], a[:, 8] / mass
-    p = a[:, 9] if a.shape[1] > 9 else 0.4 * rho * e
-    return dict(x=a[:, 1:4], v=a[:, 4:7], rho=rho, e=e, p=p)
+    f = named(read_dump(path), s="rho e")
+    e = f["e"] / mass
+    return dict(x=f["x"], v=f["v"], rho=f["rho"], e=e, p=f.get("c_p", 0.4 * f["rho"] * e))
 
 
 def read_log(text):

@@ -1,6 +1,7 @@
 """Scenes of solids for the verification tests: materials, rows and lattices, runs, frames, and what theory says about them."""
 
 import numpy as np
+from dumps import frames, named
 from sph_scenes import SUPPORT, Fluid, norm, shape
 
 STATE = ("p", "e", "T", "eps", "epsdot", "damage", "spalled", "vm", "sxx", "syy", "szz", "sxy", "voids", "void_damage", "fragsize")
@@ -65,21 +66,7 @@ thermo_modify format float %.17g lost {lost}
 
 
 def read_frames(path):
-    out, lines, k = [], path.read_text().splitlines(), 0
-    time = None
-    while k < len(lines):
-        if lines[k].startswith("ITEM: TIME") and "STEP" not in lines[k]:
-            time = float(lines[k + 1])
-        if lines[k].startswith("ITEM: NUMBER"):
-            n = int(lines[k + 1])
-        if lines[k].startswith("ITEM: ATOMS"):
-            a = np.array([line.split() for line in lines[k + 1:k + 1 + n]], dtype=float).reshape(n, -1)
-            f = dict(time=time, id=a[:, 0].astype(int), type=a[:, 1].astype(int), x=a[:, 2:5], v=a[:, 5:8], rho=a[:, 8])
-            f.update(zip(STATE, a[:, 9:].T))
-            out.append(f)
-            k += n
-        k += 1
-    return out
+    return [dict(named(f, R="rho", S=" ".join(STATE)), time=f.time) for f in frames(path)]
 
 
 def momentum_error(t):

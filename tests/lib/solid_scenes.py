@@ -3,6 +3,7 @@
 from math import gamma
 
 import numpy as np
+from dumps import named, read_dump
 from sph_scenes import random_fluid, scene
 
 # si-like numbers in lj units: rho0 1, c0 4; strength and damage so that a part yields, some fail
@@ -60,12 +61,8 @@ read_data half.data add merge fix sph NULL NULL fix sph NULL sph_rates fix jc NU
 
 
 def read(path):
-    lines = path.read_text().splitlines()
-    start = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-    a = np.array([line.split() for line in lines[start:]], dtype=float)
-    out = dict(type=a[:, 1].astype(int), x=a[:, 2:5], v=a[:, 5:8], f=a[:, 8:11], drho=a[:, 11], de=a[:, 12], rho=a[:, 13], esph=a[:, 14])
-    out.update(zip(("p", "c", "eps", "damage", "spalled", "vm"), a[:, 15:21].T), S=a[:, 21:27])
-    return out
+    out = named(read_dump(path), R="drho de rho esph", S="p c eps damage spalled vm sxx syy szz sxy sxz syz")
+    return {**out, "type": out["type"].astype(int), "S": np.stack([out.pop(name) for name in "sxx syy szz sxy sxz syz".split()], axis=1)}
 
 
 def state(seed=21, speed=0.35, **kw):

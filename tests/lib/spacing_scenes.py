@@ -6,6 +6,7 @@ Lengths in m, SI units. For tests/verify/test_spacings.py and the hard cases.
 import dataclasses
 
 import numpy as np
+from dumps import read_dump
 from reference.elastic_plastic import METALS, impact
 from solid_runs import STATE, material
 from sph_scenes import Fluid
@@ -67,7 +68,7 @@ def plates(lmp, tmp_path, ratio, solid):
     state = STATE if solid else ("p", "e")
     done = lmp(INPUT.format(data=tmp_path / "s.data", file=file, fine=wide[1], coarse=wide[2], skin=0.3 * dx, state=" ".join(state), end=end,
                             dump=tmp_path / "f", strength="fix jc all hvi/johnson-cook strength perfect damage no spall none" if solid else ""))
-    a = np.loadtxt(tmp_path / "f", skiprows=9)
+    a = read_dump(tmp_path / "f").table
     kind, x, rho = a[:, 1], a[:, 2], a[:, 4] / exact.rho - 1
     stress = (-a[:, 5 + STATE.index("sxx")] if solid else a[:, 5]) / exact.sigma - 1
     depth = np.abs(x - 0.5 * (x[kind == 1].max() + x[kind == 2].min()))

@@ -6,6 +6,7 @@ Sources: Zisis, van der Linden & Giannopapa (2013) eqs 9-25, Monaghan (1992), as
 from dataclasses import dataclass
 
 import numpy as np
+from dumps import named, read_dump
 
 
 def _piecewise(q, terms, power):
@@ -307,7 +308,4 @@ def scene(s, data, pair, newton="on", comm="brick", sort=True, skin=0.3, fix="fi
 
 def read_rates(path):
     """of the last frame: dict of f (n, 3), drho, de, rho, esph, x, v by ascending id"""
-    lines = path.read_text().splitlines()
-    start = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-    a = np.array([line.split() for line in lines[start:]], dtype=float)
-    return dict(x=a[:, 2:5], v=a[:, 5:8], f=a[:, 8:11], drho=a[:, 11], de=a[:, 12], rho=a[:, 13], esph=a[:, 14])
+    return named(read_dump(path), R="drho de rho esph")

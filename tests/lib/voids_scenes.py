@@ -1,6 +1,6 @@
 """Spall voids: the section of a material, what runs put out of their state."""
 
-import numpy as np
+from dumps import named, read_dump
 
 VOIDS = "spall voids\n  sigma 0.6\n  rate 1.0\n  m 0.2\n  phi_c 0.04\n"
 NAMES = "p T eps damage initiation spalled voids void_damage fragsize vm sxx syy szz sxy sxz syz".split()
@@ -16,9 +16,4 @@ uncompute R
 
 
 def read(path):
-    lines = path.read_text().splitlines()
-    first = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-    a = np.array([line.split() for line in lines[first:]], dtype=float)[:, 1:]
-    out = dict(x=a[:, :3], v=a[:, 3:6], f=a[:, 6:9], drho=a[:, 9], de=a[:, 10], rho=a[:, 11], esph=a[:, 12])
-    out.update(zip(NAMES, a[:, 13:].T))
-    return out
+    return named(read_dump(path), R="drho de rho esph", S=" ".join(NAMES))

@@ -4,7 +4,6 @@ import re
 import shlex
 import sys
 
-import numpy as np
 import pytest
 from hvi import cli
 

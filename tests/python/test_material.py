@@ -11,6 +11,7 @@ import sys
 import numpy as np
 import pytest
 from conftest import ROOT
+from dumps import frames
 from reference import voids
 
 from hvi import HVIError, cli
@@ -301,10 +302,8 @@ def test_yield_stress(lmp, written, tmp_path, path, law):
     eos = curves.Eos(one)
     m = eos.rho0 * 1e-9
     lmp(BLOCK.format(m=m, rho0=eos.rho0, E=m * eos.cp * 150, file=file, rate=5e4, law=law))
-    lines = (tmp_path / "out").read_text().splitlines()
-    n = int(lines[3])
-    first, last = (np.array([line.split() for line in part], float) for part in (lines[9:9 + n], lines[-n:]))
-    k = np.arange(n).reshape(6, 6, 6)[2:4, 2:4, 2:4].ravel()
+    first, last = (f.table for f in frames(tmp_path / "out"))
+    k = np.arange(len(last)).reshape(6, 6, 6)[2:4, 2:4, 2:4].ravel()
     (p, T), (rho, eps, rate, vm) = first[k][:, [2, 3]].T, last[k][:, [1, 4, 5, 6]].T
     assert eps.min() > 0.005
     assert vm == pytest.approx(curves.yield_stress(law, one.in_si(("strength", law)), eps, rate, T, p, rho / eos.rho0), rel=1e-7)

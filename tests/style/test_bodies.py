@@ -4,6 +4,7 @@ import struct
 
 import numpy as np
 import pytest
+from dumps import read_dump
 from fem_scenes import ALUMINUM, EDGE, plate, start
 
 DX = 1e-3
@@ -45,7 +46,7 @@ def blocks(newton="on", type=1, gap=2, mirror=False):
 
 
 def rows(path):
-    table = np.loadtxt(path.read_text().split("ITEM: ATOMS")[1].splitlines()[1:])
+    table = read_dump(path).table
     return table[:, 1:-1], table[:, -1].astype(int)
 
 

@@ -4,7 +4,8 @@ import itertools
 
 import numpy as np
 import pytest
-from scenes import BOND, KAPPA, R_CUT, R_EQ, State, books, chain, collision, header, ledger, read_bonds, read_dump, scene
+from dumps import frames, read_dump
+from scenes import BOND, KAPPA, R_CUT, R_EQ, State, books, chain, collision, header, ledger, read_bonds, scene
 
 N = 12
 BONDS2 = f"bond_style hvi/spring\nbond_coeff 1 {KAPPA} {R_EQ!r} {R_CUT}\nbond_coeff 2 5.0 {R_EQ!r} 1.3\n"
@@ -33,12 +34,6 @@ run 80
 """
 
 
-def frames(path, what):
-    """per frame: its rows, in the order of the file"""
-    return [np.array([line.split() for line in f.split(what, 1)[1].splitlines()[1:] if line.strip()], dtype=float)
-            for f in path.read_text().split("ITEM: TIMESTEP\n")[1:]]
-
-
 @pytest.mark.parametrize("nranks", [1, 2, 3])
 def test_chain_breaks_at_r_cut(lmp, tmp_path, nranks):
     """alive while r <= r_cut, gone at the first r beyond; never back; across ranks and edges, all newton settings"""
@@ -52,17 +47,17 @@ def test_chain_breaks_at_r_cut(lmp, tmp_path, nranks):
     r_cut = np.where(pulled_chain(False).bond_types == 1, R_CUT, 1.3)
     for k, case in enumerate(cases):
         alive = np.ones(N - 1, dtype=bool)
-        where, ends = frames(tmp_path / f"x.{k}", "ITEM: ATOMS"), frames(tmp_path / f"b.{k}", "ITEM: ENTRIES")
+        where, ends = frames(tmp_path / f"x.{k}"), frames(tmp_path / f"b.{k}")
         broken_at = {}
         for step, (x, b) in enumerate(zip(where, ends)):
-            d = np.diff(x[:, 1:], axis=0)
+            d = np.diff(x.table[:, 1:], axis=0)
             d -= 40.0 * np.round(d / 40.0)
             r = np.linalg.norm(d, axis=1)
             assert np.abs(r - r_cut).min() > 1e-9  # no doubt
             broken_at.update({i: step for i in np.flatnonzero(alive & (r > r_cut))})
             alive &= r <= r_cut
             want = {(i + 1, i + 2) for i in np.flatnonzero(alive)}
-            got = {tuple(sorted(map(int, pair))) for pair in b}
+            got = {tuple(sorted(map(int, pair))) for pair in b.table}
             assert got == want, (case, step)
             assert result.runs[k]["Bonds"][step] == len(want), (case, step)
         assert 5 <= len(broken_at) <= 9 and len(set(broken_at.values())) >= 4, "the scene breaks bonds one by one"
@@ -136,7 +131,7 @@ def test_bonds_are_counted(lmp, tmp_path):
     text += "run 0\nwrite_dump all local again c_B[1] c_B[2]\n"
     result = lmp(text)
     thermo = result.runs[0]
-    there = [len(f) for f in frames(tmp_path / "b", "ITEM: ENTRIES")]
+    there = [len(f.table) for f in frames(tmp_path / "b")]
     assert list(thermo["Bonds"]) == there
     assert np.all(thermo["c_book[22]"] == len(s.bonds) - thermo["Bonds"])
     assert np.all(np.diff(there) <= 0) and there[-1] < 0.9 * there[0]

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from corrected import rates
 from corrected_scenes import ANEW, FAILING, G, H, JC, RHO0, UNBROKEN, body, lump, same, script, solid
+from dumps import named, read_dump
 from hybrid_scenes import hybrid, others, together
 from solid_scenes import NEIGHBOR, OUT, READ, as_tensor, compare, read
 
@@ -301,7 +302,7 @@ def test_failure_without_modulus(lmp, tmp_path, pair, jc, nranks):
     lmp("".join(again.format(k) + f"run {20 - k}\n" + OUT.format(f"from{k}") for k in steps), nranks=nranks)
     wrong = []
     for k in now:
-        then = read_forces(tmp_path / f"then{k}")
+        then = named(read_dump(tmp_path / f"then{k}"), R="drho de")
         wrong += [(k, name, np.abs(then[name] - now[k][name]).max()) for name in then if not np.array_equal(then[name], now[k][name])]
     wrong += [(f"from{k}", name) for k in steps for name, a in read(tmp_path / f"from{k}").items() if not np.array_equal(a, whole[name])]
     wrong += [("parts", name) for name in whole if not np.array_equal(now[20][name], whole[name])]
@@ -329,14 +330,6 @@ def test_limit_of_another_run(lmp, tmp_path, pair, size, nranks):
             f, want = read(tmp_path / f"{name}.{sigma}")["f"], sigma / 0.4 * first["f"]
             assert np.abs(f - want).max() < 1e-5 * np.abs(want).max(), (name, sigma)
     assert np.abs(read(tmp_path / "again")["f"] - first["f"]).max() < 1e-5 * np.abs(first["f"]).max()
-
-
-def read_forces(path):
-    """of the last frame"""
-    lines = path.read_text().splitlines()
-    first = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-    a = np.array([line.split() for line in lines[first:]], float)
-    return dict(f=a[:, 1:4], drho=a[:, 4], de=a[:, 5])
 
 
 @pytest.mark.parametrize("nranks", [1, 2])

@@ -4,7 +4,8 @@ import itertools
 
 import numpy as np
 import pytest
-from scenes import BONDS, DUMP, PAIR, R_EQ, State, collision, cube, forces, read_bonds, read_dump, scene, vectors
+from dumps import read_dump, vectors
+from scenes import BONDS, DUMP, PAIR, R_EQ, State, collision, cube, forces, read_bonds, scene
 
 LAYOUTS = [(1, "brick"), (2, "brick"), (4, "brick"), (2, "tiled"), (4, "tiled")]
 THERMO = "thermo 1\nthermo_style custom step atoms bonds nbuild ndanger\n"

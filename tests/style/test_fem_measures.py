@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from dumps import read_dump
 from fem_scenes import DX, EDGE, STATE, plate, read_state, start, strike_plate
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
@@ -26,8 +27,7 @@ def fragments(lmp, text, damage="no", steps=0, nranks=1):
 
 
 def read_names():
-    lines = open("names", encoding="ascii").read().split("\n")
-    table = np.array([line.split() for line in lines[9:] if line], dtype=float)
+    table = read_dump("names").table
     return dict(id=table[:, 0].astype(int), type=table[:, 1].astype(int), x=table[:, 2:5], name=table[:, 5].astype(int), failed=(table[:, 6] >= 1) | (table[:, 7] > 0))
 
 

@@ -2,13 +2,13 @@
 
 import itertools
 import os
-import pathlib
 import re
 import shutil
 import subprocess
 
 import numpy as np
 import pytest
+from dumps import frames, read_dump
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
@@ -108,26 +108,6 @@ neighbor 0.2 bin
 """
 
 
-def table(path, step=None):
-    """columns of a frame (default: the last) of a dump, custom or local, sorted by ID where there is one"""
-    frames = {}
-    lines = path.read_text().splitlines()
-    k = 0
-    while k < len(lines):
-        here = int(lines[k + 1])
-        n = int(lines[k + 3])
-        names = lines[k + 8].split()[2:]
-        rows = np.array([line.split() for line in lines[k + 9:k + 9 + n]], float).reshape(n, len(names))
-        frames[here] = {name: rows[:, c] for c, name in enumerate(names)}
-        k += 9 + n
-    return frames if step is None else frames[step]
-
-
-def last(path):
-    frames = table(path)
-    return frames[max(frames)]
-
-
 def by_id(frame, name):
     return frame[name][np.argsort(frame["id"])]
 
@@ -153,7 +133,7 @@ run 0
     r = lmp(text, nranks=nranks)
     for (name, (x, pairs)), thermo in zip(graphs().items(), r.runs):
         n = len(x)
-        frame = last(tmp_path / f"dump.{name}")
+        frame = read_dump(tmp_path / f"dump.{name}")
         want = lowest(n, pairs)
         odd = np.arange(n) % 2 == 0
         assert np.array_equal(by_id(frame, "c_all"), want), name
@@ -166,7 +146,7 @@ run 0
         single = m[count == 1].sum()
         assert got == pytest.approx([len(ids), n, len(ids) / n, m.max() / m.sum(), single], rel=1e-14)
 
-        rows = last(tmp_path / f"rows.{name}")
+        rows = read_dump(tmp_path / f"rows.{name}")
         order = np.lexsort((ids, -m))
         assert np.array_equal(rows["c_t[1]"], ids[order]), name
         assert np.array_equal(rows["c_t[2]"], count[order]), name
@@ -207,7 +187,7 @@ def test_on_the_step_a_bond_breaks(lmp, tmp_path, nranks, newton):
     x, pairs = lattice(10, rng)
     write_data(tmp_path / "data", x, pairs, v=rng.normal(0, 4, x.shape))
     r = lmp(BREAKING.format(newton=newton), nranks=nranks)
-    fragments, bonds = table(tmp_path / "dump"), table(tmp_path / "bonds")
+    fragments, bonds = ({f.step: f for f in frames(tmp_path / name)} for name in ("dump", "bonds"))
     nbonds = []
     for n, step in enumerate(r.thermo["Step"]):
         live = np.stack([bonds[step]["c_b[2]"], bonds[step]["c_b[3]"]], -1)[bonds[step]["c_b[1]"] > 0]
@@ -256,15 +236,15 @@ run 28
     ids = np.arange(1, n + 1)
     failed = ids % 7 == 1
     found = set()
-    for k, (step, frame) in enumerate(table(tmp_path / "dump").items()):
+    for k, frame in enumerate(frames(tmp_path / "dump")):
         x = np.stack([by_id(frame, a) for a in "xyz"], -1)
         pairs = close_pairs(x, cutoff)
         want = lowest(n, pairs)
         found.add(len(np.unique(want)))
-        assert np.array_equal(by_id(frame, "c_all"), want), step
-        assert np.array_equal(by_id(frame, "c_odd"), lowest(n, pairs, ids % 2 == 1)), step
+        assert np.array_equal(by_id(frame, "c_all"), want), frame.step
+        assert np.array_equal(by_id(frame, "c_odd"), lowest(n, pairs, ids % 2 == 1)), frame.step
         sound = np.where(failed, ids, lowest(n, pairs, ~failed))
-        assert np.array_equal(by_id(frame, "c_sound"), sound), step
+        assert np.array_equal(by_id(frame, "c_sound"), sound), frame.step
         inside = x[:, 0] % BOX <= 5
         label, count = np.unique(lowest(n, pairs, inside)[inside], return_counts=True)
         assert r.thermo["c_t[1]"][k] == len(label) and r.thermo["c_t[2]"][k] == inside.sum()
@@ -293,7 +273,7 @@ thermo_style custom step c_t[*] ke
 thermo_modify format float %.17g norm no
 run 0
 """, nranks=nranks)
-    rows = np.stack(list(last(tmp_path / "rows").values()), -1)
+    rows = read_dump(tmp_path / "rows").table
     label = lowest(len(x), pairs)
     ids = np.unique(label)
     m = np.where(np.arange(len(x)) % 2 == 0, 1.0, 3.0)
@@ -365,7 +345,7 @@ thermo_style custom step c_c[*] c_d[*] c_m[*] c_none[*]
 thermo_modify format float %.17g norm no
 run 0
 """, nranks=nranks)
-    frame = last(tmp_path / "dump")
+    frame = read_dump(tmp_path / "dump")
     x = np.stack([by_id(frame, k) for k in "xyz"], -1)
     m = np.where(np.arange(n) % 2 == 0, 1.0, 3.0)
     k = x[:, a] > 3.5

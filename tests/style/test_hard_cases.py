@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from dumps import read_dump
 from scenes import BONDS, KAPPA, PAIR, R_EQ, State, books, cube, ledger, read_bonds, scene
 
 BOX = [[-8.0, 8.0]] * 3
@@ -91,4 +92,4 @@ neighbor 1e-5 bin
 run 3
 write_dump all custom end vx vy vz modify format float %.17g
 """)
-    assert not np.loadtxt(r.cwd / "end", skiprows=9).any()
+    assert not read_dump(r.cwd / "end").table.any()

@@ -5,6 +5,7 @@ import itertools
 import mirror_scenes
 import numpy as np
 import pytest
+from dumps import read_dump
 from hybrid_scenes import BESIDE, COEFF, STEPS, hybrid, others, text, together
 from solid_scenes import OUT, PAIR, read, state
 from sph_report import tables
@@ -56,7 +57,7 @@ def test_as_without(lmp, tmp_path, material, kind, nranks):
     want = read(tmp_path / "plain")
     if kind != "riemann":
         assert (want["eps"] > 0.001).mean() > 0.2
-    alone = {beside: np.loadtxt(tmp_path / f"t{k}", skiprows=9)[:, 1:] for k, beside in enumerate(COEFF)}
+    alone = {beside: read_dump(tmp_path / f"t{k}").table[:, 1:] for k, beside in enumerate(COEFF)}
     assert all(np.abs(f).max() > 0.1 for f in alone.values())
     t.type[:], t.mass = 3, {**s.mass, 3: 1.0}
     cases = list(itertools.product(CASES, ("on", "off")))

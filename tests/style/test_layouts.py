@@ -4,7 +4,8 @@ import itertools
 
 import numpy as np
 import pytest
-from scenes import BONDS, DUMP, cube, forces, books, ledger, read_bonds, read_dump, scene, vectors
+from dumps import read_dump, vectors
+from scenes import BONDS, DUMP, cube, forces, books, ledger, read_bonds, scene
 
 NEWTON = ("on on", "on off", "off on", "off off")
 EPS, SIGMA = np.array([[1.0, 1.7], [1.7, 2.5]]), np.array([[1.0, 0.97], [0.97, 0.94]])

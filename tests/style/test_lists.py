@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from dumps import named, read_dump
 from solid_scenes import MATERIAL
 from sph_scenes import Fluid, scene
 
@@ -56,18 +57,11 @@ def text(name, tmp_path, comm="brick", lists="relative", neigh="", solid=None):
     return out + f"{neigh}timestep {dt}\n{THERMO}compute R all property/atom drho desph\n"
 
 
-def columns(path):
-    lines = path.read_text().splitlines()
-    start = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-    return np.array([line.split() for line in lines[start:]], dtype=float)
-
-
 def error(tmp_path, k):
     """forces, drho, desph at the end of run k, against those of a list made there; in parts of the largest"""
-    late, fresh = columns(tmp_path / f"late{k}"), columns(tmp_path / f"fresh{k}")
-    assert (late[:, 0] == fresh[:, 0]).all()
-    scale = [np.abs(fresh[:, c]).max() for c in (slice(5, 8), slice(8, 9), slice(9, 10))]
-    return max(np.abs(late - fresh)[:, c].max() / a for c, a in zip((slice(5, 8), slice(8, 9), slice(9, 10)), scale))
+    late, fresh = (named(read_dump(tmp_path / f"{name}{k}"), R="drho de") for name in ("late", "fresh"))
+    assert (late["id"] == fresh["id"]).all()
+    return max(np.abs(late[name] - fresh[name]).max() / np.abs(fresh[name]).max() for name in ("f", "drho", "de"))
 
 
 def runs(name):
@@ -98,7 +92,7 @@ def test_of_passing_bodies_the_way_is_the_same(lmp, tmp_path, nranks):
     ends = []
     for lists, neigh in (("relative", ""), ("displacement", ""), ("relative", "neigh_modify delay 0 every 1 check no\n")):
         t = lmp(text("passing", tmp_path, lists=lists, neigh=neigh) + "run 175\n" + WRITE.format("end"), nranks=nranks).thermo
-        ends.append((columns(tmp_path / "end"), t["Nbuild"][-1]))
+        ends.append((read_dump(tmp_path / "end").table, t["Nbuild"][-1]))
     assert ends[0][1] <= ends[1][1] < ends[2][1] == 175
     box = SCENES["passing"][0].box
     for end, _ in ends[:2]:

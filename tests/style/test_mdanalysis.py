@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from scenes import BONDS, collision, ledger, read_bonds, read_dump, scene
+from dumps import read_dump
+from scenes import BONDS, collision, ledger, read_bonds, scene
 
 MDAnalysis = pytest.importorskip("MDAnalysis")
 

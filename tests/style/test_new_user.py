@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from dumps import read_dump
 
 TARGET = """units si
 atom_style sph
@@ -58,7 +59,7 @@ def test_deposit(lmp, tmp_path, nranks, newton, words, solid):
     text = scene(more, words=words, solid="fix solid all hvi/johnson-cook" if solid else "").replace("p e vm", "p e vm" if solid else "p e")
     t = lmp(f"newton {newton}\n" + text, cwd=tmp_path, nranks=nranks).thermo
     assert t["Atoms"][-1] == t["Atoms"][0] + 6
-    new = {step: rows[rows[:, 1] == 3] for step in (20, 60) for rows in [np.loadtxt(tmp_path / f"d.{step}", skiprows=9)]}
+    new = {step: rows[rows[:, 1] == 3] for step in (20, 60) for rows in [read_dump(tmp_path / f"d.{step}").table]}
     assert len(new[20]) == 4  # at steps 1, 6, 11, 16
     assert np.allclose(new[20][:, 2:5], [600.0, 0, 0], rtol=1e-12, atol=1e-9)
     assert np.all(np.abs(new[20][:, 5:-1]) < 1e-3)
@@ -74,7 +75,7 @@ def test_deposit_with_masses_of_particles(lmp, tmp_path, nranks):
     text = scene(COMES + "dump d all custom 20 d.* id type mass\ndump_modify d sort id\n").replace("create_atoms 1", "fix m all property/atom rmass ghost yes\ncreate_atoms 1")
     text = text.replace("fix move", "set type 1*2 mass 2.7e-6\nfix move")
     lmp(text, cwd=tmp_path, nranks=nranks)
-    rows = np.loadtxt(tmp_path / "d.60", skiprows=9)
+    rows = read_dump(tmp_path / "d.60").table
     assert (rows[:, 1] == 3).sum() == 6 and np.allclose(rows[rows[:, 1] == 3, 2], 8.93e-6, rtol=1e-5)
 
 
@@ -89,7 +90,7 @@ def test_deposit_in_parts(lmp, tmp_path, nranks):
     lmp(text.replace("run 60", "run 60\n" + last.format("one")), cwd=tmp_path, nranks=nranks)
     lmp(text.replace("run 60", "run 30\nwrite_restart half\nrun 30\n" + last.format("two")), cwd=tmp_path, nranks=nranks)
     lmp("read_restart half\n" + fixes + "run 30\n" + last.format("three"), cwd=tmp_path, nranks=nranks)
-    one, two, three = (np.loadtxt(tmp_path / name, skiprows=9) for name in ("one", "two", "three"))
+    one, two, three = (read_dump(tmp_path / name).table for name in ("one", "two", "three"))
     assert len(one) == len(two) == len(three) and (one[:, 1] == 3).sum() == 6 and len(set(one[one[:, 1] == 3, 4])) == 6
     for other in (two, three):
         assert np.array_equal(one[:, 4], other[:, 4])
@@ -99,7 +100,7 @@ def test_deposit_in_parts(lmp, tmp_path, nranks):
 def test_bodies_of_what_comes(lmp, tmp_path):
     """what comes in different steps are different bodies, until they are looked at"""
     lmp(scene(COMES + "compute b all hvi/atom body\ndump d all custom 60 d.* id type c_b\ndump_modify d sort id format float %.17g\n", solid="fix solid all hvi/johnson-cook damage yes spall voids"), cwd=tmp_path)
-    rows = np.loadtxt(tmp_path / "d.60", skiprows=9)
+    rows = read_dump(tmp_path / "d.60").table
     assert len(set(rows[rows[:, 1] == 3, 2])) == 6 and len(set(rows[rows[:, 1] != 3, 2])) == 2
 
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from scenes import PAIR, cube, read_dump, scene, vectors
+from dumps import read_dump, vectors
+from scenes import PAIR, cube, scene
 
 DIFF = """fix nve all nve
 fix D all numdiff 1 1.0e-5

@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from scenes import BOND, KAPPA, PAIR, R_CUT, R_EQ, State, contact, header, read_dump, scene, spring
+from dumps import read_dump
+from scenes import BOND, KAPPA, PAIR, R_CUT, R_EQ, State, contact, header, scene, spring
 
 BOX = [[-3.0, 5.0]] * 3
 MEASURE = ("compute P all pair/local dist eng force\ncompute S all bond/local dist engpot force\nfix nve all nve\n"
@@ -10,10 +11,6 @@ MEASURE = ("compute P all pair/local dist eng force\ncompute S all bond/local di
 WRITE = ("write_dump all custom f.{0} id fx fy fz modify format float %.17g sort id\n"
          "write_dump all local p.{0} c_P[*] modify format float %.17g\n"
          "write_dump all local s.{0} c_S[*] modify format float %.17g\n")
-
-
-def local(path):
-    return [[float(w) for w in line.split()] for line in path.read_text().split("ITEM: ENTRIES", 1)[1].splitlines()[1:]]
 
 
 def two(r, bonded, types=(1, 1)):
@@ -33,7 +30,7 @@ def check(result, tmp_path, k, r, want_contact, want_spring):
     f = (f_c + f_s) * np.array([2.0, -3.0, 6.0]) / 7.0
     for axis, c in enumerate("xyz"):
         assert dump["f" + c] == pytest.approx([-f[axis], f[axis]], rel=1e-11, abs=1e-12), (r, c)
-    for rows, e, f in ((local(tmp_path / f"p.{k}"), e_c, f_c), (local(tmp_path / f"s.{k}"), e_s, f_s)):
+    for rows, e, f in ((read_dump(tmp_path / f"p.{k}").table, e_c, f_c), (read_dump(tmp_path / f"s.{k}").table, e_s, f_s)):
         for dist, energy, push in rows:
             assert (dist, energy, push) == pytest.approx((r, e, f), rel=1e-11, abs=1e-12)
 
@@ -54,8 +51,8 @@ def test_energy_and_force(lmp, tmp_path, bonded, F, newton):
     result = lmp(text)
     for k, r in enumerate(DISTANCES):
         check(result, tmp_path, k, r, contact(r, F=F), spring(r) if bonded else (0.0, 0.0))
-        assert len(local(tmp_path / f"s.{k}")) == bonded
-        assert len(local(tmp_path / f"p.{k}")) == (r < R_EQ)
+        assert len(read_dump(tmp_path / f"s.{k}").table) == bonded
+        assert len(read_dump(tmp_path / f"p.{k}").table) == (r < R_EQ)
 
 
 @pytest.mark.parametrize("mix, epsilon, sigma", [

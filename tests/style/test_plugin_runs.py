@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
-from scenes import BONDS, DUMP, collision, ledger, read_bonds, read_dump, scene
+from dumps import read_dump
+from scenes import BONDS, DUMP, collision, ledger, read_bonds, scene
+
 
 def outcome(cwd, result, name):
     return result.thermo, read_dump(cwd / f"d.{name}"), read_bonds(cwd / f"b.{name}")

@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from scenes import BONDS, DUMP, LEDGER, collision, ledger, read_bonds, read_dump, scene
+from dumps import read_dump
+from scenes import BONDS, DUMP, LEDGER, collision, ledger, read_bonds, scene
 
 MIDDLE, END = 385, 485  # the step is growing there: a new choice would differ
 LOCAL = "compute B all property/local batom1 batom2\n"

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from dumps import named, read_dump
 from solid_scenes import MATERIAL
 from sph_scenes import Fluid, scene
 
@@ -42,10 +43,7 @@ def text(s, tmp_path, sleep, words="", solid=True, pair=None, **kw):
 
 
 def columns(path):
-    """of write_dump: by name, (n, number)"""
-    a = np.array([line.split() for line in path.read_text().split("ITEM: ATOMS", 1)[1].splitlines()[1:]], dtype=float)
-    ends = dict(x=(2, 5), v=(5, 8), f=(8, 11), drho=(11, 12), de=(12, 13), rho=(13, 14), e=(14, 15), S=(15, None))
-    return {name: a[:, slice(*c)] for name, c in ends.items()}
+    return named(read_dump(path), R="drho de rho e", S=None)
 
 
 def apart(one, other):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import voids_scenes as voids
+from dumps import read_dump
 from solid_scenes import FIXES, MATERIAL, NEIGHBOR, SOFT, factor, reader, start, state
 
 ALWAYS = "neigh_modify check no\n"
@@ -150,7 +151,7 @@ dump d all custom 1 out id c_p
 dump_modify d sort id format float %.17g
 run 0
 """)
-        tag, p = np.loadtxt(tmp_path / "out", skiprows=9).T
+        tag, p = read_dump(tmp_path / "out").table.T
         assert len(p) == n and p.min() > -10  # all stand at their limits
         weakest = -p.reshape(volumes, parts).max(1)
         print(parts, weakest.mean(), weakest.std() / volumes**0.5)

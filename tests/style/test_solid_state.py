@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from dumps import read_dump
 from solid_runs import material as metal
 from solid_runs import run
 from solid_scenes import FIXES, MATERIAL, NEIGHBOR, OUT, PAIR, READ, compare, factor, read, reader, start, state
@@ -111,7 +112,7 @@ def test_fix_goes_and_comes_back(lmp, tmp_path, material, nranks):
     n = int(r.thermo["Atoms"][-1])
     assert n > 512 + 300
     fresh, got = (read(tmp_path / f) for f in ("fresh", "f"))
-    fluid = np.loadtxt(tmp_path / "fluid", skiprows=9)[:, 1]
+    fluid = read_dump(tmp_path / "fluid").table[:, 1]
     assert len(got["x"]) == n and not fresh["eps"].any() and not fresh["damage"].any() and fresh["vm"].max() == 0
     assert (fluid < -0.25).sum() > 5
     assert np.abs(fresh["p"] - np.maximum(fluid, -0.2)).max() < 1e-12

@@ -4,6 +4,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from dumps import read_dump
 from solid_scenes import MATERIAL, PAIR
 from sph_scenes import RATES as RATES_ONCE
 from sph_scenes import random_fluid, rates, read_rates, scene, tait
@@ -72,7 +73,7 @@ def test_what_needs_nothing_goes_on(lmp, solids, tmp_path):
     assert print_of(lmp(solids("eps", TOP))) > 0.001
     assert print_of(lmp(solids("eps", "unfix jc\nfix other all hvi/johnson-cook\n" + TOP))) == 0.0
     lmp(solids("damage", DUMP))
-    assert np.loadtxt(tmp_path / "late", skiprows=9)[:, 1].max() > 0.001
+    assert read_dump(tmp_path / "late").table[:, 1].max() > 0.001
 
 
 # ---------------------------------------------------------------------- pair_style hvi/sph given again

@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from dumps import read_dump
 
 HEAD = """units si
 atom_style sph
@@ -29,18 +30,12 @@ def run(lmp, root, coeff, more="", **kw):
     return lmp(HEAD.format(coeff=coeff, more=more), env={"LAMMPS_POTENTIALS": str(root / "potentials")}, **kw)
 
 
-def state(path):
-    lines = path.read_text().splitlines()
-    start = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS")) + 1
-    return np.array([line.split() for line in lines[start:]], dtype=float)
-
-
 OUT = "compute R all property/atom rho\ndump d all custom 1 {} id mass c_R\ndump_modify d format float %.17g sort id\n"
 
 
 def test_mass_and_density(lmp, root, tmp_path):
     run(lmp, root, COEFF.format("volume 2e-9"), OUT.format("out"))
-    a = state(tmp_path / "out")
+    a = read_dump(tmp_path / "out").table
     assert np.abs(a[:, 1] / (2703 * 2e-9) - 1).max() < 1e-12 and np.abs(a[:, 2] / 2703 - 1).max() < 1e-9
 
 
@@ -48,7 +43,7 @@ def test_restart_keeps_a_mass_that_was_changed(lmp, root, tmp_path):
     run(lmp, root, COEFF.format("volume 2e-9") + "\nmass 1 7e-6", "restart 1 r.*")
     lmp("read_restart r.1\nfix move all hvi/sph\nneigh_modify every 1 delay 0 check yes\n" + OUT.format("out") + "run 0\n",
         env={"LAMMPS_POTENTIALS": str(root / "potentials")})
-    assert state(tmp_path / "out")[:, 1] == pytest.approx(7e-6, rel=1e-12)
+    assert read_dump(tmp_path / "out")["mass"] == pytest.approx(7e-6, rel=1e-12)
 
 
 def test_without_it_a_density_must_be_given(lmp, root):
@@ -68,35 +63,35 @@ def cutoff(r):
 def test_spacing(lmp, root, tmp_path, words, h, mass):
     """h, mass, density, skin: those of longhand, to the last digit"""
     r = run(lmp, root, FILE + words, OUT.format("out"))
-    a = state(tmp_path / "out")
+    a = read_dump(tmp_path / "out").table
     assert np.abs(a[:, 1] / mass - 1).max() < 1e-12 and np.abs(a[:, 2] / 2703 - 1).max() < 1e-9
     assert cutoff(r) == pytest.approx(2 * h + 0.7 * 0.9e-3, rel=1e-6)
     run(lmp, root, FILE + f"h {h:.17g} volume {mass / 2703:.17g}\nneighbor 0.63e-3 bin", OUT.format("other"))
-    assert state(tmp_path / "other") == pytest.approx(a, rel=1e-12)
+    assert read_dump(tmp_path / "other").table == pytest.approx(a, rel=1e-12)
 
 
 @pytest.mark.parametrize("dim, power", [(1, 1), (2, 2)])
 def test_spacing_below_three_dimensions(lmp, root, tmp_path, dim, power):
     text = HEAD.replace("hvi/sph cubic", f"hvi/sph cubic dim {dim}").replace("region ball sphere 0 0 0 2.5", "region ball block -5 5 0 0 0 0")
     lmp(text.format(coeff=FILE + "spacing 1e-3", more=OUT.format("out")), env={"LAMMPS_POTENTIALS": str(root / "potentials")})
-    assert np.abs(state(tmp_path / "out")[:, 1] / (2703 * 1e-3**power) - 1).max() < 1e-12
+    assert np.abs(read_dump(tmp_path / "out")["mass"] / (2703 * 1e-3**power) - 1).max() < 1e-12
 
 
 def test_spacing_leaves_other_masses(lmp, root, tmp_path):
     """those of mass and of data files; not those of an earlier pair_coeff, which are of its material"""
     run(lmp, root, "mass 1 7e-6\n" + FILE + "spacing 1e-3", OUT.format("out"))
-    assert state(tmp_path / "out")[:, 1] == pytest.approx(7e-6, rel=1e-12)
+    assert read_dump(tmp_path / "out")["mass"] == pytest.approx(7e-6, rel=1e-12)
     run(lmp, root, FILE + "spacing 1e-3\nmass 1 7e-6\n" + FILE + "spacing 1e-3", OUT.format("after"))
-    assert state(tmp_path / "after")[:, 1] == pytest.approx(7e-6, rel=1e-12)
+    assert read_dump(tmp_path / "after")["mass"] == pytest.approx(7e-6, rel=1e-12)
     run(lmp, root, FILE + "spacing 1e-3\npair_coeff 1 1 file Cu-OFHC.hvi spacing 1e-3", OUT.format("copper"))
-    assert state(tmp_path / "copper")[:, 1] == pytest.approx(8930e-9, rel=1e-3)
+    assert read_dump(tmp_path / "copper")["mass"] == pytest.approx(8930e-9, rel=1e-3)
 
 
 def test_mass_of_another_material(lmp, root, tmp_path):
     """when the pair style is given again it is replaced; after a restart file it stays, with a warning that names it"""
     again = "pair_style hvi/sph cubic\npair_coeff 1 1 file Cu-OFHC.hvi spacing 1e-3"
     r = run(lmp, root, FILE + "spacing 1e-3\n" + again, OUT.format("out"))
-    assert state(tmp_path / "out")[:, 1] == pytest.approx(8930e-9, rel=1e-3) and not [w for w in r.warnings if "keeps its mass" in w]
+    assert read_dump(tmp_path / "out")["mass"] == pytest.approx(8930e-9, rel=1e-3) and not [w for w in r.warnings if "keeps its mass" in w]
     run(lmp, root, FILE + "spacing 1e-3", "restart 1 r.*")
     r = lmp(f"read_restart r.1\n{again}\nfix move all hvi/sph\nneigh_modify every 1 delay 0 check yes\nrun 0\n", env={"LAMMPS_POTENTIALS": str(root / "potentials")})
     assert [w for w in r.warnings if "type 1 keeps its mass 2.703e-06, that of Cu-OFHC.hvi at a spacing of 0.001 is 8.9" in w]
@@ -131,7 +126,7 @@ def test_spacing_after_a_restart(lmp, root, tmp_path):
         r = lmp(f"read_restart r.1\n{again}fix move all hvi/sph\nneigh_modify every 1 delay 0 check yes\n" + OUT.format("out") + "run 0\n",
                 env={"LAMMPS_POTENTIALS": str(root / "potentials")})
         assert cutoff(r) == pytest.approx(2.79e-3, rel=1e-6)
-        assert state(tmp_path / "out")[:, 1] == pytest.approx(7e-6, rel=1e-12)
+        assert read_dump(tmp_path / "out")["mass"] == pytest.approx(7e-6, rel=1e-12)
         (tmp_path / "out").unlink()
 
 

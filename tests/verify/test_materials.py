@@ -10,6 +10,7 @@ import re
 import numpy as np
 import pytest
 from conftest import ROOT
+from dumps import frames
 
 FILES = """Al-Tillotson Al-Zisis2013 Al1100-O Al2017-T4 Al2024-T3 Al2024-T3-Esposito2024 Al2219-T87 Al5083-H116 Al5456-H116 Al6061-T6
 Al6061-T6-Esposito2024 Al7075-T6 Cu-OFHC Cu-Tillotson Fe-Armco Fe-Tillotson PMMA Pb Ta Ti-6Al-4V carbon-epoxy-Zisis2013
@@ -193,10 +194,8 @@ def sheared(lmp, file, law, v, heat, words, tmp_path):
     m = v["rho0"] * dx**3
     text = BLOCK.format(dx=dx, m=m, rho0=v["rho0"], E=m * v["cp"] * heat, file=file, h=1.2 * dx, skin=0.2 * dx, rate=rate, law=law, words=words, dt=dt)
     lmp(text + f"run 1\n")
-    lines = (tmp_path / "out").read_text().splitlines()
-    n = int(lines[3])
-    first, last = (np.array([line.split() for line in part], float) for part in (lines[9:9 + n], lines[-n:]))
-    k = np.arange(n).reshape(6, 6, 6)[2:4, 2:4, 2:4].ravel()
+    first, last = (f.table for f in frames(tmp_path / "out"))
+    k = np.arange(len(last)).reshape(6, 6, 6)[2:4, 2:4, 2:4].ravel()
     return dict(zip(("rho", "p", "T", "eps", "rate", "damage", "vm"), last[k, 1:].T), p=first[k, 2], T=first[k, 3])
 
 
@@ -248,10 +247,9 @@ def test_shear_to_failure(lmp, file, tmp_path):
     # a little expansion, so that heat makes no pressure: at a constant volume it would become ever more ductile
     text = text.replace("velocity all set v_vx 0 0", "variable wx atom v_vx+90*x\nvariable wy atom 90*y\nvariable wz atom 90*z\nvelocity all set v_wx v_wy v_wz")
     lmp(text.replace("block -3 8 -3 8", "block -3 30 -3 8") + "run 300\n")
-    lines = (tmp_path / "out").read_text().splitlines()
     k = np.arange(n).reshape(6, 6, 6)[2:4, 2:4, 2:4].ravel()
-    frames = np.array([line.split() for line in lines if len(line.split()) == 10 and not line.startswith("ITEM")], float).reshape(-1, n, 10)[:, k, 1:]
-    rho, p, T, eps, epsdot, damage, vm, spalled, voids = frames.mean(1).T
+    table = np.array([f.table for f in frames(tmp_path / "out")])[:, k, 1:]
+    rho, p, T, eps, epsdot, damage, vm, spalled, voids = table.mean(1).T
     last = np.flatnonzero(damage < 1)[-1]
     cold = np.clip((T - s["Tref"]) / (s["Tm"] - s["Tref"]), 0, 1)
     strain = (d["D1"] + d["D2"] * np.exp(-d["D3"] * p / np.maximum(vm, 1e6))) * (1 + d["D5"] * cold)

@@ -7,6 +7,7 @@ import functools
 
 import numpy as np
 import pytest
+from dumps import read_dump
 from reference.flow2d import Flow
 from sph_scenes import Fluid, ideal_gas, scene, tait
 
@@ -44,7 +45,7 @@ def solve(lmp, tmp_path, x, v, e, n, words, eos, kernel, t, rho=None, box=1.0, c
               np.array([box, box, 20 / n]), (box == 1, box == 1, True), 2)
     pair = f"pair_style hvi/sph {kernel} {words}\npair_coeff * * eos {eos} h {ETA / n}\n"
     thermo = lmp(scene(s, tmp_path / "s.data", pair, skin=0.3 / n) + more + RUN.format(t=t, center=center)).thermo
-    a = np.loadtxt(tmp_path / "last", skiprows=9)
+    a = read_dump(tmp_path / "last").table
     if not more:
         assert np.abs(thermo["c_book[9]"] - 1).max() < 1e-3
     return thermo, a[:, :2], a[:, 2:]

@@ -1,6 +1,7 @@
 """Damage with softening by plastic displacement: the energy that a shear band takes up does not go with the spacing."""
 
 import numpy as np
+from dumps import read_dump
 
 H, V, Y, D1, U_F, COLUMNS = 1e-3, 20.0, 0.3e9, 0.05, 30e-6, 6
 MATERIAL = """# UNITS: si
@@ -59,7 +60,7 @@ compute S all hvi/atom damage eps
 run 1000000
 write_dump inner custom out.{n} y c_S[*] modify format float %.9g sort id
 """)
-    f = np.loadtxt(folder / f"out.{n}", skiprows=9)
+    f = read_dump(folder / f"out.{n}").table
     layers = f[np.argsort(f[:, 0], kind="stable")].reshape(n, COLUMNS, 3).mean(1)
     return layers[:, 1], layers[:, 2]
 

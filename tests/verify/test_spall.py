@@ -11,6 +11,7 @@ from hvi.jobs import measures
 from reference.voids import C0, CL, RHO0, S1, SHEAR, constants, law
 from solid_runs import row
 
+
 def stretch(lmp, root, folder, epsdot, strain, steps=4000):
     """the same of the middle of a row, whose particles all have v = epsdot x"""
     n, a = 40, 1e-3 * 1e4 / epsdot

@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 import pytest
+from dumps import frames, read_dump
 from scipy.spatial import cKDTree
 from reference import gas
 from spacing_scenes import lattice
@@ -26,7 +27,7 @@ DISSIPATIONS = {"riemann": "dissipation riemann", "monaghan": "viscosity 1 2", "
 
 def read_last(path):
     """x (n, 3), v, rho, h, p by ID"""
-    a = np.loadtxt(path, skiprows=9)
+    a = read_dump(path).table
     return a[:, 1:4], a[:, 4], a[:, 5], a[:, 6], a[:, 7]
 
 
@@ -164,17 +165,6 @@ def test_shock_into_coarser(lmp, tmp_path, name, dim, nx, rows, ratio, dense):
 # ------------------------------------------------------------------ neighbor lists
 
 
-def frames(path):
-    """{step: {column: array}} of a dump that is sorted by ID"""
-    out = {}
-    for part in path.read_text().split("ITEM: TIMESTEP\n")[1:]:
-        head, body = part.split("ITEM: ATOMS ")
-        names, values = body.split("\n", 1)
-        table = np.array(values.split(), float).reshape(-1, len(names.split()))
-        out[int(head.split()[0])] = dict(zip(names.split(), table.T))
-    return out
-
-
 EVERY = """compute R all property/atom drho desph rho esph
 compute H all hvi/atom h
 dump d all custom 1 {0} id x y z vx vy vz fx fy fz c_R[1] c_R[2] c_R[3] c_R[4] c_H
@@ -211,7 +201,7 @@ def test_lists_are_long_enough(lmp, tmp_path, name, neigh, types):
     result = lmp(text + f"timestep {dt}\n" + EVERY.format(tmp_path / "all") + f"run {steps}\n")
     builds, dangerous = (int(re.search(rf"^{words} = (\d+)", result.log, re.M).group(1)) for words in ("Neighbor list builds", "Dangerous builds"))
     assert 3 <= builds < steps / 4 and dangerous == 0
-    frame = frames(tmp_path / "all")
+    frame = {f.step: f for f in frames(tmp_path / "all")}
     solve = riemann_rates if name == "riemann" else rates
     grown = 0
     for step in (24, 49, 74, 99, 124, 149, 157):

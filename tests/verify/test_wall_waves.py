@@ -11,6 +11,7 @@ from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "examples" / "wall-waves"))
 import waves
+from dumps import read_dump
 
 AT = (25, 35, 45)
 FAR = 98e-3  # m, front of wall 2: nothing comes there in 13 us
@@ -68,7 +69,7 @@ def test_elements_without_particles_are_listed(wall):
     """dump local: every element, at its place; away from the hole none is plastic, with a stress of the size that probes saw"""
     dumps = sorted(wall[0].glob("elements.*.dump"), key=lambda path: int(path.name.split(".")[1]))
     assert len(dumps) == 2
-    table = np.loadtxt(dumps[-1], skiprows=9)
+    table = read_dump(dumps[-1]).table
     assert table.shape == (wall[1]["elements"], 17) and len(np.unique(table[:, 0])) == len(table)
     assert set(table[:, 1]) == {2, 4}
     table = table[table[:, 1] == 2]
