@@ -25,7 +25,7 @@ def materials(folder, root, modulus):
     factors = (-np.log(u)) ** (1 / modulus) / gamma(1 + 1 / modulus) if modulus else np.ones(1)
     for k, factor in enumerate(factors):
         changed, n = re.subn(r"(spall voids\n  sigma +)1.2e9", lambda m: m[1] + f"{1.2e9 * factor:.17g}", text)
-        assert n == 1
+        assert n == 1, k
         (folder / f"metal{k + 1}.hvi").write_text(changed)
     return len(factors)
 

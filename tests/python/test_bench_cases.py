@@ -62,7 +62,7 @@ def test_case_file(name):
             try:
                 runners.merged(case, settings, known)
             except runners.Cannot as why:
-                assert str(why)
+                assert str(why), settings
     assert case["default"] in short or case["default"] in full
     for form in (short, full):
         assert all(form.count(s) == 1 for s in form), "the same run twice"

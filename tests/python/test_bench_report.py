@@ -194,7 +194,7 @@ def test_needs_without_luck(cases):
     assert need(cases, series() + [lucky])[0] == "riemann, n 100, C 0.1: 0.5 s ?"
     for how in ({}, {"idle": False}, {"ranks": 2}):
         finer = record("sod", 3.0, 2.0, n=200, C=0.1, **how)
-        assert need(cases, series() + [lucky, finer]) == ["riemann, n 800: 64 s ?", "riemann, n 100, C 0.1: 0.5 s", "riemann, n 100, C 0.1: 0.5 s"]
+        assert need(cases, series() + [lucky, finer]) == ["riemann, n 800: 64 s ?", "riemann, n 100, C 0.1: 0.5 s", "riemann, n 100, C 0.1: 0.5 s"], how
     for bad in ({"failed": "ERROR: Lost atoms"}, {"energy": 0.1}):
         assert need(cases, series() + [lucky, record("sod", 3.0, 2.0, n=200, C=0.1, **bad)])[0] == "riemann, n 100, C 0.1: 0.5 s ?"
     confirmed = [record("sod", 0.9, 90.0, n=1600)]
@@ -338,7 +338,7 @@ def test_figures(made):
     folder, _ = made
     for path in (folder / "out" / "speed-error").iterdir():
         with Image.open(path) as picture:
-            assert picture.width == 700 and 200 < picture.height < 1000
+            assert picture.width == 700 and 200 < picture.height < 1000, path
             pixels = np.asarray(picture.convert("RGB"))
         assert path.stat().st_size < 40_000 and (pixels != 255).any(axis=2).mean() > 0.01
         edge = np.concatenate([pixels[0], pixels[-1], pixels[:, 0], pixels[:, -1]])

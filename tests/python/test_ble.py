@@ -57,7 +57,7 @@ def test_design_equation_is_the_inverse():
     """t_w of [C09] (4-22) at the d_c of (4-23): so its mass is that of a sphere"""
     for v in (7, 12):
         alone, behind = ble._walls_jsc(T, 1.0, v, d_c("NNO", speed=v))
-        assert behind == pytest.approx(T.wall_thickness_cm, rel=1e-3) and alone > behind
+        assert behind == pytest.approx(T.wall_thickness_cm, rel=1e-3) and alone > behind, v
         assert ble._walls_reimerdes(T, 1.0, v, d_c("NNO", speed=v))[1] == pytest.approx(behind, rel=2e-3)
 
 
@@ -101,7 +101,7 @@ def test_properties(name, angle):
         assert all(abs(b - a) < 0.13 * a for a, b in zip(curve, curve[1:])), name  # continuous: slow speeds fall by a 16th
         for v in (2, 4, 6, 8, 11):
             thicker = [d_c(name, dataclasses.replace(of, wall_thickness_cm=t), v, angle) for t in (0.05, 0.1, 0.2, 0.4, 0.8, 1.6)]
-            assert all(b >= a for a, b in zip(thicker, thicker[1:])) and thicker[-1] > 1.2 * thicker[0]
+            assert all(b >= a for a, b in zip(thicker, thicker[1:])) and thicker[-1] > 1.2 * thicker[0], (of, v)
     assert d_c(name, T, 9, 65) == d_c(name, T, 9, 80) != d_c(name, T, 9, 60)
 
 

@@ -92,8 +92,8 @@ def test_examples_in_help(name, capsys):
     examples = examples.replace("\\\n", " ").splitlines()
     for line in examples:
         words = line.split()
-        assert words[:3] == ["python3", "-m", "hvi"]
-        assert cli.parse(words[3:]).command == name
+        assert words[:3] == ["python3", "-m", "hvi"], line
+        assert cli.parse(words[3:]).command == name, line
 
 
 def test_howto(files, root):
@@ -276,7 +276,7 @@ def test_compare_dumps(files, capsys):
         summary = hvi.find(frame, bonds="bonds.dump", axis="z", plane=-1e-3).summary
         want = {**hvi.measure(frame, "z", -1e-3), **summary, "step": frame.step}
         got = {key: float(values[which]) for key, values in lines.items()}
-        assert got == pytest.approx({key: want[key] for key in lines}, rel=1e-5)
+        assert got == pytest.approx({key: want[key] for key in lines}, rel=1e-5), name
     assert "fragmentation" in lines and lines["step"][3] == "-0.5"
     assert cli.main(["compare", "a.dump", "a.dump", *MASS, *CLOUD, "--rtol", "0"]) == 0
 
@@ -334,7 +334,7 @@ def test_wrong_options(capsys, words, message):
 def test_errors_leave_no_traceback(command, files):
     for words in (["cloud", "none.dump", *CLOUD], ["compare", "a.dump", "a.dump"]):
         status, out, err = command(*words)
-        assert status == 1 and "Traceback" not in err and err.count("\n") == 1
+        assert status == 1 and "Traceback" not in err and err.count("\n") == 1, words
 
 
 def test_reader_that_stops(files, root):

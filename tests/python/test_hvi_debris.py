@@ -124,9 +124,9 @@ def test_witness_plate(tmp_path, capsys):
         said = printed(capsys, "impacts", "a.dump", "--axis", "z", "--plane", "10", *ARGUMENTS, *words)
         got = {name: float(value) for name, value in said.items() if name != "model"}
         mass, energy = copies * 1000 * VOLUME, copies * 1000 * VOLUME * 50
-        assert [got[f"{kind}_mass"] for kind in debris.KINDS] == pytest.approx([7 * mass, 3 * mass, mass], rel=1e-5)
-        assert [got[f"{kind}_kinetic_energy"] for kind in debris.KINDS] == pytest.approx([10 * energy, 6 * energy, 4 * energy], rel=1e-5)
-        assert sum(got[f"{kind}_kinetic_energy"] for kind in debris.KINDS) == pytest.approx(got["kinetic_energy"], rel=1e-5)
+        assert [got[f"{kind}_mass"] for kind in debris.KINDS] == pytest.approx([7 * mass, 3 * mass, mass], rel=1e-5), words
+        assert [got[f"{kind}_kinetic_energy"] for kind in debris.KINDS] == pytest.approx([10 * energy, 6 * energy, 4 * energy], rel=1e-5), words
+        assert sum(got[f"{kind}_kinetic_energy"] for kind in debris.KINDS) == pytest.approx(got["kinetic_energy"], rel=1e-5), words
         assert got["subparticle_pieces"] == pytest.approx(72 * copies) and got["subparticle_size"] == pytest.approx(1 / 3, rel=1e-5)
         assert (got["fragments"], got["pieces_apart"]) == pieces
 
@@ -137,12 +137,12 @@ def test_what_a_dump_does_not_know(tmp_path, capsys):
     failed = ["--failed-columns", "c_state[2]", "c_state[3]"]
     for command in (["fragments"], ["impacts", "--axis", "z", "--plane", "10"]):
         said = printed(capsys, command[0], "old.dump", *command[1:], *ARGUMENTS, *failed)
-        assert said["fragments"] == "6" and "subparticle_mass" not in said
-        assert said["debris below the spacing"].startswith("not known") and "fragsize" in said["debris below the spacing"]
+        assert said["fragments"] == "6" and "subparticle_mass" not in said, command
+        assert said["debris below the spacing"].startswith("not known") and "fragsize" in said["debris below the spacing"], command
         said = printed(capsys, command[0], "a.dump", *command[1:], "--distance", "1.1", "--sound")
-        assert said["debris below the spacing"] == "not counted: give --density TYPE=RHO" and "subparticle_mass" not in said
+        assert said["debris below the spacing"] == "not counted: give --density TYPE=RHO" and "subparticle_mass" not in said, command
         said = printed(capsys, command[0], "a.dump", *command[1:], "--distance", "1.1")
-        assert said["fragments"] == "2" and "pieces_apart" not in said and "debris below the spacing" not in said
+        assert said["fragments"] == "2" and "pieces_apart" not in said and "debris below the spacing" not in said, command
 
 
 @pytest.mark.parametrize("words, message", [

@@ -91,7 +91,7 @@ def test_cloud(run, name, axis, plane, quantile):
     """all twelve values of compute hvi/cloud"""
     for k, frame in frames(run):
         got = hvi.measure(frame, axis, plane, quantile)
-        assert list(got) == [measure for measure, _ in MEASURES]
+        assert list(got) == [measure for measure, _ in MEASURES], k
         assert list(got.values()) == pytest.approx(vector(run[1], name, k), rel=CLOSE, abs=0)
         assert frame.time == pytest.approx(run[1]["Time"][k], rel=1e-12)
 
@@ -110,12 +110,12 @@ def test_fragments(run, name):
         want = np.stack(list(rows.rows(k).values()), axis=1)
         got = np.array(found.table.tolist()).reshape(-1, len(ROW.names))
         size = np.array([0, 0, 0, 1, 1, 1, 6e3, 6e3, 6e3, 0, 1e-2]) * CLOSE  # where large numbers cancel
-        assert got.shape == want.shape and np.all(np.abs(got - want) <= size + CLOSE * np.abs(want))
+        assert got.shape == want.shape and np.all(np.abs(got - want) <= size + CLOSE * np.abs(want)), k
         if not cloud:
             assert np.array_equal(found.label, frame[column])
             by_column = hvi.find(frame, column=column)
-            assert np.array_equal(by_column.table, found.table) and np.array_equal(by_column.label, found.label)
-        assert np.array_equal(found.table["id"][found.row], found.label)
+            assert np.array_equal(by_column.table, found.table) and np.array_equal(by_column.label, found.label), k
+        assert np.array_equal(found.table["id"][found.row], found.label), k
 
 
 def test_universe_gives_the_same(run):
@@ -158,8 +158,8 @@ run 0
 """).thermo
         frame = hvi.Dump(tmp_path / "a.dump", data=tmp_path / "s.data", units="lj", mirror="none")[0]
         found = hvi.find(frame, distance=0.85)
-        assert np.array_equal(found.label, frame["c_f"])
-        assert 5 < len(found.table) == thermo["c_t[1]"][0] < 60
+        assert np.array_equal(found.label, frame["c_f"]), tilt
+        assert 5 < len(found.table) == thermo["c_t[1]"][0] < 60, tilt
 
 
 FORMS = {"apart": "", "sound": "damage yes"}  # what has come apart, what is sound
@@ -212,16 +212,16 @@ run 0
             found, summary = hvi.fragments.both(frame, distance=0.75, failed=["d_hvi_damage"] if name == "sound" else None)
             assert [summary[key] for key in SUMMARY] == pytest.approx(vector(thermo, name, 0), rel=CLOSE, abs=0)
             if name == "sound":  # and with it both
-                assert summary["pieces_apart"] == thermo["c_apart[1]"][0]
-                assert summary["largest_apart_mass_fraction"] == pytest.approx(thermo["c_apart[4]"][0], rel=CLOSE)
+                assert summary["pieces_apart"] == thermo["c_apart[1]"][0], (nranks, name)
+                assert summary["largest_apart_mass_fraction"] == pytest.approx(thermo["c_apart[4]"][0], rel=CLOSE), (nranks, name)
             rows = same_rows(found, hvi.Dump(tmp_path / f"{name}.rows").rows(0), [0, 0, 0, 1, 1, 1, 10, 10, 10, 0, 1e-2])
             tables.setdefault(name, rows)
             assert np.array_equal(rows[:, :2], tables[name][:, :2])
             assert rows == pytest.approx(tables[name], rel=1e-12, abs=1e-12)
             m = mass[frame["type"] - 1]
-            assert rows[:, 2].sum() == pytest.approx(m.sum(), rel=1e-13)
-            assert rows[:, 2] @ rows[:, 6:9] == pytest.approx(m @ v, rel=1e-11)
-            assert rows[:, 9].sum() == pytest.approx(0.5 * m @ (v**2).sum(axis=1), rel=1e-12)
+            assert rows[:, 2].sum() == pytest.approx(m.sum(), rel=1e-13), (nranks, name)
+            assert rows[:, 2] @ rows[:, 6:9] == pytest.approx(m @ v, rel=1e-11), (nranks, name)
+            assert rows[:, 9].sum() == pytest.approx(0.5 * m @ (v**2).sum(axis=1), rel=1e-12), (nranks, name)
     assert 1.1 * len(tables["apart"]) < len(tables["sound"]) < n and tables["apart"][0, 1] > tables["sound"][0, 1] > 5
 
 
@@ -303,8 +303,8 @@ run 0
 """, cwd=tmp_path / units).thermo
         frame = hvi.Dump(tmp_path / units / "a.dump")[0]
         assert frame.units == units
-        assert list(hvi.measure(frame, "x", 2.0).values()) == pytest.approx(vector(thermo, "c", 0), rel=CLOSE)
-        assert hvi.find(frame, column="id").table["ke"].sum() == pytest.approx(thermo["KinEng"][0], rel=CLOSE)
+        assert list(hvi.measure(frame, "x", 2.0).values()) == pytest.approx(vector(thermo, "c", 0), rel=CLOSE), units
+        assert hvi.find(frame, column="id").table["ke"].sum() == pytest.approx(thermo["KinEng"][0], rel=CLOSE), units
 
 
 def test_table_in_pandas(run):

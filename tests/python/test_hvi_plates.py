@@ -27,10 +27,10 @@ def test_lattice(angles):
     assert len(p.x) * p.volume[0] == pytest.approx(np.pi * 8e-3**2 * 0.8e-3, rel=5e-3)
     for k, angle in enumerate(p.angles):
         sheet = p.x[np.abs(p.x[:, 2] - z[k]) < 1e-9, :2]
-        assert nearest(sheet) == pytest.approx(0.2e-3)
+        assert nearest(sheet) == pytest.approx(0.2e-3), angle
         a = np.radians(angle)
         back = sheet @ np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]]) / 0.2e-3 - 0.5
-        assert np.abs(back - np.round(back)).max() < 1e-6  # turned by this angle and no other
+        assert np.abs(back - np.round(back)).max() < 1e-6, angle  # turned by this angle and no other
     assert p.angles == pytest.approx(p.angles[::-1]) or len(angles) == 8
 
 

@@ -67,9 +67,9 @@ def test_coordinates(lmp, tmp_path, shape):
             assert frame.box.periodic == (True, True, True)
         box = frames["x"].box
         wrapped = box.wrap(want)
-        assert np.all((box.to_scaled(wrapped) >= -1e-12) & (box.to_scaled(wrapped) < 1 + 1e-12))
+        assert np.all((box.to_scaled(wrapped) >= -1e-12) & (box.to_scaled(wrapped) < 1 + 1e-12)), k
         turns = box.to_scaled(want) - box.to_scaled(wrapped)
-        assert turns == pytest.approx(np.rint(turns), abs=1e-12)
+        assert turns == pytest.approx(np.rint(turns), abs=1e-12), k
     assert len(np.unique(np.rint(turns), axis=0)) > 10  # they went around
 
 
@@ -149,7 +149,7 @@ def test_frames_that_need_more_than_one_block(tmp_path, monkeypatch):
     for chunk, head in ((1, 300), (17, 300), (1000, 300), (299, 301)):
         monkeypatch.setattr("hvi.io.scan.CHUNK", chunk)
         monkeypatch.setattr("hvi.io.scan.HEAD", head)
-        assert [(h.start, h.step, h.n, h.body, h.size, h.rows) for h in hvi.Dump(path).headers] == want
+        assert [(h.start, h.step, h.n, h.body, h.size, h.rows) for h in hvi.Dump(path).headers] == want, (chunk, head)
     assert hvi.Dump(path)[0].x.shape == (0, 3) and hvi.Dump(path)[13].x[:, 2].tolist() == [13.0] * 6
 
 
@@ -169,7 +169,7 @@ def test_cut_off_anywhere(tmp_path):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             dump = hvi.Dump(path)
-        assert len(dump) == whole and dump[-1].v[:, 2].tolist() == [3.0, 6.0]
+        assert len(dump) == whole and dump[-1].v[:, 2].tolist() == [3.0, 6.0], end
         assert len(caught) == len(dump.problems) == (end not in starts)
 
 
@@ -183,8 +183,8 @@ def test_a_run_that_was_resumed(written):
     for cut in (len(one) - 7, len(one) - 18, one.index("ATOMS id") + 8, one.index("NUMBER") + 3):
         with pytest.warns(hvi.HVIWarning, match="left out frame .*(ends after|cut off|incomplete)"):
             dump = written(one + one.replace("TEP\n0", "TEP\n5")[:cut] + dump_text(steps=(10, 20)))
-        assert dump.steps.tolist() == [0, 10, 20]
-        assert all(np.array_equal(frame.v, [[1, 2, 3], [4, 5, 6]]) for frame in dump)
+        assert dump.steps.tolist() == [0, 10, 20], cut
+        assert all(np.array_equal(frame.v, [[1, 2, 3], [4, 5, 6]]) for frame in dump), cut
 
 
 @pytest.mark.parametrize("old, new, message", [
@@ -262,9 +262,9 @@ def test_data_file(lmp, tmp_path):
     for name, step, units in (("s.data", None, None), ("out.data", 7, "lj")):
         data = DataFile(tmp_path / name)
         assert (data.step, data.units, data.masses) == (step, units, {1: 1.0, 2: 1.5})
-        assert pairs(data.bonds) == pairs(s.bonds + 1)
+        assert pairs(data.bonds) == pairs(s.bonds + 1), name
         ids, types = data.atoms
-        assert np.array_equal(ids, np.arange(1, 65)) and np.array_equal(types, s.types)
+        assert np.array_equal(ids, np.arange(1, 65)) and np.array_equal(types, s.types), name
     text = (tmp_path / "out.data").read_text()
     (tmp_path / "cut.data").write_text(text[:text.index("Bonds") + 200])
     with pytest.raises(hvi.HVIError, match="section Bonds.*cut off"):

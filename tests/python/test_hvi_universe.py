@@ -44,15 +44,15 @@ def test_universe(leaving):
         frame = dump[k]
         here = u.atoms.present
         assert ts.frame == k and ts.data["step"] == 50 * k and here.sum() == sizes[k]
-        assert np.array_equal(u.atoms.ids[here], frame.ids)
-        assert np.array_equal(u.atoms.c_frag[here], frame["c_frag"]) and np.isnan(u.atoms.c_frag[~here]).all()
-        assert np.array_equal(u.atoms.v_B2[here], frame.ids)
-        assert u.atoms.positions[here] == pytest.approx(frame.x, rel=1e-6) and np.isnan(u.atoms.positions[~here]).all()
-        assert u.atoms.velocities[here] == pytest.approx(frame.v, rel=1e-6)
-        assert u.atoms.forces[here, 1] == pytest.approx(frame["fy"], rel=1e-6)
+        assert np.array_equal(u.atoms.ids[here], frame.ids), k
+        assert np.array_equal(u.atoms.c_frag[here], frame["c_frag"]) and np.isnan(u.atoms.c_frag[~here]).all(), k
+        assert np.array_equal(u.atoms.v_B2[here], frame.ids), k
+        assert u.atoms.positions[here] == pytest.approx(frame.x, rel=1e-6) and np.isnan(u.atoms.positions[~here]).all(), k
+        assert u.atoms.velocities[here] == pytest.approx(frame.v, rel=1e-6), k
+        assert u.atoms.forces[here, 1] == pytest.approx(frame["fy"], rel=1e-6), k
         assert ts.dimensions is None  # not periodic
         found = hvi.find(u)  # by the bonds of this frame
-        assert np.array_equal(found.label, frame["c_frag"])
+        assert np.array_equal(found.label, frame["c_frag"]), k
         counts.append(found.summary["fragments"])
     assert counts[-1] > counts[0] > 1
     u.trajectory[3]
@@ -96,7 +96,7 @@ def test_particles_that_come(leaving):
     seen = set()
     for k, ts in enumerate(u.trajectory):
         ids = hvi.Dump(leaving / "g.dump")[k].ids
-        assert np.array_equal(u.atoms.ids[u.atoms.present], ids)
+        assert np.array_equal(u.atoms.ids[u.atoms.present], ids), k
         seen.update(ids.tolist())
     assert seen == set(u.atoms.ids) and len(seen) < 125
     u = hvi.open(leaving / "g.dump", data=leaving / "s.data")  # which knows them all

@@ -122,7 +122,7 @@ def test_what_a_file_says(written, capsys):
         rows = list(csv.DictReader(stream))
     for row in rows:
         u, Us, p = (float(row[key]) for key in ("u_m_s", "Us_m_s", "p_GPa"))
-        assert Us == pytest.approx(5200 + 1.3 * u, rel=1e-9) and p == pytest.approx(2700 * Us * u * 1e-9, rel=1e-9)
+        assert Us == pytest.approx(5200 + 1.3 * u, rel=1e-9) and p == pytest.approx(2700 * Us * u * 1e-9, rel=1e-9), row
     assert len(rows) == 8
 
 
@@ -333,7 +333,7 @@ def test_nothing_bears_shear_above_melting():
     for law, melt in (("johnson-cook", 775), ("steinberg-guinan", 1220)):
         v = one.in_si(("strength", law))
         Y = curves.yield_stress(law, v, 0.1, 1e4, np.array([melt - 1, melt, melt + 100]))
-        assert Y[0] > 0 and list(Y[1:]) == [0, 0]
+        assert Y[0] > 0 and list(Y[1:]) == [0, 0], law
 
 
 def test_spall_strength(written):
@@ -359,7 +359,7 @@ def test_laws_without_curves(written, tmp_path, capsys):
     (tmp_path / "none.table").write_text("nothing\n")
     for text, law in (("eos idealgas\ngamma 1.4\n", "idealgas"), ("eos table\nfile none.table\n", "table")):
         name = written("# UNITS: si\n# A thing\n" + text)
-        assert cli.main(["material", name, "--figure", "t.png"]) == 0
+        assert cli.main(["material", name, "--figure", "t.png"]) == 0, law
         assert f"no curves of eos {law}" in capsys.readouterr().out and os.path.getsize("t.png") > 5000
         with pytest.raises(HVIError, match=f"no curves of eos {law}"):
             curves.Eos(library.read(name))

@@ -151,7 +151,7 @@ def test_graded():
     for name in ("core", "plain", "O-grid", "round O-grid"):
         made = plate(name)
         x = np.unique(np.round(made.nodes[(np.abs(made.nodes[:, 1]) < 1e-9) & (made.nodes[:, 0] > PLATES[name]["hold"] - 0.6), 0], 9))
-        assert (np.diff(x, 2) > -1e-9).all() and np.diff(x)[-1] > 1.3 * np.diff(x)[0]
+        assert (np.diff(x, 2) > -1e-9).all() and np.diff(x)[-1] > 1.3 * np.diff(x)[0], name
     assert len(mesh_plate.plate(1.0, 0.5, side=300.0, core=8.0, hold=12.0, circle=True, growth=1.2, largest=8.0, quarter=True).elements) < 2500
 
 

@@ -64,4 +64,4 @@ def test_constants(tmp_path):
             if section == ("spall", "voids"):
                 want[key] *= float(factor)
             assert other.sections[section] == pytest.approx(want, rel=1e-6)
-        assert other.sections.keys() == one.sections.keys()
+        assert other.sections.keys() == one.sections.keys(), path

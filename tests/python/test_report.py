@@ -198,7 +198,7 @@ def test_nearest_sphere_is_seen():
         depth, who = render.splat(x[order], np.ones(3), (-2.0, 5.0, -2.0, 2.0), (80, 140))
         assert order[who[40, 40]] == 0 and depth[40, 40] == pytest.approx(3.0, abs=0.01)
         assert order[who[40, 100]] == 2 and depth[40, 100] == pytest.approx(1.0, abs=0.01)
-        assert who[0, 0] == -1 and depth[0, 0] == -np.inf and (who >= 0).mean() * 28.0 == pytest.approx(2.0 * np.pi + 0.2, rel=0.01)  # two discs, and what of a third is beside the first
+        assert who[0, 0] == -1 and depth[0, 0] == -np.inf and (who >= 0).mean() * 28.0 == pytest.approx(2.0 * np.pi + 0.2, rel=0.01), order  # two discs, and what of a third is beside the first
 
 
 def test_light_and_shadow():

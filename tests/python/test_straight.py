@@ -34,7 +34,7 @@ def test_inputs_are_straight(tmp_path, change):
         text = chain.shield_of(read(tmp_path / "c.yaml", CASE.replace(*change)), 0, 0.0).text(new)
         lines = text.splitlines()
         assert len(lines) <= 80 + (15 if "edge" in change[1] else 0), len(lines)
-        assert not [line for line in lines if re.match(r"\s*(label|jump|next|if|include)\b", line)] and text.isascii()
+        assert not [line for line in lines if re.match(r"\s*(label|jump|next|if|include)\b", line)] and text.isascii(), new
         assert ("read_restart" in text) is not new and ("create_atoms" in text) is new
     first, second = (chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0).text(new).splitlines() for new in (True, False))
     assert first[first.index("fix             move all hvi/sph"):] == second[second.index("fix             move all hvi/sph"):]
@@ -67,8 +67,8 @@ def test_write_run_and_judge(lmp, tmp_path, capsys, monkeypatch, change):
         (where / "log.1.lammps").write_text("LAMMPS (4 Feb 2025)\nLoop time of 1.0 on 1 procs for 10 steps with 900 atoms\n")
         status = cli.main(["judge", str(where)])
         result = yaml.safe_load((where / "result.yaml").read_text())
-        assert status == {"holds": 0, "fails": 3, "undecided": 4}[result["verdict"]] and f"verdict: {result['verdict']}\n" in capsys.readouterr().out
-        assert list(result)[:2] == ["verdict", "reasons"] and list(result)[-1] == "package_version"
+        assert status == {"holds": 0, "fails": 3, "undecided": 4}[result["verdict"]] and f"verdict: {result['verdict']}\n" in capsys.readouterr().out, folder
+        assert list(result)[:2] == ["verdict", "reasons"] and list(result)[-1] == "package_version", folder
         said.append(result)
     one, three = ((tmp_path / folder / "dx-0.75_shift-0.0/shield.dump").read_bytes() for folder in ("one", "three"))
     assert one == three and said[0] == said[1]
@@ -109,7 +109,7 @@ def test_what_the_machine_cannot_hold_is_refused(tmp_path, capsys, monkeypatch, 
     for words in (["--dry-run"], []):
         assert cli.main(["shield", "c.yaml", *words]) == 1
         err = capsys.readouterr().err
-        assert f"spacings_mm: {dx} mm makes some" in err and message in err
+        assert f"spacings_mm: {dx} mm makes some" in err and message in err, words
     assert not (tmp_path / "runs/c/dx-0.7_shift-0.0").exists()
 
 

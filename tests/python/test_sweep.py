@@ -276,17 +276,17 @@ def test_debris_cloud_goes_on(sweep, root, folder):
             path.unlink()
         (job / f"debris.restart.{file}").write_bytes(state)
         (job / "debris.front").write_bytes(noted)
-        assert sweep(study).returncode == 0
+        assert sweep(study).returncode == 0, file
         assert f"read_restart debris.restart.{file}\n" in (job / "log.lammps").read_text()
         assert file == "b" or reach_of(job / "log.lammps") == reach
         (row,) = table(folder).values()
-        assert all(row[key] == whole[key] for key in ("particles", "plate_layers", "bonds_start", "spacing_mm"))
-        assert int(row["steps"]) == pytest.approx(int(whole["steps"]), rel=0.1) and 12 <= float(row["time_us"]) < 12.3
+        assert all(row[key] == whole[key] for key in ("particles", "plate_layers", "bonds_start", "spacing_mm")), file
+        assert int(row["steps"]) == pytest.approx(int(whole["steps"]), rel=0.1) and 12 <= float(row["time_us"]) < 12.3, file
         for key, most in (("energy_ratio", 1e-5), ("bonds_left", 0.01), ("front_velocity_m_s", 0.01), ("hole_diameter_mm", 0.02), ("energy_start_J", 1e-6)):
             assert float(row[key]) == pytest.approx(float(whole[key]), rel=most), key
-        assert float(row["axial_velocity_ratio_displacement"]) == pytest.approx(float(whole["axial_velocity_ratio_displacement"]), abs=0.05)
-        assert float(row["momentum_error"]) < 1e-12 and abs(float(row["mass_error"])) < 1e-12
+        assert float(row["axial_velocity_ratio_displacement"]) == pytest.approx(float(whole["axial_velocity_ratio_displacement"]), abs=0.05), file
+        assert float(row["momentum_error"]) < 1e-12 and abs(float(row["mass_error"])) < 1e-12, file
         assert 9 <= float(row["displacement_from_us"]) < 9.3 and (not noted or row["displacement_from_us"] == whole["displacement_from_us"])
         went_on = hvi.Dump(job / "debris.dump")
-        assert len(went_on) > len(begun) and list(went_on.steps[:len(begun)]) == list(begun.steps)  # appended to
+        assert len(went_on) > len(begun) and list(went_on.steps[:len(begun)]) == list(begun.steps), file  # appended to
         begun = went_on

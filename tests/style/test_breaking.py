@@ -53,7 +53,7 @@ def test_chain_breaks_at_r_cut(lmp, tmp_path, nranks):
             d = np.diff(x.table[:, 1:], axis=0)
             d -= 40.0 * np.round(d / 40.0)
             r = np.linalg.norm(d, axis=1)
-            assert np.abs(r - r_cut).min() > 1e-9  # no doubt
+            assert np.abs(r - r_cut).min() > 1e-9, (case, step)  # no doubt
             broken_at.update({i: step for i in np.flatnonzero(alive & (r > r_cut))})
             alive &= r <= r_cut
             want = {(i + 1, i + 2) for i in np.flatnonzero(alive)}

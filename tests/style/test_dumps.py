@@ -60,9 +60,9 @@ def test_columns(case):
     times = []
     for path in files:
         dump = hvi.Dump(path)
-        assert list(dump.columns[:len(ALWAYS)]) == ALWAYS and [c for c in CASES[name][3] if c not in dump.columns] == []
-        assert [c for c in dump.columns if not re.fullmatch(r"[A-Za-z]\w*", c) or re.match(r"[cvf]_", c)] == []
-        assert dump.units == "si" and mirror.text(dump.mirror(0)) == CASES[name][4]
+        assert list(dump.columns[:len(ALWAYS)]) == ALWAYS and [c for c in CASES[name][3] if c not in dump.columns] == [], path
+        assert [c for c in dump.columns if not re.fullmatch(r"[A-Za-z]\w*", c) or re.match(r"[cvf]_", c)] == [], path
+        assert dump.units == "si" and mirror.text(dump.mirror(0)) == CASES[name][4], path
         for frame in dump:
             times.append(frame.time)
             assert frame.m.min() > 0 and (frame["time_si"] == frame.time).all()
@@ -77,7 +77,7 @@ def test_plain_mdanalysis(case):
     for path in case[1]:
         u = MDAnalysis.Universe(str(path), format="LAMMPSDUMP", topology_format="LAMMPSDUMP")
         dump = hvi.Dump(path)
-        assert len(u.trajectory) == len(dump)
+        assert len(u.trajectory) == len(dump), path
         for ts, frame in zip(u.trajectory, dump):
             assert ts.data["step"] == frame.step and np.array_equal(u.atoms.ids, frame.ids)
             size = np.abs(frame.box.vectors).max()
@@ -120,7 +120,7 @@ def test_ovito(case):
     for path in case[1]:
         dump = hvi.Dump(path)
         frames = ovito(path)
-        assert len(frames) == len(dump)
+        assert len(frames) == len(dump), path
         for (said, names, rows), frame in zip(frames, dump):
             assert said["TIMESTEP"] == frame.step and {"id", "type", "x", "y", "z", "vx", "vy", "vz", "mass"} <= set(names)
             assert np.array_equal(rows[:, names.index("z")], frame["z"]) and (rows[:, names.index("time_si")] == frame.time).all()

@@ -50,8 +50,8 @@ def test_nothing_is_lost(lmp, beside, core):
     assert finer[0] < 7e-4 and finer[0] < 0.27 * energy
     for how in LAYOUTS:
         table, got = struck(lmp, beside, core, **how)
-        assert books(table)[1] < 1e-14
-        assert all(np.abs(state[k] - got[k]).max() <= 1e-11 * np.abs(state[k]).max() for k in state)
+        assert books(table)[1] < 1e-14, how
+        assert all(np.abs(state[k] - got[k]).max() <= 1e-11 * np.abs(state[k]).max() for k in state), how
 
 
 def test_weights(lmp):
@@ -66,11 +66,11 @@ def test_weights(lmp):
         d = got["X"][ball] - got["X"][held]
         r = np.linalg.norm(d, axis=1)[:, None]
         f = np.where(r < 2 ** (1 / 6) * sigma, eps * (12 * sigma**12 / r**14 - 6 * sigma**6 / r**8) * d, 0.0)
-        assert (f != 0).any(axis=1).sum() == 4 and np.abs(got["F"][held]).max() == 0.0
-        assert got["F"][ball][0] == pytest.approx(f.sum(axis=0), rel=1e-9)
-        assert got["F"][nodes].sum(axis=0) == pytest.approx(-f.sum(axis=0), rel=1e-9)
+        assert (f != 0).any(axis=1).sum() == 4 and np.abs(got["F"][held]).max() == 0.0, how
+        assert got["F"][ball][0] == pytest.approx(f.sum(axis=0), rel=1e-9), how
+        assert got["F"][nodes].sum(axis=0) == pytest.approx(-f.sum(axis=0), rel=1e-9), how
         torque = np.cross(got["X"][nodes], got["F"][nodes]).sum(axis=0)
-        assert torque == pytest.approx(-np.cross(got["X"][held], f).sum(axis=0), rel=1e-8)
+        assert torque == pytest.approx(-np.cross(got["X"][held], f).sum(axis=0), rel=1e-8), how
 
 
 def test_heat(lmp):
@@ -80,8 +80,8 @@ def test_heat(lmp):
     for nranks, newton in itertools.product((1, 2), ("on", "off")):
         hot = "group core subtract all wall_embedded\ngroup nodes type 3\ngroup core subtract core nodes\nset group core sph/e 1e-4\n"
         table = lmp(text.replace("newton on", f"newton {newton}") + "run 0\n" + hot + "run 40\n", nranks=nranks).runs[1]
-        assert table["f_wall[10]"][-1] > 0.6 * table["c_book[8]"][0]
-        assert books(table)[0] < 2e-7
+        assert table["f_wall[10]"][-1] > 0.6 * table["c_book[8]"][0], (nranks, newton)
+        assert books(table)[0] < 2e-7, (nranks, newton)
 
 
 @pytest.mark.parametrize("nranks", [1, 3])

@@ -201,7 +201,7 @@ def test_across_periodic_faces(lmp, nranks):
         strike_it = strike(mesh)
         mesh.nodes, mesh.free = mesh.nodes + shift, mesh.free + shift
         table = lmp(start(mesh, fem=FAILS, boundary="p p s", data=f"{k}.data") + strike_it + "run 40\n" + STATE.format("d"), nranks=nranks).runs[0]
-        assert table["f_wall"][0] == 64 and table["f_wall"][-1] < 50
+        assert table["f_wall"][0] == 64 and table["f_wall"][-1] < 50, shift
         states.append((table, read_state("d")))
     (table_a, a), (table_b, b) = states
     assert np.array_equal(a["id"], b["id"])

@@ -115,7 +115,7 @@ def test_groups_and_regions(lmp):
     text += 'thermo_style custom step c_a[1] c_b[1] c_c[1]\nrun 0\n'
     for nranks in (1, 3):
         table = lmp(text, nranks=nranks).thermo
-        assert [table[f"c_{k}[1]"][0] for k in "abc"] == [2, 2, 1]
+        assert [table[f"c_{k}[1]"][0] for k in "abc"] == [2, 2, 1], nranks
 
 
 @pytest.mark.parametrize("nranks", [1, 2])

@@ -144,7 +144,7 @@ run 0
         m = np.array([mass[want == i].sum() for i in ids])
         got = np.array([thermo[f"c_t[{k}]"][0] for k in range(1, 6)])
         single = m[count == 1].sum()
-        assert got == pytest.approx([len(ids), n, len(ids) / n, m.max() / m.sum(), single], rel=1e-14)
+        assert got == pytest.approx([len(ids), n, len(ids) / n, m.max() / m.sum(), single], rel=1e-14), name
 
         rows = read_dump(tmp_path / f"rows.{name}")
         order = np.lexsort((ids, -m))
@@ -364,8 +364,8 @@ run 0
         assert got == pytest.approx(want, rel=1e-12), name
         if name == "d":  # what it was made as, whatever the strays do
             # s is uniform on a shell; the radius is sqrt(0.99) of the full one
-            assert got[:3] == pytest.approx([4.8, 3.98, 2.41], rel=0.05)
-            assert got[5:8] == pytest.approx([4.675, 3.325, 0.498], rel=0.03)
+            assert got[:3] == pytest.approx([4.8, 3.98, 2.41], rel=0.05), name
+            assert got[5:8] == pytest.approx([4.675, 3.325, 0.498], rel=0.03), name
     assert all(r.thermo[f"c_none[{i}]"][0] == 0 for i in range(1, 13))
 
 

@@ -125,7 +125,7 @@ def test_strain_of_the_outer_part(run):
         text = text.replace("-4e-3 4e-3 units box", "-4e-3 16e-3 units box")
         r = run(text + "group outer type 2\nvelocity outer set 0 0 0\nvariable vx atom 200*x/1e-3*(type==2)\nvelocity all set v_vx NULL NULL\ntimestep 1e-8\nrun 20 post no\nprint 'w $(c_w[1][12]:%.6g) $(c_w[1][43]:%.6g)'\n")
         rear, outer = map(float, re.search(r"^w (.*)", r.log, re.M)[1].split())
-        assert 0 < outer <= rear
+        assert 0 < outer <= rear, front
         first = first or (rear, outer)
         assert (rear, outer) == pytest.approx(first, rel=1e-3), front
 

@@ -158,7 +158,7 @@ compute g all hvi/hole axis z centre 0 0 plane 9 thickness 1
 """ + THERMO.format("c_h[*] c_g[*]"), nranks=2)
     for name in "hg":
         *rest, found = values(r.thermo, name).values()
-        assert set(rest) == {0} and found == -1
+        assert set(rest) == {0} and found == -1, name
 
 
 # ---------------------------------------------------------------------- the same in any guise
@@ -269,9 +269,9 @@ def test_axes_and_units(lmp, tmp_path):
     want["x"], want["y"] = (scale * want[c] + p for c, p in zip("xy", place))
     want["area"] *= scale**2
     want["reference"] *= 2.7e-9 / scale**2
-    for thermo in r.runs:
+    for case, thermo in enumerate(r.runs):
         got = values(thermo)
-        assert {k: got[k] / want[k] for k in NAMES} == pytest.approx(dict.fromkeys(NAMES, 1), rel=1e-6)
+        assert {k: got[k] / want[k] for k in NAMES} == pytest.approx(dict.fromkeys(NAMES, 1), rel=1e-6), case
 
 
 def test_masses(lmp, tmp_path):

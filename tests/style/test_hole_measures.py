@@ -92,11 +92,11 @@ def test_other_axes_types_and_planes(lmp, tmp_path, capsys):
         out = tmp_path / "o.csv"
         options = ["hole", str(tmp_path / "p.dump"), "--units", "lj", "--axis", "y", "--center", "3", "-2", "--plane", "1", "--type", "2",
                    *(w for word in words.split() or ["none"] for w in ("--mirror", word))]
-        assert cli.main([*options, "--out", str(out), "--figure", str(tmp_path / "h.png")]) == 0
+        assert cli.main([*options, "--out", str(out), "--figure", str(tmp_path / "h.png")]) == 0, name
         said = capsys.readouterr().out
         assert "hole: yes\n" in said and ("what follows is of the whole" in said) == bool(words) and (tmp_path / "h.png").stat().st_size > 8000
-        assert out.read_text().split()[1] == ",".join(str(v) for v in found.values.values())
-        assert cli.main([*options, "--all"]) == 0 and f"{found.values['diameter']:.6g}" in capsys.readouterr().out
+        assert out.read_text().split()[1] == ",".join(str(v) for v in found.values.values()), name
+        assert cli.main([*options, "--all"]) == 0 and f"{found.values['diameter']:.6g}" in capsys.readouterr().out, name
     for name, share in (("half", 0.5), ("quarter", 0.25)):
         assert values[name]["share"] == share and values[name]["diameter"] == pytest.approx(values["whole"]["diameter"], rel=1e-3)
         assert values[name]["area"] == pytest.approx(values["whole"]["area"], rel=2e-3)

@@ -47,7 +47,7 @@ def test_spring_at_rest(lmp):
     """limited by an intact bond, stretched or slack"""
     for r in (R_EQ + 1e-3, 1.4):
         dt, why = first(lmp, pair(r, bonded=True))
-        assert dt == pytest.approx(C * np.sqrt(M / KAPPA), rel=1e-12) and why == SPRING
+        assert dt == pytest.approx(C * np.sqrt(M / KAPPA), rel=1e-12) and why == SPRING, r
 
 
 def test_broken_bond_is_no_limit(lmp):
@@ -184,7 +184,7 @@ def test_growth_is_that_of_the_sources(lmp):
         text = three_pairs(sound=40.0, more=more) + f"pair_coeff 1 1 {word}eos tait 1.0 4.0 7 h 1.2\nrun 30\n"  # sound gets slower
         t = lmp(text.replace(f"hvi/dt {C} max 1e3", f"hvi/dt {C} max 1e3 every 1")).thermo
         growth[name] = t["Dt"][1:] / t["Dt"][:-1]
-        assert (t["f_step[3]"][1:] == GROWING).all()
+        assert (t["f_step[3]"][1:] == GROWING).all(), name
     assert growth[SPH] == pytest.approx(1.01, rel=1e-9) and growth["all"] == pytest.approx(1.0005, rel=1e-9)
 
 
@@ -219,7 +219,7 @@ def test_floor(lmp, nranks):
         error = lmp(TWO + step.format(words) + faster(1.001 / part) + "run 1\n", nranks=nranks, expect_fail=True).error
         dt = C * 1.2
         assert re.search(rf"Time step {dt * part / 1.001:.5g}\d* of fix hvi/dt fell below floor {part} times the first one, {dt:g}, at step 1", error), error
-        assert "give fix hvi/dt another floor" in error
+        assert "give fix hvi/dt another floor" in error, words
 
 
 def test_floor_is_no_matter_of_contacts(lmp):
@@ -340,4 +340,4 @@ def test_error_names_the_particle(lmp, nranks):
         said = lmp(text.replace("rho 0.5\nrun 0\n", "rho 0.5\n" + (more or "run 0\n")), nranks=nranks, expect_fail=True).error
         c = np.sqrt(0.56 * 1e6)
         assert says in said and f"the fastest sound is {c:.5g}" in said
-        assert "of particle 5 (type 2) at density 0.5, energy per mass 1000000, h 1.2" in said
+        assert "of particle 5 (type 2) at density 0.5, energy per mass 1000000, h 1.2" in said, more

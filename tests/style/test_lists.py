@@ -95,9 +95,9 @@ def test_of_passing_bodies_the_way_is_the_same(lmp, tmp_path, nranks):
         ends.append((read_dump(tmp_path / "end").table, t["Nbuild"][-1]))
     assert ends[0][1] <= ends[1][1] < ends[2][1] == 175
     box = SCENES["passing"][0].box
-    for end, _ in ends[:2]:
+    for case, (end, _) in enumerate(ends[:2]):
         d = end[:, 2:5] - ends[2][0][:, 2:5]
-        assert np.abs(d - box * np.round(d / box)).max() < 1e-9
+        assert np.abs(d - box * np.round(d / box)).max() < 1e-9, case
 
 
 @pytest.mark.parametrize("nranks, faces", [(1, "s"), (1, "f"), (2, "f")])
@@ -218,7 +218,7 @@ def test_wrong_input(lmp, tmp_path):
         assert says in lmp(lines.replace("lists relative", wrong), expect_fail=True).error
     for late in ("", "run 0\n"):
         r = lmp(lines + late + "fix mine all hvi/lists\n", expect_fail=True)
-        assert "Fix hvi/lists is made by pair styles and cannot be given in an input" in r.error
+        assert "Fix hvi/lists is made by pair styles and cannot be given in an input" in r.error, late
     assert "cannot be given in an input" in lmp(lines + "run 0\nfix HVI_LISTS all hvi/lists\n", expect_fail=True).error
 
 
@@ -265,7 +265,7 @@ def test_meeting_deep_inside_ranks(lmp, scene, nranks):
         t = lmp(MEET.format(lists=lists, **how), nranks=nranks).thermo
         ends.append(t["KinEng"][-1])
         counts.append(t["Nbuild"][-1])
-        assert t["KinEng"][0] == 128 if scene == "face" else True
+        assert t["KinEng"][0] == 128 if scene == "face" else True, lists
     assert ends[0] < 0.9 * t["KinEng"][0]  # they have met
     assert ends[1] == pytest.approx(ends[0], rel=1e-9) and counts[1] < counts[0]
 

@@ -32,7 +32,7 @@ def test_fluid(lmp, tmp_path, material, mass):
         if "riemann" in words:  # else p* = 0 here, and its sign, so whether bodies touch, is that of a rounding
             text = text.replace("tension no", "tension yes")
         weighed = "riemann" in words and mass[2] != mass[1]
-        assert ("weights of spacings: type 2 counts 2 times" in lmp(text).log) == weighed
+        assert ("weights of spacings: type 2 counts 2 times" in lmp(text).log) == weighed, words
         same(read(tmp_path / "f"), read(tmp_path / "fxyz"), part("xyz")[1], "xyz")
 
 
@@ -83,7 +83,7 @@ def test_books(lmp, tmp_path, material, newton, nranks):
     scale = np.abs(part("xy")[0].v).sum()
     for p, j in ((10, 16), (11, 17), (12, 18)):
         change, impulse = t[f"c_book[{p}]"] - t[f"c_book[{p}]"][0], t[f"c_book[{j}]"] - t[f"c_book[{j}]"][0]
-        assert np.abs(change - impulse).max() < 1e-12 * scale
+        assert np.abs(change - impulse).max() < 1e-12 * scale, p
     assert np.abs(t["c_book[16]"]).max() > 0.01 * scale and np.abs(t["c_book[18]"]).max() == 0.0
     assert np.abs(t["c_book[9]"] - 1).max() < 1e-3
     early = slice(0, 4)

@@ -107,7 +107,7 @@ def test_cloud(runs, name, quantile):
         want = {key: value * 2 ** (len(planes) * (key in EXTENSIVE)) for key, value in vector(runs[planes][1], name).items()}
         assert got == pytest.approx(want, rel=CLOSE, abs=0), planes
         assert got == pytest.approx(whole, rel=1e-8), planes  # as well as the runs agree
-        assert got["particles"] == whole["particles"] and got["mass"] == pytest.approx(whole["mass"], rel=CLOSE)
+        assert got["particles"] == whole["particles"] and got["mass"] == pytest.approx(whole["mass"], rel=CLOSE), planes
 
 
 @pytest.mark.parametrize("name", ["f", "b", "s"])
@@ -132,10 +132,10 @@ def test_fragments(runs, name):
             assert got.shape == want.shape and np.abs(got - want).max() < 1e-7, (planes, way)  # as well as the runs agree
             t = found.table
             across = np.abs(t["x"]) < 1e-9
-            assert across.any() and np.abs(t["vx"][across]).max() < CLOSE
+            assert across.any() and np.abs(t["vx"][across]).max() < CLOSE, planes
             there = part.x[:, 2] > (ROOM + HEIGHT if cloud else 0.0)
             assert t["mass"].sum() == pytest.approx(2 ** len(planes) * part.m[there].sum(), rel=CLOSE)
-            assert t["ke"].sum() == pytest.approx(want[:, 8].sum(), rel=1e-8)
+            assert t["ke"].sum() == pytest.approx(want[:, 8].sum(), rel=1e-8), planes
             own = len(np.unique(found.label[found.label <= part.ids[-1]]))
             assert found.images() == pytest.approx(len(t) / own) and 1 < found.images() < 2 ** len(planes)
 
@@ -150,12 +150,12 @@ def test_fragments_of_the_compute(runs, name):
         table = np.stack(list(hvi.Dump(folder / f"{name}.rows").rows(0).values()), axis=1)
         found = hvi.find(frame(runs, planes), distance=REACH, failed=hvi.fragments.FAILED if name == "s" else None, **cloud)
         python = np.array(found.table.tolist())
-        assert table.shape == python.shape and np.all(np.abs(table - python) <= CLOSE * (1 + np.abs(python)))
+        assert table.shape == python.shape and np.all(np.abs(table - python) <= CLOSE * (1 + np.abs(python))), planes
         got = in_order(table - [0, 0, 0, 0, 0 if "y" in planes else ROOM, 0, 0, 0, 0, 0, 0])
-        assert got.shape == want.shape and np.abs(got - want).max() < 1e-7  # as well as the runs agree
+        assert got.shape == want.shape and np.abs(got - want).max() < 1e-7, planes  # as well as the runs agree
         vector = [thermo[f"c_{name}[{k + 1}]"][-1] for k in range(5)]
         summary = [found.summary[key] for key in ("fragments", "particles", "fragmentation", "largest_fragment_mass_fraction", "single_particles_mass")]
-        assert vector == pytest.approx(summary, rel=CLOSE) and vector == pytest.approx(whole, rel=CLOSE)
+        assert vector == pytest.approx(summary, rel=CLOSE) and vector == pytest.approx(whole, rel=CLOSE), planes
 
 
 @pytest.mark.parametrize("planes, sides, nranks", [("y", False, 1), ("yz", True, 2), ("xyz", False, 3), ("z", True, 1)])
@@ -194,7 +194,7 @@ def test_its_own_image(runs):
     assert np.array_equal(hvi.find(part, distance=REACH).table, hvi.find(whole, distance=REACH).table)
     for name in ("phase", "field"):
         a, b = (getattr(hvi.maps, name)(f, "z", plane=ROOM) for f in (part, whole))
-        assert np.array_equal(a.values, b.values, equal_nan=True)
+        assert np.array_equal(a.values, b.values, equal_nan=True), name
     a, b = (hvi.maps.impacts(f, "z", ROOM + 20.0) for f in (part, whole))
     assert np.array_equal(a.energy, b.energy) and a.summary == b.summary
     assert a.summary["momentum"] == pytest.approx(4 * np.sum((part.m * part.v[:, 2])[part.v[:, 2] > 0]), rel=CLOSE)
@@ -209,7 +209,7 @@ def test_pictures(runs):
     part = frame(runs, "xy")
     for color, found in (("type", None), ("fragment", hvi.find(part, distance=REACH))):
         left, right = hvi.figures.side(part, "z", "x", color, fragments=found).axes[0].get_ylim()
-        assert left == pytest.approx(-right) and right > part.x[:, 0].max()
+        assert left == pytest.approx(-right) and right > part.x[:, 0].max(), color
 
 
 def test_planes_anywhere():
@@ -253,10 +253,10 @@ def test_record(runs, capsys):
     for planes, text in (("", "whole"), ("x", "half (mirror x 0 lo)"), ("xy", "quarter (mirror x 0 lo, mirror y 0 lo)")):
         path = str(runs[planes][0] / "atoms.dump")
         dump = hvi.Dump(path)
-        assert dump.units == "lj" and dump.time(0) == pytest.approx(40 * 0.004, rel=1e-12)
+        assert dump.units == "lj" and dump.time(0) == pytest.approx(40 * 0.004, rel=1e-12), planes
         assert mirror.text(dump.mirror(0)) == text
         assert cli.main(["info", path]) == 0 and f"model: {text}\n" in capsys.readouterr().out
-        assert cli.main(["cloud", path, "--axis", "z", "--plane", str(ROOM)]) == 0
+        assert cli.main(["cloud", path, "--axis", "z", "--plane", str(ROOM)]) == 0, planes
         assert (f"model: {text}; what follows is of the whole\n" in capsys.readouterr().out) == bool(planes)
 
 

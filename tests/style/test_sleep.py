@@ -129,7 +129,7 @@ def test_velocities_that_differ_do_not_sleep(lmp, tmp_path):
         t = lmp(text(s, tmp_path, "") + "run 1\n" + WRITE.format("a")).thermo
         awake = len(s.x) - t["f_sph"][-1]
         assert 0.1 * len(s.x) <= awake < len(s.x) if some else awake == 0, (velocity, awake)
-        assert np.abs(columns(tmp_path / "a")["f"]).max() < 1e-6
+        assert np.abs(columns(tmp_path / "a")["f"]).max() < 1e-6, velocity
 
 
 @pytest.mark.parametrize("nranks", [1, 2])
@@ -142,9 +142,9 @@ def test_mirrors(lmp, tmp_path, nranks):
         assert (t == (64 if asleep else 0)).all(), velocity
         lmp(text(s, tmp_path, "no", **how) + "run 30\n" + WRITE.format("all"))
         one, other = columns(tmp_path / "some"), columns(tmp_path / "all")
-        assert np.abs(one["x"] - other["x"]).max() < 1e-12
+        assert np.abs(one["x"] - other["x"]).max() < 1e-12, velocity
         if velocity[0] < 0:
-            assert np.abs(other["f"]).max() > 0.1  # it has met its image
+            assert np.abs(other["f"]).max() > 0.1, velocity  # it has met its image
 
 
 def test_who_never_sleeps(lmp, tmp_path):
@@ -200,7 +200,7 @@ compute here all reduce sum v_here
     for weight in ("", "weight var cost"):
         more = f"variable cost atom 1-0.9*c_asleep\nfix share all balance 4 1.0 rcb {weight}\n"
         t = lmp(text(s, tmp_path, "", comm="tiled") + out + thermo + more + "run 12\n" + WRITE.format("a"), nranks=2).thermo
-        assert np.array_equal(t["c_awake"], n - t["f_sph"]) and t["c_least"][-1] == 0 and t["c_most"][-1] == 1
+        assert np.array_equal(t["c_awake"], n - t["f_sph"]) and t["c_least"][-1] == 0 and t["c_most"][-1] == 1, weight
         found[weight] = t["c_here"][-1] / t["c_awake"][-1], columns(tmp_path / "a")
     (plain, one), (weighted, other) = found.values()
     assert abs(weighted - 0.5) < 0.1 < 0.2 < abs(plain - 0.5), (plain, weighted)

@@ -176,8 +176,8 @@ def test_clamped_rim(lmp, tmp_path, material):
         t = lmp(text + "timestep 0.004\nrun 100\n", nranks=2 if "setforce" in fixes else 1).thermo
         impulse = np.array([t[f"c_book[{16 + k}]"] for k in range(3)])
         p = np.array([t[f"c_book[{10 + k}]"] for k in range(3)])
-        assert np.abs(impulse[2]).max() > 0.5
-        assert np.abs(p - impulse - p[:, :1]).max() <= 1e-12 * np.abs(impulse).max() * len(s.x) ** 0.5
+        assert np.abs(impulse[2]).max() > 0.5, fixes
+        assert np.abs(p - impulse - p[:, :1]).max() <= 1e-12 * np.abs(impulse).max() * len(s.x) ** 0.5, fixes
         # what nobody integrates takes up no heat
         print(fixes, "energy", np.abs(t["c_book[9]"] - 1).max(), "momentum", np.abs(p - impulse - p[:, :1]).max(), "impulse", np.abs(impulse[2]).max())
         assert np.abs(t["c_book[9]"] - 1).max() < 1e-3 or not kept

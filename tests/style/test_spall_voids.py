@@ -124,7 +124,7 @@ def test_hybrid_as_without(lmp, tmp_path, material, nranks):
         got = read(tmp_path / f"f{k}")
         for name in alone:
             assert np.abs(got[name][:n] - alone[name]).max() <= 1e-11 * np.abs(alone[name]).max(), (case, name)
-        assert not got["voids"][n:].any() and not got["p"][n:].any()
+        assert not got["voids"][n:].any() and not got["p"][n:].any(), case
 
 
 def test_opening_at_failure(lmp, tmp_path, material):

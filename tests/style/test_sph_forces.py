@@ -14,7 +14,7 @@ COEFF = "pair_coeff 1 1 eos tait 1.0 4.0 7 h {0[1]}\npair_coeff 2 2 eos tait 1.7
 def close(got, want, tolerance=1e-12):
     for name in ("f", "de", "drho"):
         scale = np.abs(want[name]).max()
-        assert scale > 0
+        assert scale > 0, name
         assert np.abs(got[name] - want[name]).max() <= tolerance * scale, name
 
 

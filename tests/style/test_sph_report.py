@@ -43,8 +43,8 @@ def test_numbers(lmp, tmp_path, nranks):
             assert row["number"] == (s.type == t).sum()
             assert row["spacing"] == pytest.approx(np.cbrt(s.mass[t] / rho0), rel=1e-4) and row["h"] == pytest.approx(s.h[t] / 1.3, rel=1e-3)
             assert row["neighbors"] == pytest.approx(want[k // 2][t], rel=6e-4), (k, t)
-            assert row["density"] == pytest.approx([rho.mean(), rho.min(), rho.max()], abs=6e-4)
-            assert row["name"] == "tait" and row["laws"] == "tait"
+            assert row["density"] == pytest.approx([rho.mean(), rho.min(), rho.max()], abs=6e-4), (k, t)
+            assert row["name"] == "tait" and row["laws"] == "tait", (k, t)
 
 
 def block(counts, spacing=1.0, v=None, rho=1.0, dim=3, places=None, kind=None, box=None, mass=None):
@@ -122,7 +122,7 @@ def test_what_a_scene_carries(lmp, tmp_path):
         more = (SCENES[k][2] - SCENES[0][2] + 8 * (SCENES[k][3] - SCENES[0][3])) / 2**20 * 16384
         room = (mega[k] - mega[0]) / more
         assert mega[k] - mega[0] > 1.0 and room == pytest.approx(round(room), abs=0.02), (k, room)
-        assert round(room) == 2
+        assert round(room) == 2, k
 
 
 def test_doubles_of_lists(lmp, tmp_path):
@@ -141,7 +141,7 @@ def test_once_per_scene(lmp, tmp_path):
     text += "run 0\nwrite_restart r\nwrite_data d\nrun 4 pre no every 2 NULL\nrun 0\nrun 0 pre no\n"
     for nranks in (1, 2):
         r = lmp(text, nranks=nranks)
-        assert len(tables(r.log)) == len(tables(r.stdout)) == 1
+        assert len(tables(r.log)) == len(tables(r.stdout)) == 1, nranks
         for words in ("reaches 1.6 spacings", "are integrated by no fix", "time step 5 is above"):
             assert sum(words in w for w in r.warnings) == 3, (words, r.warnings)
 

@@ -26,7 +26,7 @@ def types(law):
 def equal(a, b, tolerance=1e-12):
     for name in ("f", "drho", "de"):
         scale = np.abs(a[name]).max()
-        assert scale > 0
+        assert scale > 0, name
         assert np.abs(a[name] - b[name]).max() <= tolerance * scale, name
 
 

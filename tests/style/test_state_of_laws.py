@@ -36,7 +36,7 @@ def test_spall(lmp, tmp_path, law, others, what, nranks):
         r = lmp(again(path, JC + other) + "run 1\n", nranks=nranks, expect_fail=True)
         numbers = [int(word) for word in r.error.split("Fix hvi/johnson-cook: ")[1].split()[:1]]
         assert what in r.error and "unfix jc and give it anew" in r.error, r.error
-        assert 0 < numbers[0] < begun.sum() and "of type 1 (material " in r.error
+        assert 0 < numbers[0] < begun.sum() and "of type 1 (material " in r.error, other
         assert ("spall " + other in r.error.split("but are of")[1]) == (other != "none")
     r = lmp(again(path, JC + law) + voids.OUT.format("read"), nranks=nranks)
     assert np.array_equal(voids.read(tmp_path / "read")["void_damage"], half["void_damage"])
@@ -68,7 +68,7 @@ def test_nothing_begun(lmp, tmp_path):
     assert half["spalled"].sum() > 5
     for law in ("voids", "tuler-butcher", "grady", "zero", "none"):
         lmp(again(path, JC + law, False) + voids.OUT.format("read"))
-        assert np.array_equal(voids.read(tmp_path / "read")["spalled"], half["spalled"])
+        assert np.array_equal(voids.read(tmp_path / "read")["spalled"], half["spalled"]), law
 
 
 @pytest.mark.parametrize("nranks", [1, 2])

@@ -125,8 +125,8 @@ def test_spacing_after_a_restart(lmp, root, tmp_path):
     for again in ("", "pair_style hvi/sph cubic\n" + FILE + "spacing 0.9e-3\n"):
         r = lmp(f"read_restart r.1\n{again}fix move all hvi/sph\nneigh_modify every 1 delay 0 check yes\n" + OUT.format("out") + "run 0\n",
                 env={"LAMMPS_POTENTIALS": str(root / "potentials")})
-        assert cutoff(r) == pytest.approx(2.79e-3, rel=1e-6)
-        assert read_dump(tmp_path / "out")["mass"] == pytest.approx(7e-6, rel=1e-12)
+        assert cutoff(r) == pytest.approx(2.79e-3, rel=1e-6), again
+        assert read_dump(tmp_path / "out")["mass"] == pytest.approx(7e-6, rel=1e-12), again
         (tmp_path / "out").unlink()
 
 

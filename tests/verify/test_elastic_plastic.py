@@ -50,17 +50,17 @@ def test_waves():
     for s in METALS.values():
         c = np.sqrt(s.c0**2 + 4 / 3 * s.G / s.rho0)
         tiny = waves(s, 1e-3)
-        assert len(tiny) == 1 and tiny[0].D == pytest.approx(c, rel=1e-5)
+        assert len(tiny) == 1 and tiny[0].D == pytest.approx(c, rel=1e-5), s
         found = [waves(s, u) for u in np.geomspace(1e-1, 3e3, 400)]
         count = [len(w) for w in found]
-        assert list(np.diff(count)[np.diff(count) != 0]) == [1, -1]
+        assert list(np.diff(count)[np.diff(count) != 0]) == [1, -1], s
         two = [w for w in found if len(w) == 2]
-        assert two[0][1].u < 1.03 * two[0][0].u  # the steps of u
-        assert found[-1][0].D > two[0][0].D > two[-1][1].D
+        assert two[0][1].u < 1.03 * two[0][0].u, s  # the steps of u
+        assert found[-1][0].D > two[0][0].D > two[-1][1].D, s
         for w in two:
             assert w[0].rho == pytest.approx(s.rho0 * np.exp(s.Y / 2 / s.G), rel=1e-12)
             assert w[1].D - w[0].u < w[0].rho / s.rho0 * w[0].D  # slower, per mass
-        assert all(np.diff([w[-1].sigma for w in found]) > 0)
+        assert all(np.diff([w[-1].sigma for w in found]) > 0), s
 
 
 def test_against_piston():

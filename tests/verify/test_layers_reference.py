@@ -42,12 +42,12 @@ def test_waves_obey_the_jump_conditions_and_the_integral_of_rarefactions():
         shocks += np.sum(shock)
         dtau = c[k]**2 / (ps + K[k]) - c[k]**2 / (p[k] + K[k])
         assert ((ps - p[k]) * dtau)[shock] == pytest.approx(-(du**2)[shock], rel=1e-8, abs=1e-13)
-        assert np.all(du[shock] > 0)
+        assert np.all(du[shock] > 0), side
         q = 0.5 * (p[k] + ps) + 0.5 * (ps - p[k]) * nodes[:, None]
         integral = 0.5 * (ps - p[k]) * (weights[:, None] * c[k] / (q + K[k])).sum(axis=0)  # rho c = (p + K)/c
         mild = ~shock & ((ps + K[k]) / (p[k] + K[k]) > 1e-2)  # the quadrature cannot do more
-        assert np.sum(mild) > 50
-        assert du[mild] == pytest.approx(integral[mild], rel=1e-9, abs=1e-13)
+        assert np.sum(mild) > 50, side
+        assert du[mild] == pytest.approx(integral[mild], rel=1e-9, abs=1e-13), side
     assert 100 < shocks < 2 * n - 100
 
 
@@ -130,7 +130,7 @@ def test_front_tracking_keeps_momentum_and_length():
     for face in (k for k, g in enumerate(f.fronts) if g.face and g.end == np.inf and g.face.a):
         front = f.fronts[face]
         here = np.flatnonzero(edge[1:] == front.m)[0]
-        assert hi[here] == pytest.approx(front.x[0] + front.left[1] * (0.75 - front.t), abs=1e-9)
+        assert hi[here] == pytest.approx(front.x[0] + front.left[1] * (0.75 - front.t), abs=1e-9), face
 
 
 def test_shock_arrives_when_it_should():

@@ -225,14 +225,14 @@ def test_strength_and_damage(lmp, file, tmp_path, heat):
         g = sheared(lmp, file, law, v, heat, f"spall none damage {'yes' if with_damage else 'no'}", tmp_path)
         Y, tstar = yield_stress(law, s, v, g)
         print(file.stem, law, "Y", Y.mean(), "T", g["T"].mean(), "eps", g["eps"].mean(), "damage", g["damage"].mean(), "error", np.abs(g["vm"] / Y - 1).max())
-        assert g["eps"].min() > 0.01
-        assert g["vm"] == pytest.approx(Y, rel=1e-8)
+        assert g["eps"].min() > 0.01, law
+        assert g["vm"] == pytest.approx(Y, rel=1e-8), law
         if with_damage:
             d = {k: value for k, (value, _) in sections["damage", "johnson-cook"].items()}
             sstar = np.clip(-g["p"] / g["vm"], -10, 10)
             strain = np.maximum(d["D1"] + d["D2"] * np.exp(d["D3"] * sstar), 0) * (1 + d["D4"] * np.log(g["rate"] / d["epsdot0"])) * (1 + d["D5"] * tstar)
-            assert g["damage"] == pytest.approx(g["eps"] / np.maximum(strain, d.get("eps_min", 1e-6)), rel=1e-7)
-            assert 0 < g["damage"].min() and g["damage"].max() < 1
+            assert g["damage"] == pytest.approx(g["eps"] / np.maximum(strain, d.get("eps_min", 1e-6)), rel=1e-7), law
+            assert 0 < g["damage"].min() and g["damage"].max() < 1, law
 
 
 @pytest.mark.parametrize("file", ["Al6061-T6"], indirect=True)

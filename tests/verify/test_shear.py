@@ -137,7 +137,7 @@ def test_gresho_vortex(lmp, tmp_path):
         error[name] = np.abs((v * turn(d1, r1)).sum(1) - gresho(r1)[0])[r1 < 0.5].mean()
         momentum = thermo["c_L"][-1] / thermo["c_L"][0]
         print(f"vortex {name:16} kinetic energy kept {kept[name]:.3f}, mean error of v {error[name]:.3f}, angular momentum {momentum:.3f}")
-        assert momentum == pytest.approx(1, abs=0.15)
+        assert momentum == pytest.approx(1, abs=0.15), name
     assert kept["riemann"] > 1.25 * kept["monaghan 1 2"] and error["riemann"] < 0.92 * error["monaghan 1 2"]
     # but the kinks at r = 0.2 and 0.4 are viscous: a tenth of Monaghan's viscosity keeps more
     assert kept["monaghan 0.1 0.2"] > 1.25 * kept["riemann"]

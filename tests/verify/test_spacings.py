@@ -21,4 +21,4 @@ def test_plates_of_different_spacings(lmp, tmp_path, solid):
                 assert abs(g[name][0]) < 0.01 and g[name][2] < 0.05
             assert abs(g[name][0] - got[1][name][0]) < 0.01 and abs(g[name][1] - got[1][name][1]) < 0.002
             assert g[name][2] < ({1: 0.05, 2: 0.1, 4: 0.2}[ratio] if solid else got[1][name][2] + 0.035)
-        assert g["energy"] < 1e-3
+        assert g["energy"] < 1e-3, ratio

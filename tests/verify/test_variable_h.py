@@ -145,8 +145,8 @@ def test_unequal_spacings_at_rest(lmp, tmp_path, dim, nx, rows, ratio):
               f"{g['rho'].max():.3f}, p {g['p'].min():.3f} to {g['p'].max():.3f}; energy {np.abs(energy - 1).max():.1e}")
         assert speed.max() < (0.07 if name == "riemann" else 0.13) and speed[-1] < 0.25 * speed.max() + 0.005
         low, high = (0.97, 1.03) if name == "riemann" else (0.75, 1.15)
-        assert all(low < g[k].min() and g[k].max() < high for k in ("p", "rho"))
-        assert np.abs(energy - 1).max() < 1e-4
+        assert all(low < g[k].min() and g[k].max() < high for k in ("p", "rho")), name
+        assert np.abs(energy - 1).max() < 1e-4, name
 
 
 @pytest.mark.parametrize("name, dim, nx, rows, ratio, dense", [("monaghan", 1, 100, 1, 4, 1.0), ("monaghan", 2, 64, 3, 4, 1.0)] + [

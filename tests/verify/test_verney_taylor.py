@@ -18,8 +18,8 @@ def test_verney(lmp, tmp_path):
         o = verney(lmp, tmp_path, dx, t_end=112.0)
         print(o)
         assert abs(o["strength"] - 1) < 0.5 * dx / 2
-        assert o["stops_at"] < 110 and o["kinetic"] < 0.01  # it has stopped
-        assert o["drift"] < ENERGY and o["momentum"] < 1e-10
+        assert o["stops_at"] < 110 and o["kinetic"] < 0.01, dx  # it has stopped
+        assert o["drift"] < ENERGY and o["momentum"] < 1e-10, dx
 
 
 def test_taylor(lmp, tmp_path, root):
