@@ -6,6 +6,7 @@
 #   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so
 #   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures), of solids and of hard cases; long tests
 #   make bench   speed against error, the short form (bench-full: all of it): build/bench/speed-error.html
+#   make mutate  mutants of the library against its unit tests, on from tests/unit/mutants.csv (MUTATE_ARGS)
 #   make doc | sanitize | clean
 #
 # LAMMPS_VERSION=20250204|20260704   which pinned LAMMPS          LAMMPS_SOURCE_DIR=DIR   your own LAMMPS source tree
@@ -30,7 +31,7 @@ TOP := $(CURDIR)
 OUT = $(abspath $(BUILD))
 export CMAKE_BUILD_PARALLEL_LEVEL = $(JOBS)
 
-.PHONY: all build demo demo-dem test verify doc bench bench-full sanitize clean
+.PHONY: all build demo demo-dem test verify doc bench bench-full mutate sanitize clean
 all: build
 
 # configures quietly; what went wrong is told in one line
@@ -88,6 +89,11 @@ verify:
 sanitize:
 	@$(MAKE) test BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON
 
+# goes on where it stopped; LAMMPS is not needed
+mutate:
+	@cmake/deps.sh build test
+	@python3 tests/unit/mutate.py --out $(OUT)-mutate $(MUTATE_ARGS)
+
 doc:
 	@cmake/deps.sh doc
 	@python=$$(cmake/find-python.sh sphinx) && $$python -m sphinx -q -W --keep-going -b html -d $(OUT)/doc/doctrees doc/src $(OUT)/doc/html
@@ -101,4 +107,4 @@ bench bench-full:
 	  cmake/env.sh $$python bench/run.py --size $(if $(filter bench-full,$@),full,short) --build $(OUT) --out $(OUT)/bench $(BENCH_ARGS)
 
 clean:
-	rm -rf build build-sanitize build-portable $(BUILD)
+	rm -rf build build-mutate build-sanitize build-portable $(BUILD)
