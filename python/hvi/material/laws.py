@@ -2,6 +2,7 @@
 """What material files say that decides whether a body is a solid: its laws of strength, and what lets it fail under tension."""
 
 import difflib
+import os
 import re
 
 from ..errors import reading
@@ -21,7 +22,7 @@ def find(reader, node, key):
     name = reader.text(node, key)
     known = {path.stem: path for folder in reversed(library.potentials()) for path in sorted(folder.glob("*.hvi"))}
     solid = sorted(stem for stem, path in known.items() if strengths(path))
-    own = next((path for path in (reader.path.parent / name, reader.path.parent / f"{name}.hvi") if path.is_file()), None)
+    own = next((path for path in (reader.path.parent / name, reader.path.parent / f"{name}.hvi") if os.path.isfile(path)), None)  # is_file() raises for a long name
     path = own or known.get(name.removesuffix(".hvi"))
     if path is None:
         reader.wrong(key, f"no material {name}{meant(name, solid)} (known: {', '.join(solid)})", node)

@@ -124,7 +124,7 @@ def potentials():
 
 def path_of(name):
     """of a material file by its name or path, None if there is none"""
-    return next((path for path in (pathlib.Path(name), *(folder / name for folder in potentials())) if path.is_file()), None)
+    return next((path for path in (pathlib.Path(name), *(folder / name for folder in potentials())) if os.path.isfile(path)), None)  # is_file() raises for a long name
 
 
 def find(name):

@@ -12,6 +12,7 @@ import yaml
 from ..errors import HVIError
 
 REQUIRED = object()
+SIZES = 1e-9, 1e9  # of numbers beside 0: what is beyond is a slip, and products of it no number
 UNITS = {"_mm": " mm", "_km_s": " km/s", "_deg": " degrees", "_ksi": " ksi"}
 
 
@@ -27,7 +28,7 @@ class Reader:
         except yaml.MarkedYAMLError as problem:
             mark = problem.problem_mark or problem.context_mark
             raise HVIError(f"{path}, line {mark.line + 1}: not YAML: {problem.problem or problem.context}") from None
-        except (yaml.YAMLError, UnicodeDecodeError) as problem:
+        except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as problem:
             raise HVIError(f"{path}: not YAML: {' '.join(str(problem).split())}") from None
         if self.root is None:
             raise HVIError(f"{path} is empty")
@@ -43,7 +44,9 @@ class Reader:
             self.wrong(key or "the case", f"must be 'name: value' lines with {', '.join(fields)}", node)
         found = {}
         for name_node, value in node.value:
-            name = str(name_node.value)
+            if not isinstance(name_node, yaml.ScalarNode):  # as text a few aliases of aliases are gigabytes
+                self.wrong(key or "the case", "a name must be a word", name_node)
+            name = name_node.value
             if name not in fields:
                 near = difflib.get_close_matches(name, fields, 1, 0.5)
                 self.wrong(inside + name, "no such key" + (f"; did you mean {near[0]}?" if near else "") + f" (known: {', '.join(fields)})", name_node)
@@ -67,6 +70,8 @@ class Reader:
             if not math.isfinite(value):
                 said = f", not {node.value!r}" if isinstance(node, yaml.ScalarNode) else ", not a list"
                 self.wrong(key, f"must be a number of{unit}, without the unit{said}" if unit else f"must be a number{said}", node)
+            if value and not SIZES[0] <= abs(value) <= SIZES[1]:
+                self.wrong(key, f"must be {SIZES[0]:g} to {SIZES[1]:g} in size, or 0, not {node.value}", node)
             if whole and (value < 1 or value != int(value)):
                 self.wrong(key, f"must be a whole number from 1 on, not {node.value}", node)
             if not (value > above and value >= least and value < below):
