@@ -23,6 +23,8 @@ class Box:
         the parallelepiped, from which its own corners follow.
         """
         words = title.split()
+        if not np.isfinite([float(w) for line in lines for w in line.split()]).all():
+            raise ValueError("a bound of the box is not a finite number")
         rows = np.array([[float(w) for w in line.split()] for line in lines])
         if words[:2] == ["abc", "origin"]:
             if rows.shape != (3, 4):

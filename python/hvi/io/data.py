@@ -38,7 +38,8 @@ class DataFile:
             end = found[k + 1].start() if k + 1 < len(found) else len(text)
             self._sections[match[1].decode()] = (match.end(), end, (match[2] or b"").decode("utf-8", "replace").strip())
         head = text[first:found[0].start() if found else None].decode("utf-8", "replace")
-        self._counts = {kind: int(n) for n, kind in re.findall(r"^\s*(\d+)\s+(atoms|bonds|atom types)\b", head, re.M)}
+        lines = [line.split("#")[0].split() for line in head.splitlines()]
+        self._counts = {" ".join(line[1:]): int(line[0]) for line in lines if line and re.fullmatch(r"\d{1,18}", line[0], re.A)}
         if "atoms" not in self._counts or "Atoms" not in self._sections:
             raise HVIError(f"{self.path} is not a LAMMPS data file: it has no section Atoms")
         title = text[:first].decode("utf-8", "replace")
@@ -59,7 +60,7 @@ class DataFile:
         if "Masses" not in self._sections:
             return {}
         table = self._table("Masses", self._counts.get("atom types"), (0, 1))
-        return {int(t): float(m) for t, m in table}
+        return {int(t): float(m) for t, m in zip(self._whole(table[:, 0], "Masses"), table[:, 1])}
 
     def _table(self, section, rows, columns):
         """Columns (numbers from 0) of a section, (rows, len(columns)) of float64."""
@@ -72,6 +73,12 @@ class DataFile:
             raise HVIError(f"{self.path}, section {section}: {len(table)} rows instead of {rows}: is the file cut off?")
         return table
 
+    def _whole(self, numbers, section):
+        """The same as int64, which they must be."""
+        if not (np.abs(numbers) < 2**53).all() or (numbers != np.floor(numbers)).any():
+            raise HVIError(f"{self.path}, section {section}: an ID, a type or an image flag is not a whole number")
+        return numbers.astype(np.int64)
+
     @property
     def has_bonds(self):
         return self._counts.get("bonds", 0) > 0
@@ -83,7 +90,7 @@ class DataFile:
             return np.zeros((0, 2), dtype=np.int64)
         if "Bonds" not in self._sections:
             raise HVIError(f"{self.path} has no section Bonds: is the file cut off?")
-        return self._table("Bonds", self._counts["bonds"], (2, 3)).astype(np.int64)
+        return self._whole(self._table("Bonds", self._counts["bonds"], (2, 3)), "Bonds")
 
     @property
     def _style(self):
@@ -105,22 +112,23 @@ class DataFile:
             raise HVIError(f"{self.path}, section Atoms: {len(first)} columns are not those of atom_style {self._style}")
         table = self._table("Atoms", self._counts["atoms"], tuple(names.values()))
         table = table[np.argsort(table[:, 0])]
-        columns = {name: table[:, k].astype(np.int64) if name in ("id", "type", "ix", "iy", "iz") else table[:, k] for k, name in enumerate(names)}
+        columns = {name: self._whole(table[:, k], "Atoms") if name in ("id", "type", "ix", "iy", "iz") else table[:, k] for k, name in enumerate(names)}
         return Frame(columns, step=self.step or 0, box=self._box(start), units=unit_systems.check(units or self.units or "si"), masses=masses or self.masses,
                      mirror=self.mirror if mirror is None else mirror, where=self.path)
 
     def _box(self, end):
         """from the lines above the sections; which sides are periodic is not there"""
         head = self._read(0, end).decode("utf-8", "replace")
-        found = [re.search(rf"^\s*(\S+)\s+(\S+)\s+{a}lo\s+{a}hi\b", head, re.M) for a in "xyz"]
-        tilt = re.search(r"^\s*(\S+)\s+(\S+)\s+(\S+)\s+xy\s+xz\s+yz\b", head, re.M)
+        lines = [line.split() for line in head.splitlines()]
+        found = [next((line[:2] for line in lines if line[2:4] == [f"{a}lo", f"{a}hi"]), None) for a in "xyz"]
+        tilt = next((line[:3] for line in lines if line[3:6] == ["xy", "xz", "yz"]), None)
         if not all(found):
             raise HVIError(f"{self.path} has no box: no lines xlo xhi, ylo yhi, zlo zhi")
         try:
-            lo, hi = np.array([[float(word) for word in bounds.groups()] for bounds in found]).T
+            lo, hi = np.array([[float(word) for word in bounds] for bounds in found]).T
             vectors = np.diag(hi - lo)
             if tilt:
-                vectors[1, 0], vectors[2, 0], vectors[2, 1] = map(float, tilt.groups())
+                vectors[1, 0], vectors[2, 0], vectors[2, 1] = map(float, tilt)
         except ValueError as problem:
             raise HVIError(f"{self.path}: box: {problem}") from None
         return Box(lo, vectors, (False,) * 3)
@@ -129,7 +137,7 @@ class DataFile:
     def atoms(self):
         """(IDs, types), (n,) of int64 each, in order of IDs."""
         style = self._style
-        table = self._table("Atoms", self._counts["atoms"], (0, 2 if style in _MOLECULE_FIRST else 1)).astype(np.int64)
+        table = self._whole(self._table("Atoms", self._counts["atoms"], (0, 2 if style in _MOLECULE_FIRST else 1)), "Atoms")
         return tuple(table[np.argsort(table[:, 0])].T)
 
 

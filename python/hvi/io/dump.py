@@ -57,7 +57,9 @@ def _first_sentence(error):
 
 def _whole(column, name, where):
     if column.dtype.kind == "U":
-        return column  # type labels
+        if name == "type":
+            return column  # labels
+        raise HVIError(f"{where}: {name} in row 1 is {column[0]}, not a whole number")
     with np.errstate(invalid="ignore"):
         whole = column.astype(np.int64)
     if not np.array_equal(whole, column):

@@ -55,6 +55,13 @@ class Frame:
         except KeyError:
             raise HVIError(f"{self.where} has no column {name}; it has: {' '.join(self.columns)}") from None
 
+    def numbers(self, name):
+        """The same, which must not be text."""
+        column = self[name]
+        if column.dtype.kind == "U":
+            raise HVIError(f"{self.where}: {name} is text in row 1, {column[0]}, not a number")
+        return column
+
     def select(self, mask):
         """The same frame with only the particles where mask (n,) is true."""
         return self._with({name: column[mask] for name, column in self.columns.items()}, self.box, self.planes)
@@ -72,7 +79,7 @@ class Frame:
         """Axes (0, 1, 2) along which all particles have the same coordinate as written, a tuple: of a plane or a row of particles, where a mass
         is per length or area. () of FEW particles or less, or without coordinates."""
         names = next((names for names, _, _ in _COORDINATES if all(name in self for name in names)), ())
-        return tuple(k for k, name in enumerate(names) if len(self) > FEW and np.ptp(self[name]) == 0.0)
+        return tuple(k for k, name in enumerate(names) if len(self) > FEW and np.ptp(self.numbers(name)) == 0.0)
 
     @property
     def planes(self):
@@ -112,7 +119,7 @@ class Frame:
                 continue
             axes = name[1:] if name in ("vx", "vy", "vz", "fx", "fy", "fz", "sxy", "sxz", "syz") else ""
             flips = [np.prod([signs[letters[a]] for a in axes]) for _, signs in images]
-            parts = [-column if flip < 0 else column for flip in flips]
+            parts = [-self.numbers(name) if flip < 0 else column for flip in flips]
             if name == "id":
                 parts = [column + bits * self.id_step for bits, _ in images]
             columns[name] = np.concatenate(parts)
@@ -154,6 +161,7 @@ class Frame:
             x = self.box.from_scaled(x)
         if not unwrapped and all(name in self for name in ("ix", "iy", "iz")):
             x = x + self._vectors(("ix", "iy", "iz")) @ self.box.vectors
+        self.require_finite(x, names)
         return x
 
     @functools.cached_property
@@ -165,7 +173,7 @@ class Frame:
     def m(self):
         """Masses (n,): those given by type, else the column mass."""
         if not self.type_masses and "mass" in self:
-            m = np.asarray(self["mass"], dtype=float)
+            m = self.numbers("mass")
         elif not self.type_masses:
             raise HVIError(f"{self.where} has no masses: give a data file, the mass of each type, or dump the column mass")
         else:
@@ -190,7 +198,7 @@ class Frame:
         return np.array([values[t] for t in types], dtype=float)[place]
 
     def _vectors(self, names):
-        vectors = np.stack([self[name] for name in names], axis=1)
+        vectors = np.stack([self.numbers(name) for name in names], axis=1)
         self.require_finite(vectors, names)
         return vectors
 
