@@ -33,10 +33,18 @@ FULL = 100_000  # bytes: less is a full disk
 def read_yaml(path):
     """the mapping in a YAML file; None if there is none"""
     try:
-        data = yaml.safe_load(path.read_text())
-    except (OSError, yaml.YAMLError, UnicodeDecodeError):
+        data = loaded(path.read_text(), path)
+    except (OSError, UnicodeDecodeError, HVIError):
         return None
     return data if isinstance(data, dict) else None
+
+
+def loaded(text, where):
+    """What a text in YAML says; HVIError that begins with where"""
+    try:
+        return yaml.safe_load(text)
+    except Exception as problem:  # YAMLError, and of many kinds: its constructors do not check what they take
+        raise HVIError(f"{where}: not YAML: {' '.join(str(problem).split())}") from None
 
 
 def yaml_of(mapping):

@@ -2,13 +2,14 @@
 """A LAMMPS input for many values of its variables, as a study file says."""
 
 import itertools
+import math
+import os
 
-import yaml
-
-from ..errors import HVIError
+from ..errors import HVIError, reading
 from . import engine, measures
 
 KEYS = {"input", "variables", "grid", "ranks", "timeout", "restart", "continue", "remove", "full"}
+MOST = 10_000  # jobs
 
 
 class Job(engine.Job):
@@ -29,21 +30,20 @@ class Study:
     def __init__(self, path, full=False):
         if not path.is_file():
             raise HVIError(f"{path}: no such file")
-        try:
-            study = yaml.safe_load(path.read_text())
-        except (yaml.YAMLError, UnicodeDecodeError) as problem:
-            raise HVIError(f"{path}: not YAML: {' '.join(str(problem).split())}") from None
+        with reading(path):
+            study = engine.loaded(path.read_text(), path)
         if not isinstance(study, dict):
             raise HVIError(f"{path}: not a mapping of {', '.join(sorted(KEYS))}")
+        self.path = path
         if full:
             if not isinstance(study.get("full"), dict):
                 raise HVIError(f"{path}: no full size (key 'full') in this study")
-            study = {**study, **{key: {**(study.get(key) or {}), **value} if isinstance(value, dict) else value
+            study = {**study, **{key: {**self._mapping(study, key), **value} if isinstance(value, dict) else value
                                  for key, value in study["full"].items()}}
         unknown = set(study) - KEYS
         if unknown:
             raise HVIError(f"{path}: unknown key {', '.join(sorted(map(str, unknown)))}; known: {', '.join(sorted(KEYS))}")
-        self.path, self.name = path, path.stem + ("-full" if full else "")
+        self.name = path.stem + ("-full" if full else "")
         self.ranks, self.timeout = study.get("ranks"), study.get("timeout")
         self.restart, self.remove = study.get("restart"), study.get("remove") or []
         if (self.restart is None) != ("continue" not in study):
@@ -59,7 +59,7 @@ class Study:
 
     def _input(self, study, key):
         file = self.path.parent / str(study.get(key))
-        if not file.is_file():
+        if not os.path.isfile(file):  # is_file() raises for a long name
             raise HVIError(f"{self.path}: {key} {study.get(key)} is not there (paths count from the study file)")
         return engine.Input(file)
 
@@ -82,6 +82,8 @@ class Study:
             axes.append([value if isinstance(value, dict) else {name: value} for value in values])
         if not axes:
             raise HVIError(f"{self.path}: no grid: nothing to vary")
+        if math.prod(map(len, axes)) > MOST:
+            raise HVIError(f"{self.path}: a grid of {math.prod(map(len, axes))} jobs; {MOST} at most are run")
         found = [{n: v for part in point for n, v in part.items()} for point in itertools.product(*axes)]
         names = [engine.job_name(c) for c in found]
         twice = {n for n in names if names.count(n) > 1}

@@ -5,12 +5,12 @@ A study says which list, how many particles across the projectile, and the one r
 by bisection over a geometric grid about the measured one, by runs as those of hvi shield.
 """
 
-import csv
 import dataclasses
 import math
 import pathlib
 
-from ..errors import HVIError, reading
+from .. import tables
+from ..errors import HVIError
 from . import ble, decision, shots
 from .limit import Search
 from .projectile import FILLS
@@ -51,15 +51,11 @@ class Bracket:
 
 def read_list(path):
     """The brackets of a CSV file: mm, km/s, ksi; a dash is no shot on that side; lines that begin with # are remarks."""
-    with reading(path):
-        lines = pathlib.Path(path).read_text().splitlines()
-    kept = [(number, line) for number, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]
-    rows = csv.reader(line for _, line in kept)
-    head = next(rows, [])
+    (_, head), *rows = tables.read_csv(path)
     if missing := [name for name in COLUMNS if name not in head]:
         raise HVIError(f"{path}: no column {', '.join(missing)}")
     found = []
-    for (number, _), row in zip(kept[1:], rows):
+    for number, row in rows:
         def wrong(text):
             raise HVIError(f"{path}, line {number}: {text}")
 

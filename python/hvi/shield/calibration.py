@@ -7,14 +7,12 @@ That is taken for granted of margins, too: a shield that held with a large margi
 however many runs it has.
 """
 
-import csv
 import dataclasses
 import math
 import pathlib
 import re
 
-import yaml
-
+from .. import tables
 from ..errors import HVIError, reading
 from ..jobs import engine
 from ..material import library
@@ -272,17 +270,16 @@ def read(path=None):
     with reading(path):
         lines = path.read_text().splitlines()
     try:
-        head = yaml.safe_load("\n".join(line[1:].removeprefix(" ") for line in lines if line.startswith("#"))) or {}
-    except yaml.YAMLError:
+        head = engine.loaded("\n".join(line[1:].removeprefix(" ") for line in lines if line.startswith("#")), path)
+    except HVIError:
         head = {}
     if missing := [key for key in HEAD if not isinstance(head, dict) or key not in head]:
         raise HVIError(f"{path}: the lines that begin with # must say {', '.join(missing)}: make it with python3 -m hvi calibrate")
-    kept = [(number, line) for number, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]
-    rows = list(csv.reader(line for _, line in kept))
-    if not rows or tuple(rows[0]) != COLUMNS:
+    (_, columns), *rows = tables.read_csv(path)
+    if tuple(columns) != COLUMNS:
         raise HVIError(f"{path}: the columns must be {','.join(COLUMNS)}")
     runs = []
-    for (number, _), row in zip(kept[1:], rows[1:]):
+    for number, row in rows:
         if len(row) != len(COLUMNS):
             raise HVIError(f"{path}, line {number}: {len(row)} values in {len(COLUMNS)} columns")
         cells = dict(zip(COLUMNS, row))
@@ -297,7 +294,7 @@ def read(path=None):
                     raise HVIError(f"{path}, line {number}: {name} must be a number, not {text!r}") from None
         runs.append(Run(**cells))
     found = Records(head, tuple(runs))
-    if not runs or head["rows"] != len(runs) or head["shields"] != len({run.shield for run in runs}) or head["margin"] not in MARGINS:
+    if not runs or head["rows"] != len(runs) or head["shields"] != len({run.shield for run in runs}) or head["margin"] not in tuple(MARGINS):
         raise HVIError(f"{path}: its first lines speak of {head['rows']} rows of {head['shields']} shields by {head['margin']}, and there are {len(runs)} rows of "
                        f"{len({run.shield for run in runs})}: make it again with python3 -m hvi calibrate")
     return found

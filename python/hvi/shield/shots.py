@@ -4,14 +4,14 @@
 A study says which list and which rule; each shot becomes a case of hvi shield, so runs, verdicts and what is done are its.
 """
 
-import csv
 import dataclasses
 import difflib
 import math
 import pathlib
 import re
 
-from ..errors import HVIError, reading
+from .. import tables
+from ..errors import HVIError
 from ..material import laws
 from ..version import ROOT
 from . import ble, decision
@@ -54,15 +54,12 @@ class Shot:
 
 def read_list(path):
     """The shots of a CSV file: lengths in cm, degrees, km/s, ksi, P or NP; lines that begin with # are remarks."""
-    with reading(path):
-        lines = pathlib.Path(path).read_text().splitlines()
-    kept = [(number, line) for number, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]
-    rows = csv.reader(line for _, line in kept)
-    head = [name.strip() for name in next(rows, [])]
+    (_, head), *rows = tables.read_csv(path)
+    head = [name.strip() for name in head]
     if missing := [name for name in COLUMNS if name not in head]:
         raise HVIError(f"{path}: no column {', '.join(missing)}")
     found = {}
-    for (number, _), row in zip(kept[1:], rows):
+    for number, row in rows:
         def wrong(text):
             raise HVIError(f"{path}, line {number}: {text}")
 
