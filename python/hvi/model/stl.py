@@ -16,6 +16,8 @@ def read(path):
     except (OSError, ValueError, KeyError, IndexError, UnicodeDecodeError, meshio.ReadError, SystemExit) as problem:
         raise HVIError(f"cannot read {path} as an STL file: {' '.join(str(problem).split()) or type(problem).__name__}") from None
     unit = np.ptp(corners, axis=0).max()
+    if not np.abs(corners).max() < 1e6 * unit:
+        raise HVIError(f"{path}: its corners are in one point, a million times its size from the origin, or not numbers")
     known, number = np.unique(np.round(corners / (1e-6 * unit)).astype(np.int64), axis=0, return_inverse=True)  # corners of files are not exactly the same
     cells = number.reshape(-1)[cells]
     edges = np.concatenate([cells[:, [0, 1]], cells[:, [1, 2]], cells[:, [2, 0]]])
