@@ -5,6 +5,7 @@
 #   make test    the same; then all tests
 #   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so
 #   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures), of solids and of hard cases; long tests
+#   make fuzz    fuzzers of all readers and of LAMMPS inputs, MINUTES=10 of each: see tests/fuzz/README.md
 #   make bench   speed against error, the short form (bench-full: all of it): build/bench/speed-error.html
 #   make mutate  mutants of the library against its unit tests, on from tests/unit/mutants.csv (MUTATE_ARGS)
 #   make doc | sanitize | clean
@@ -31,7 +32,7 @@ TOP := $(CURDIR)
 OUT = $(abspath $(BUILD))
 export CMAKE_BUILD_PARALLEL_LEVEL = $(JOBS)
 
-.PHONY: all build demo demo-dem test verify doc bench bench-full mutate sanitize clean
+.PHONY: all build demo demo-dem test verify doc bench bench-full mutate sanitize clean fuzz
 all: build
 
 # configures quietly; what went wrong is told in one line
@@ -93,6 +94,13 @@ sanitize:
 mutate:
 	@cmake/deps.sh build test
 	@python3 tests/unit/mutate.py --out $(OUT)-mutate $(MUTATE_ARGS)
+# in the folder of make sanitize, whose lmp it runs
+MINUTES ?= 10
+fuzz:
+	@cmake/deps.sh build test fuzz
+	@$(MAKE) build BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON
+	@python=$$(cmake/find-python.sh numpy scipy yaml meshio) && fuzz=$(abspath $(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize)) && \
+	  cmake/env.sh $$python tests/fuzz/fuzz.py --minutes $(MINUTES) --jobs $(JOBS) --out $$fuzz/fuzz --lmp $$fuzz/lmp $(FUZZ_ARGS)
 
 doc:
 	@cmake/deps.sh doc

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Makes sure that the Debian packages of the named groups are installed: deps.sh build [test] [doc] [browser]
+# Makes sure that the Debian packages of the named groups are installed: deps.sh build [test] [doc] [browser] [fuzz]
 # Installs only what is missing; changes nothing when all is there. DEPS=no skips the check.
 set -uo pipefail
 [ "${DEPS:-}" = no ] && exit 0
@@ -7,9 +7,10 @@ command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || exit 0 # no
 
 build="g++ make cmake openmpi-bin libopenmpi-dev libeigen3-dev libpng-dev libjpeg-dev zlib1g-dev xz-utils ca-certificates"
 python="python3 python3-numpy python3-scipy python3-matplotlib python3-mdanalysis python3-yaml python3-tqdm"
-test="libgtest-dev python3-pytest python3-pandas python3-setuptools python3-wheel python3-meshio $python"
+test="libgtest-dev python3-pytest python3-pandas python3-setuptools python3-wheel python3-meshio python3-hypothesis $python"
 demo="$python"
 browser="chromium" # of make verify; large
+fuzz="clang libclang-rt-14-dev" # libFuzzer; in Debian 12 clang is 14
 doc="python3-sphinx python3-sphinx-rtd-theme"
 
 wanted=
