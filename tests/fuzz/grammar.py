@@ -2,7 +2,7 @@
 
     python3 tests/fuzz/grammar.py SEED [FOLDER]    writes one: in.fuzz, and the files that it reads
 
-RULES has a rule for every keyword that the page of a style names under Syntax; tests/style/test_fuzz.py holds the two to each other.
+RULES has a rule for every keyword that the page of a style names under Syntax; tests/style/test_fuzz_inputs.py holds the two to each other.
 """
 
 import pathlib
@@ -21,13 +21,11 @@ ODD = ["0", "-1", "1e-300", "1e30", "1e308", "nan", "inf", "-0", "2147483648", "
 
 
 def keywords(page):
-    """of the Syntax of a page: the words of its lines '* keyword = ...', and of '* NAMEs = ...' or '* MODE = ...'"""
+    """of the Syntax of a page: the words of its lines '* keyword = ...' and '* one or more NAMEs = ...', and those that have a value below"""
     text = (PAGES / f"{page}.rst").read_text()
     syntax = text[text.index("\nSyntax\n"):text.index("\nExamples\n")]
-    found = set()
-    for line in re.findall(r"^\* (?:keyword\S*(?: after a material)?|one or more NAMEs) = ((?:.+\n?)(?:  \S.*\n)*)", syntax, re.M):
-        found |= set(re.findall(r"\*([^*\s]+)\*", line))
-    return found
+    lines = re.findall(r"^\* (?:keyword(?: after a material)?|one or more NAMEs) = ((?:.+\n?)(?:  \S.*\n)*)", syntax, re.M)
+    return {word for line in lines for word in re.findall(r"\*([^*\s]+)\*", line)} | set(re.findall(r"^ +\*([\w/]+)\* values? = ", syntax, re.M))
 
 
 def pick(*words):
@@ -54,7 +52,7 @@ RULES = {
         "dim": pick("1", "2", "3"), "form": pick("sum", "symmetric"), "viscosity": each(between(0, 2), between(0, 3)), "interface": pick("0", "0.3", "auto"),
         "dissipation": pick("monaghan", "riemann"), "artstress": each(pick("0", "0.3"), pick("0.5", "4", "2.55")), "h": pick("constant", "variable", "variable 0.7 1.1"),
         "mirror": each(pick("x", "y", "z"), pick("0", "-1", "9"), pick("lo", "hi")), "energy": YES, "stock": YES,
-        "volume": pick("1", "0.5"), "strength": pick("none"), "tension": YES},
+        "spacing": pick("1"), "volume": pick("1", "0.5"), "strength": pick("none"), "tension": YES},
     "pair_hvi_contact": {"prefactor": pick("1", "4"), "lists": LISTS},
     "fix_hvi_sph": {"walls": GROUP, "sleep": pick("exact", "no", "1e-8", "1e-4"), "lists": LISTS, "bad": pick("error", "freeze 5", "delete 5", "delete 1000")},
     "fix_hvi_johnson_cook": {
@@ -127,9 +125,9 @@ class Writer:
         def material():
             law = rng.choice(laws)
             length = f"h {1.25 * a:g}" if self.sane and "idealgas" in law else rng.choice([f"h {1.25 * a:g}", f"spacing {a:g}", f"spacing {a:g} h {1.1 * a:g}"])
-            return f"{law} {length} {self.maybe(self.some('pair_hvi_sph', 1, set(RULES['pair_hvi_sph']) - {'volume', 'strength'}), 0.2)}"
+            return f"{law} {length} {self.maybe(self.some('pair_hvi_sph', 1, set(RULES['pair_hvi_sph']) - {'spacing', 'volume', 'strength'}), 0.2)}"
 
-        pair = f"pair_style hvi/sph {rng.choice(KERNELS)} {self.some('pair_hvi_sph', 3, {'volume', 'strength', 'tension', 'mirror'} | ({'dim', 'stock'} if self.sane else set()))}"
+        pair = f"pair_style hvi/sph {rng.choice(KERNELS)} {self.some('pair_hvi_sph', 3, {'spacing', 'volume', 'strength', 'tension', 'mirror'} | ({'dim', 'stock'} if self.sane else set()))}"
         if self.sane and "riemann" in pair:
             pair = re.sub(r" (viscosity \S+ \S+|interface \S+|form symmetric|artstress \S+ \S+)", "", pair)
         pair += "" if self.sane and boundary[0] == "p" else self.maybe(f" mirror x {0 if rng.random() < 0.7 else a:g} lo", 0.25)
@@ -362,7 +360,7 @@ def write(seed, folder):
     beside(folder)
     writer = Writer(seed, folder)
     path = folder / "in.fuzz"
-    ranks = random.Random(f"ranks {seed}").choice([1, 1, 2, 3])
+    ranks = random.Random(f"ranks {seed}").choice([1, 1, 1, 2, 3])
     path.write_text(f"# seed {seed}, ranks {ranks}\n" + writer.text())
     return path, ranks
 
