@@ -137,16 +137,19 @@ def drawn_scene(rng):
 
     kind, dim, kernel = pick("solid", "solid", "liquid", "gas"), pick(3, 3, 2), pick("cubic", "cubic", "gauss", "wendland2", "quintic")
     words = pick(*(SOLID_WORDS if kind == "solid" else FLUID_WORDS))
-    filled = pick(False, False, True)
-    jitter = 0.15 if filled else pick(0.05, 0.15, 0.0)
+    shape = pick("filled", "bodies", "plate") if kind != "gas" else pick("filled", "bodies")
+    filled = shape == "filled"
+    jitter = {"filled": 0.15, "bodies": pick(0.05, 0.15, 0.0), "plate": 0.0}[shape]
     if filled:  # both types mixed, all over a periodic box
         counts = np.array([9, 8, 8] if dim == 3 else [14, 12, 1])
         x = _sites(counts)
         type_, box, walls = rng.integers(1, 3, len(x)), counts.astype(float), "ppp"
-    else:  # two bodies, in a box with room
+    else:  # two bodies, in a box with room; a plate is at rest, and most of it undisturbed
         one, two = ([*rng.integers(1, 6 if dim == 3 else 10, dim), 1][:3] for _ in range(2))
+        if shape == "plate":
+            one, two = [3, 3, 3 if dim == 3 else 1], [4, 18, 3 if dim == 3 else 1]
         x1, x2 = _sites(one), _sites(two)
-        x2 = x2 + [one[0] + pick(0.0, 0.4, 1.2), *rng.uniform(-1, 1, 2)]
+        x2 = x2 + [one[0] + pick(0.0, 0.4, 0.8), *rng.uniform(-1, 1, 2)]
         x, type_ = np.concatenate([x1, x2]) + 4.0, np.repeat([1, 2], [len(x1), len(x2)])
         box = np.ceil(x.max(0)) + 5.0
         walls = "".join(pick(*"fpm") for _ in range(dim)) + ("p" if dim == 2 else "")
@@ -159,8 +162,8 @@ def drawn_scene(rng):
     v = np.zeros_like(x)
     speed = pick(0.1, 0.6, 2.0)
     v[:, :dim] = rng.normal(0, 0.15, (len(x), dim)) if jitter else 0.0
-    v[:, 0] += np.where(type_ == 1, speed, -speed)
-    rho = np.array([RHO0[t] for t in type_]) * (rng.uniform(0.97, 1.06, len(x)) if jitter else 1.01)
+    v[:, 0] += np.where(type_ == 1, speed, 0.0 if shape == "plate" else -speed)
+    rho = np.array([RHO0[t] for t in type_]) * (rng.uniform(0.97, 1.06, len(x)) if jitter else 1.0 if shape == "plate" else 1.01)
     mass = dict(RHO0)
     esph = np.array([mass[t] for t in type_]) * (rng.uniform(0.5, 1.5, len(x)) if kind == "gas" else 0.0)
     h = {1: 1.3, 2: pick(1.3, 1.15)}
@@ -255,7 +258,7 @@ def check_solid(scene, d, name):
 
 
 def check_balances(scene, ledger):
-    """pairs give nothing to momentum, and take from kinetic energy what internal ones get; over a run no mass or momentum is missing, and energy to 1e-3"""
+    """pairs give nothing to momentum, and take from kinetic energy what internal ones get; over a run no mass or momentum is missing, and energy to 1e-2"""
     s, d = scene.state, _dump("first.one")
     size = np.abs(d["f"]).sum()
     for k in range(1 if scene.mirror else 0, s.dim):
@@ -266,7 +269,7 @@ def check_balances(scene, ledger):
     momentum = book[9:12] + book[12:15] - book[15:18]
     assert np.abs(momentum - momentum[:, :1]).max() <= 1e-12 * (s.m[:, None] * np.abs(s.v)).sum()
     assert np.abs(book[18] + book[19] - s.m.sum()).max() <= 1e-13 * s.m.sum()
-    assert np.abs(book[8] - 1).max() <= 1e-3
+    assert np.abs(book[8] - 1).max() <= 1e-2  # LARGE_DRIFT of compute_hvi_energy.cpp, from which on it warns
 
 
 @given(SEEDS)
