@@ -81,8 +81,8 @@ def _stop(*_):
 
 def check(kind, path):
     """what is wrong, as text; '' if nothing is"""
-    signal.signal(signal.SIGALRM, _stop)
-    signal.alarm(SECONDS)
+    signal.signal(signal.SIGPROF, _stop)
+    signal.setitimer(signal.ITIMER_PROF, SECONDS)  # of its own time: others may keep the machine busy
     quiet = io.StringIO()
     try:
         with warnings.catch_warnings(), contextlib.redirect_stdout(quiet), contextlib.redirect_stderr(quiet):
@@ -94,7 +94,7 @@ def check(kind, path):
     except (Exception, TooLong):
         return traceback.format_exc()
     finally:
-        signal.alarm(0)
+        signal.setitimer(signal.ITIMER_PROF, 0)
     return ""
 
 
