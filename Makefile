@@ -94,6 +94,7 @@ sanitize:
 mutate:
 	@cmake/deps.sh build test
 	@python3 tests/unit/mutate.py --out $(OUT)-mutate $(MUTATE_ARGS)
+
 # in the folder of make sanitize, whose lmp it runs
 MINUTES ?= 10
 fuzz:
