@@ -37,6 +37,8 @@
 using namespace LAMMPS_NS;
 
 static constexpr char DAMAGE[] = "hvi_damage";
+static constexpr double MOST_REACH =
+    300.0;    // over that of the pair style: LAMMPS has no bins for more
 
 // a node travels in the place of doubles
 
@@ -137,6 +139,12 @@ void ComputeHVIFragmentAtom::init()
 
   const double cutghost =
       MAX(force->pair ? force->pair->cutforce + neighbor->skin : 0.0, comm->cutghostuser);
+  if (cutoff > MOST_REACH * (cutghost + neighbor->skin))
+    error->all(
+        FLERR,
+        "Compute {} distance {:.6g} is more than {} times the reach {:.6g} of the pair style: "
+        "is it in other units?",
+        style, cutoff, MOST_REACH, cutghost);
   if (cutoff + neighbor->skin > cutghost) comm->cutghostuser = cutoff + neighbor->skin;
 }
 

@@ -36,6 +36,10 @@ static constexpr double FAR_AWAY = 1.0e100;
 static constexpr int LOOK_AHEAD = 5;     // steps
 static constexpr double MARGIN = 1.5;    // for velocities that change in these steps
 
+static constexpr double LEAST_BOX = 0.005;    // over the reach, or LAMMPS makes no bins
+static constexpr double MOST_BINS = 1.0e8,
+                        BINS_PER_PARTICLE = 100.0;    // of all ranks: on each; and more
+
 static bool making = false;    // else it stands in an input
 
 /* ---------------------------------------------------------------------- */
@@ -80,7 +84,7 @@ FixHVILists *FixHVILists::make(LAMMPS *lmp, bool relative, bool ahead)
 
 int FixHVILists::setmask()
 {
-  return POST_INTEGRATE | PRE_NEIGHBOR;
+  return POST_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR;
 }
 
 /* ----------------------------------------------------------------------
@@ -108,6 +112,66 @@ bool FixHVILists::may_keep_rows(double cut) const
       neighbor->style == Neighbor::BIN &&
       neighbor->nex_type + neighbor->nex_group + neighbor->nex_mol == 0 &&
       atom->molecular == Atom::ATOMIC && !HVI::find_mesh(lmp);
+}
+
+/* ----------------------------------------------------------------------
+   LAMMPS makes bins of half the reach in all of the box.  It says when it cannot, but not why, and a box that grows with
+   what flies away takes all time and memory before.
+------------------------------------------------------------------------- */
+
+void FixHVILists::init()
+{
+  if (neighbor->style != Neighbor::BIN || !force->pair) return;
+  const bool sorts = atom->sortfreq > 0 && atom->userbinsize == 0.0;
+  check_box(domain->prd, force->pair->cutforce + neighbor->skin, sorts ? MAXSMALLINT : FAR_AWAY);
+}
+
+void FixHVILists::setup_pre_exchange()
+{
+  pre_exchange();
+}
+
+void FixHVILists::pre_exchange()
+{
+  if (neighbor->style != Neighbor::BIN || domain->nonperiodic != 2 || atom->natoms == 0) return;
+  double ends[6], length[3];    // least coordinates, and least of those turned around
+  std::fill(ends, ends + 6, FAR_AWAY);
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++) {
+      ends[k] = MIN(ends[k], atom->x[i][k]);
+      ends[3 + k] = MIN(ends[3 + k], -atom->x[i][k]);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, ends, 6, MPI_DOUBLE, MPI_MIN, world);
+  for (int k = 0; k < 3; k++) {
+    const double lo = domain->boundary[k][0] > 1 ? ends[k] : domain->boxlo[k];
+    const double hi = domain->boundary[k][1] > 1 ? -ends[3 + k] : domain->boxhi[k];
+    length[k] = MAX(hi - lo, LEAST_BOX * neighbor->cutneighmax);
+  }
+  check_box(length, neighbor->cutneighmax,
+            MOST_BINS * comm->nprocs + BINS_PER_PARTICLE * atom->natoms);
+}
+
+void FixHVILists::check_box(const double *length, double cut, double most) const
+{
+  const double bin = neighbor->binsizeflag ? neighbor->binsize_user : 0.5 * cut;
+  double bins = 1.0;
+  for (int k = 0; k < domain->dimension && cut > 0.0; k++) {
+    if (length[k] < LEAST_BOX * cut)
+      error->all(
+          FLERR,
+          "Particles are looked for within {:.6g}, the reach of the pair style and the skin, in "
+          "a box that is only {:.6g} long along {}: is the reach of a type in other units?",
+          cut, length[k], "xyz"[k]);
+    bins *= 1.0 + length[k] / bin;
+  }
+  if (bins > most)
+    error->all(
+        FLERR,
+        "The box is {:.4g} by {:.4g} by {:.4g} long, {:.3g} bins of neighbors for a reach of "
+        "{:.4g}: have particles flown far away, for the simulation is unstable or its time "
+        "step too long, or is the reach of a type in other units? Fixed faces (boundary f) "
+        "keep a box as it is",
+        length[0], length[1], length[2], bins, cut);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -31,6 +31,9 @@ class FixHVILists : public Fix {
   ~FixHVILists() override;
 
   int setmask() override;
+  void init() override;
+  void setup_pre_exchange() override;
+  void pre_exchange() override;
   void setup_pre_neighbor() override;
   void pre_neighbor() override;
   void setup(int) override;
@@ -75,6 +78,7 @@ class FixHVILists : public Fix {
   bool known;                   // no particle has come since lists were made
   bool leaving;                 // some particle is to be lost
 
+  void check_box(const double *length, double cut, double most) const;
   void measure();
   bool exceeded(double time);
 };
