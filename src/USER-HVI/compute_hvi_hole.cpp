@@ -15,6 +15,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "group.h"
 #include "update.h"
 
 #include <algorithm>
@@ -43,8 +44,8 @@ static constexpr double ONE_SIDED = 0.01;              // a plate with less on o
 
 ComputeHVIHole::ComputeHVIHole(LAMMPS *lmp, int narg, char **arg) :
     ComputeHVIMatter(lmp, narg, arg), axis(-1), sectors(36), center{NAN, NAN}, plane(NAN),
-    thickness(0.0), dr(0.0), fill(0.5), reference(0.0), warned_open(false), warned_coarse(false),
-    warned_dr(false)
+    thickness(0.0), dr(0.0), fill(0.5), reference(0.0), is_away(false), warned_open(false),
+    warned_away(false), warned_coarse(false), warned_dr(false)
 {
   if (domain->dimension != 3)
     error->all(FLERR, "Compute hvi/hole needs a three-dimensional simulation");
@@ -114,7 +115,7 @@ ComputeHVIHole::~ComputeHVIHole()
 
 void ComputeHVIHole::init()
 {
-  warned_open = warned_coarse = warned_dr = false;
+  warned_open = warned_away = warned_coarse = warned_dr = false;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -126,7 +127,16 @@ void ComputeHVIHole::compute_vector()
   vector[FOUND] = -1.0;
 
   find_layer();
-  if (!find_extent()) return;
+  const bool found_plate = find_extent();
+  if (is_away && comm->me == 0 && !warned_away) {
+    error->warning(
+        FLERR,
+        "Compute hvi/hole: no plate around the centre, the hole is taken as 0: particles of "
+        "group {} are far away from {} {} or from the plane at {}",
+        group->names[igroup], center[0], center[1], plane);
+    warned_away = true;
+  }
+  if (!found_plate || is_away) return;
 
   // a map with a spacing from the layer's volume tells the spacing of the plate's particles
 
@@ -174,14 +184,19 @@ void ComputeHVIHole::compute_vector()
 void ComputeHVIHole::find_layer()
 {
   layer.clear();
-  double mine[7] = {0.0, 0.0},
-         most[7];    // from the third on: minus the lowest, and the highest; minus the least mass
-  std::fill(mine + 2, mine + 7, -HUGE_VAL);
+  is_away = false;
+
+  // from the third on: minus the lowest, and the highest; minus the least mass; both ends along the axis
+
+  double mine[9] = {0.0, 0.0}, most[9];
+  std::fill(mine + 2, mine + 9, -HUGE_VAL);
   each([&](int, double m, const double *x) {
     const Particle p = {
         m, x[axis] - plane, {x[across[0]] - center[0], x[across[1]] - center[1]}, 1};
     mine[0] = std::max(mine[0], std::fabs(p.s));
     mine[1] = std::max(mine[1], p.mass);
+    mine[7] = std::max(mine[7], -p.s);
+    mine[8] = std::max(mine[8], p.s);
     if (m > 0.0) mine[6] = std::max(mine[6], -m);
     for (int k = 0; k < 2; k++) {
       mine[2 + k] = std::max(mine[2 + k], -p.y[k]);
@@ -189,7 +204,7 @@ void ComputeHVIHole::find_layer()
     }
     layer.push_back(p);
   });
-  MPI_Allreduce(mine, most, 7, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(mine, most, 9, MPI_DOUBLE, MPI_MAX, world);
   const int64_t here = layer.size();
   int64_t everywhere;
   MPI_Allreduce(&here, &everywhere, 1, MPI_INT64_T, MPI_SUM, world);
@@ -199,6 +214,8 @@ void ComputeHVIHole::find_layer()
   unit = std::ldexp(1.0, 57 - std::ilogb(most[1]) - std::ilogb((double) atom->natoms + 1.0));
 
   const double least = std::sqrt((most[2] + most[4]) * (most[3] + most[5]) / everywhere);
+  const double depth = most[7] + most[8] + least;
+  is_away = most[7] < -depth || most[8] < -depth;
   half = (thickness > 0.0) ? 0.5 * thickness : least;
   if (thickness == 0.0 && farthest > 0.0) {
     const int nbins = OCTAVES * PER_OCTAVE;
@@ -276,6 +293,7 @@ bool ComputeHVIHole::find_extent()
     lo[k] = (first - k * NBINS) * width - ends[k];
     hi[k] = (last + 1 - k * NBINS) * width - ends[k];
 
+    is_away = is_away || lo[k] > hi[k] - lo[k] || hi[k] < lo[k] - hi[k];
     const double slack = ONE_SIDED * (hi[k] - lo[k]);
     const double margin = MARGIN * (hi[k] - lo[k]);
     mirrored[k] = lo[k] > -slack || hi[k] < slack;

@@ -56,7 +56,8 @@ class ComputeHVIHole : public ComputeHVIMatter {
 
   int axis, across[2], sectors;
   double center[2], plane, thickness, dr, fill, reference;
-  bool warned_open, warned_coarse, warned_dr;
+  bool is_away;    // from the centre, or from the plane
+  bool warned_open, warned_away, warned_coarse, warned_dr;
 
   // the plate's layer; all but the particles is the same on all ranks
 
