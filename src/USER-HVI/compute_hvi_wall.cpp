@@ -277,12 +277,45 @@ void ComputeHVIWall::init()
         error->all(FLERR, "Compute hvi/wall: group {} has no particles of type {}, wall {}",
                    group->names[igroup], t, k + 1);
 
+  check_walls();
   if (!fragment) return;
   fragment->init();
   for (Wall &w : walls) {
     w.start.clear();    // commands between runs may have changed it
     w.hole->init();
     w.plane->init();
+  }
+}
+
+/* ----------------------------------------------------------------------
+   by the places that particles had first: a wall in other units is none
+------------------------------------------------------------------------- */
+
+void ComputeHVIWall::check_walls() const
+{
+  const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
+  std::vector<int> in_place(walls.size(), 0);
+  for (int i = 0; i < atom->nlocal; i++)
+    for (size_t k = 0; k < walls.size(); k++) {
+      const double s = first->astore[i][axis], thickness = walls[k].rear - walls[k].front;
+      if (walls[k].owns(atom->type[i]) && s > walls[k].front - thickness &&
+          s < walls[k].rear + thickness)
+        in_place[k] = 1;
+    }
+  MPI_Allreduce(MPI_IN_PLACE, in_place.data(), in_place.size(), MPI_INT, MPI_MAX, world);
+  for (size_t k = 0; k < walls.size(); k++) {
+    if (!in_place[k])
+      error->all(
+          FLERR,
+          "Compute hvi/wall: no particle of wall {} was near its faces at {} and {} along {}: "
+          "are they in other units?",
+          k + 1, walls[k].front, walls[k].rear, "xyz"[axis]);
+    for (int t = walls[k].node_lo; t <= walls[k].node_hi; t++)
+      if (t > 0 && !(mesh && mesh->is_node(t)))
+        error->all(
+            FLERR,
+            "Compute hvi/wall nodes: type {} of wall {} is no type of nodes of a fix hvi/fem", t,
+            k + 1);
   }
 }
 

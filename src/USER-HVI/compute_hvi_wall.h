@@ -98,6 +98,7 @@ class ComputeHVIWall : public ComputeHVIMatter {
   double mass_of(int i) const;
   bool is_embedded(int i) const;
   bool is_missed(const Wall &, int i) const;
+  void check_walls() const;
   void find_first();
   void sum_up();
   void find_pieces();

@@ -513,6 +513,7 @@ void FixHVIFEM::start_elements()
 
   std::vector<Mass> node_mass(nodes.size(), {0.0, 0.0}), embedded_mass;
   double least = HUGE_VAL;
+  bigint bad = 0;
   for (std::size_t e = 0; e < elements.size(); e++) {
     Element &one = elements[e];
     const bool is_new = one.mass == 0.0;
@@ -523,6 +524,7 @@ void FixHVIFEM::start_elements()
                  "Fix hvi/fem: element {} is turned inside out or has no volume: its nodes must be "
                  "numbered around the bottom and then above it, seen from inside against the clock",
                  one.id);
+    if (is_new && mechanics.is_distorted(x)) bad++;
     for (int a = 0; a < CORNERS; a++) {
       Mass &node = node_mass[number(e, a)];
       node.given += is_new ? one.mass / CORNERS : 0.0;
@@ -554,6 +556,13 @@ void FixHVIFEM::start_elements()
   }
   MPI_Allreduce(&without, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (everywhere) error->all(FLERR, "Fix hvi/fem: {} nodes belong to no element", everywhere);
+  MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (bad && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Fix hvi/fem: {} elements have a shape at the start with which they fail as soon "
+        "as they yield (keywords jacobian and edges): are their nodes the right ones?",
+        bad);
   MPI_Allreduce(&least, &smallest, 1, MPI_DOUBLE, MPI_MIN, world);
   keep_on_planes(true);
 }
@@ -814,6 +823,23 @@ void FixHVIFEM::find_probes()
     MPI_Allreduce(&here, &nearest, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
     MPI_Bcast(&id_here, 1, MPI_INT64_T, nearest.rank, world);
     probe.id = id_here;
+    double size = 0.0;    // of that element, from its center
+    for (std::size_t e = 0; e < elements.size(); e++) {
+      if (elements[e].id != probe.id) continue;
+      HVI::Corners x;
+      double c[3];
+      places(e, x);
+      center(x, c);
+      for (const auto &corner : x)
+        size = MAX(size, std::hypot(corner[0] - c[0], corner[1] - c[1], corner[2] - c[2]));
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_DOUBLE, MPI_MAX, world);
+    if (std::sqrt(nearest.distance) > 2.0 * size)
+      error->all(
+          FLERR,
+          "Fix hvi/fem: probe {} {} {} is in no element, the nearest is {:.6g} away: is it in "
+          "other units?",
+          probe.x[0], probe.x[1], probe.x[2], std::sqrt(nearest.distance));
   }
 }
 

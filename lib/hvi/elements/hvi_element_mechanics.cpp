@@ -89,11 +89,14 @@ ElementMechanics::Failure ElementMechanics::failure(const Element &one, const El
   if (one.stable < options.shrink * one.stable_at_start) return STEP;
   const int shared = shared_corners(nodes);
   if (shared < 4 && shared < one.shared) return ORPHAN;    // a face has four
-  if (s.eps > 0.0 || s.failed()) {
-    const HexShape shape = hex_shape(x);
-    if (shape.jacobian < options.jacobian || shape.edges > options.edges) return SHAPE;
-  }
+  if ((s.eps > 0.0 || s.failed()) && is_distorted(x)) return SHAPE;
   return NONE;
+}
+
+bool ElementMechanics::is_distorted(const Corners &x) const
+{
+  const HexShape shape = hex_shape(x);
+  return shape.jacobian < options.jacobian || shape.edges > options.edges;
 }
 
 double ElementMechanics::let_go(Element &one, const ElementNodes &nodes, const Cells &cells) const

@@ -114,6 +114,7 @@ class ElementMechanics {
   void second_half(Element &, const ElementStep &, double dt) const;
 
   Failure failure(const Element &, const ElementNodes &, const Corners &x) const;
+  bool is_distorted(const Corners &) const;    // by jacobian or edges
 
   // Its state is that of free particles in these cells from now on.  Returns the heat per mass that it takes up:
   // kinetic energy that nodes have and particles have not.
