@@ -259,6 +259,7 @@ void FixHVIJohnsonCook::init()
     error->all(FLERR,
                "Fix hvi/johnson-cook: the restart file was written with {}, this run uses {}",
                restored, settings());
+  check_restored();
   restored.clear();    // later runs of this script may use another fix
   check_state();
   checked = false;

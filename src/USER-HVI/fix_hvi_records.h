@@ -102,7 +102,8 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
 
   virtual std::string settings() const = 0;                  // for the restart file
   virtual Record stored(int i) const { return extra[i]; }    // in the restart file
-  void forget_rows();    // of data files, once they have been read
+  void forget_rows();       // of data files, once they have been read
+  void check_restored();    // in init()
 
  private:
   const Record fresh;
@@ -111,6 +112,7 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
   std::vector<size_t> places;    // of the record
   std::vector<std::string> suffixes;
   bool known = false;
+  bool may_be_lost = false;            // given between read_restart and a run
   std::deque<HVIDataRows> sections;    // they cannot be copied
 
   void refuse_another() const;
@@ -143,6 +145,7 @@ FixHVIRecords<Owner, Record>::FixHVIRecords(LAMMPS *lmp, int narg, char **arg, c
   maxexchange = places.size();
   create_attribute = 1;
   wd_section = sections.size();
+  may_be_lost = modify->nfix_restart_peratom > 0;
 }
 
 template <class Owner, class Record> void FixHVIRecords<Owner, Record>::begin()
@@ -177,6 +180,19 @@ template <class Owner, class Record> void FixHVIRecords<Owner, Record>::refuse_a
           "Fix {} {} is given again, which would wipe out what it keeps of the particles: if "
           "that is meant, unfix {} first",
           id, style, id);
+}
+
+// LAMMPS gives a fix what one of the same ID and style has written, and else says so without a warning
+
+template <class Owner, class Record> void FixHVIRecords<Owner, Record>::check_restored()
+{
+  if (may_be_lost && restored.empty() && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Fix {} {}: the restart file has nothing of a fix of this ID and style, so what it "
+        "keeps of particles begins anew: give it the ID that it had",
+        id, style);
+  may_be_lost = false;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -208,6 +208,8 @@ void FixHVISPH::init()
     error->all(FLERR, "More than one fix hvi/sph: it keeps the state of all SPH particles");
   if (domain->deform_vremap)
     error->all(FLERR, "Fix hvi/sph does not support fix deform with remap v");
+  if (update->dt < 0.0)
+    error->all(FLERR, "Fix hvi/sph: the time step must not be negative: {}", update->dt);
 
   store = FixHVIStore::find(lmp);
   if (!store || !force->pair_match("^hvi/sph$", 0))
@@ -215,6 +217,7 @@ void FixHVISPH::init()
   const HVI::SphSettings &set = store->fields.settings;
   check_restart();
 
+  check_restored();
   restored.clear();    // later runs of this script may change the settings
   forget_rows();
 
