@@ -92,6 +92,9 @@ void FixHVIDt::init()
     error->all(FLERR, "Fix hvi/dt does not support run_style respa");
   if (modify->get_fix_by_style("^hvi/dt$").size() > 1)
     error->all(FLERR, "More than one fix hvi/dt");
+  for (const Fix *const other : modify->get_fix_by_style("^dt/reset"))
+    error->all(FLERR, "Fix {} ({}) chooses the time step, as fix hvi/dt does: use one of them",
+               other->id, other->style);
 
   sources = HVI::find_interface<HVI::TimeStepSource>(lmp);
   if (sources.empty())

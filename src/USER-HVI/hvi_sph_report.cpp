@@ -36,6 +36,7 @@ static constexpr double RATIO_OFF = 0.2;         // of density
 static constexpr double GRADIENT_OFF = 0.005;    // sum of a kernel's gradients on a row, from 1
 static constexpr double SPEED_LEAST = 10.0;      // m/s, of an impact
 static constexpr double BOX_MOST = 2000.0;       // cutoffs
+static constexpr double FILL_MOST = 1.5;         // likewise
 static constexpr double FILL_LEAST = 0.4;    // of a body's bounding box, if that tells its layers
 
 /* ---------------------------------------------------------------------- */
@@ -139,8 +140,8 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
       volume *= length;
       thinnest = MIN(thinnest, length);
     }
-    if (n * row.mass / rho > FILL_LEAST * volume)
-      row.layers = static_cast<int>(std::lround(thinnest / row.spacing));
+    row.filled = n * row.mass / rho / volume;
+    if (row.filled > FILL_LEAST) row.layers = static_cast<int>(std::lround(thinnest / row.spacing));
   }
 }
 
@@ -275,6 +276,12 @@ void HVISphReport::warn() const
                      "Pair style hvi/sph: particles of type {} have {:.3g} neighbors in the mean, "
                      "the kernel needs {:.3g} or more: check positions, spacing and h",
                      itype, row.neighbors, NEIGHBORS_LEAST[set.laws.dim]);
+    if (row.filled > FILL_MOST && row.far == 0.0 && row.fresh == row.number)
+      error->warning(
+          FLERR,
+          "Pair style hvi/sph: particles of type {} have {:.3g} times the volume m/rho0 of "
+          "the box around them: check the mass or the spacing of the type, and positions",
+          itype, row.filled);
     const double sum = set.laws.dim == 1 ? gradient_sum(set.kernel, set.h[itype] / row.spacing)
                                          : 1.0;
     const bool exact = set.riemann || solid;
@@ -306,7 +313,7 @@ void HVISphReport::warn() const
   for (int k = 0; k < domain->dimension; k++)
     if (cutoff > 0.0 && domain->prd[k] > BOX_MOST * cutoff)
       error->warning(FLERR,
-                     "Pair style hvi/sph: the box is {:.0f} cutoffs long along {}: the bins of the "
+                     "Pair style hvi/sph: the box is {:.6g} cutoffs long along {}: the bins of the "
                      "neighbor list will take time and memory",
                      domain->prd[k] / cutoff, "xyz"[k]);
 }

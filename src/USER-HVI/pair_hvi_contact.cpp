@@ -29,6 +29,7 @@
 
 using namespace LAMMPS_NS;
 
+static constexpr double DEEP = 0.25;    // of r_eq^2
 static constexpr int RECORD =
     -2;    // of settings in restart files; mix flags of older ones are not below 0
 
@@ -36,7 +37,7 @@ static constexpr int RECORD =
 
 PairHVIContact::PairHVIContact(LAMMPS *lmp) :
     Pair(lmp), prefactor(1.0), relative(0), uniform(0), epsilon(nullptr), sigma(nullptr),
-    law(nullptr)
+    law(nullptr), looked(false)
 {
   writedata = 1;
   respa_enable = 0;
@@ -175,6 +176,35 @@ void PairHVIContact::work_off(const Touching &touch, int ntouch)
                touch.delx[n], touch.dely[n], touch.delz[n]);
     }
   }
+}
+
+/* ----------------------------------------------------------------------
+   once: no impact presses so many particles that far into each other, but sigma in other units does
+------------------------------------------------------------------------- */
+
+void PairHVIContact::setup()
+{
+  if (looked) return;
+  bigint here = 0, pairs;
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    for (int jj = 0; jj < list->numneigh[i]; jj++) {
+      const int j = list->firstneigh[i][jj] & NEIGHMASK;
+      double rsq = 0.0;
+      for (int k = 0; k < 3; k++)
+        rsq += (atom->x[i][k] - atom->x[j][k]) * (atom->x[i][k] - atom->x[j][k]);
+      if (rsq < DEEP * law[atom->type[i]][atom->type[j]].cutsq)
+        here += (force->newton_pair || j < atom->nlocal) ? 2 : 1;
+    }
+  }
+  MPI_Allreduce(&here, &pairs, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  looked = pairs > 0;
+  if (pairs && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Pair style hvi/contact: {} pairs of particles are less than half of 2^(1/6) sigma "
+        "apart at step {}: is sigma that of their spacing?",
+        pairs / 2, update->ntimestep);
 }
 
 /* ----------------------------------------------------------------------

@@ -32,6 +32,7 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::Ener
   void coeff(int, char **) override;
   void init_style() override;
   double init_one(int, int) override;
+  void setup() override;
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
   void write_restart_settings(FILE *) override;
@@ -52,6 +53,7 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::Ener
   HVI::Contact common;    // and this is it
   double **epsilon, **sigma;
   HVI::Contact **law;
+  bool looked;    // for pairs that are deep in each other
 
   // pairs in touch, a batch of them; NROW at most from a row of the list before there is a look at
   // whether the batch is full

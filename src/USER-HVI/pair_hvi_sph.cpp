@@ -115,7 +115,12 @@ void PairHVISPH::deallocate()
 
 void PairHVISPH::settings(int narg, char **arg)
 {
-  if (narg < 1) utils::missing_cmd_args(FLERR, "pair_style hvi/sph", error);
+  if (narg < 1)
+    error->all(
+        FLERR,
+        "Pair_style hvi/sph needs a kernel: one of {} (in pair_style hybrid gauss, which is a "
+        "pair style, too, is gaussian)",
+        HVI::kernel_names());
   deallocate();    // new settings, for instance after read_restart, ask for new coefficients
 
   set = HVI::SphSettings();
