@@ -48,9 +48,20 @@ static int edits(const std::string &a, const std::string &b)
 
 void HVIVariables::command(int narg, char **arg)
 {
+  if (narg > 1 && std::string(arg[0]) == "positive") {
+    for (int i = 1; i < narg; i++) {
+      const char *const given = input->variable->retrieve(arg[i]);
+      const std::string value = given ? given : "";
+      if (!given) error->all(FLERR, "hvi/variables positive: variable {} is not defined", arg[i]);
+      if (!utils::is_double(value) || !(utils::numeric(FLERR, value, false, lmp) > 0.0))
+        error->all(FLERR, "Variable {} must be a number above 0, not {}", arg[i], value);
+    }
+    return;
+  }
   if (narg < 2 || std::string(arg[0]) != "known")
     error->all(FLERR,
-               "Illegal hvi/variables command: it is hvi/variables known NAMES optional NAMES");
+               "Illegal hvi/variables command: it is hvi/variables known NAMES optional NAMES, or "
+               "hvi/variables positive NAMES");
 
   std::vector<std::string> names;
   bool optional = false;
