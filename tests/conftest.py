@@ -68,7 +68,8 @@ def own_folder(tmp_path, monkeypatch):
 def lmp(tmp_path, lmp_exe):
     """Runs LAMMPS on an input text (or the Path of an input file) and returns a Result.
 
-    lmp(text, nranks=1, vars={"name": value or list}, expect_fail=False, exe=other program, extra=["-sf", "opt"],
+    lmp(text, nranks=1, vars={"name": value or list}, expect_fail=False or True or None, exe=other program,
+        extra=["-sf", "opt"],
         cwd=folder, timeout=seconds, env={...})
     A wrong return code or a hang fails the test. Each call has its own log.
     """
@@ -110,7 +111,7 @@ def lmp(tmp_path, lmp_exe):
         result = Result(command, cwd, process.returncode, out, err, log.read_text() if log.exists() else "")
         if expect_fail and result.returncode == 0:
             pytest.fail(f"should have failed: {result}", pytrace=False)
-        if not expect_fail and result.returncode != 0:
+        if expect_fail is False and result.returncode != 0:
             pytest.fail(str(result), pytrace=False)
         return result
 

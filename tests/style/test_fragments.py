@@ -408,34 +408,6 @@ run 0
 """
 
 
-@pytest.mark.parametrize("line,error", [
-    ("compute x all hvi/fragment", "compute hvi/fragment"),
-    ("compute x all hvi/fragment/atom", "compute hvi/fragment/atom"),
-    ("compute x all hvi/fragment/atom bound", "mode: bound"),
-    ("compute x all hvi/fragment/atom bonds region b", "keyword: region"),
-    ("compute x all hvi/fragment bonds damage yes", "keyword: damage"),
-    ("compute x all hvi/fragment bonds region", "region"),
-    ("compute x all hvi/fragment bonds region none", "none"),
-    ("compute x all hvi/fragment distance", "distance"),
-    ("compute x all hvi/fragment distance 0", "> 0, not 0"),
-    ("compute x all hvi/fragment distance nan", "nan"),
-    ("compute x all hvi/fragment distance 0.5 damage", "damage"),
-    ("compute x all hvi/fragment distance 0.5 damage maybe", "maybe"),
-    ("compute x all hvi/fragment distance 0.5 damage yes", "d_hvi_damage"),
-    ("neighbor 0.3 multi\ncomm_modify mode multi\ncompute x all hvi/fragment distance 0.5", "comm_modify mode single"),
-    ("compute x all hvi/cloud plane 1", "axis"),
-    ("compute x all hvi/cloud axis x", "plane"),
-    ("compute x all hvi/cloud axis w plane 1", "not w"),
-    ("compute x all hvi/cloud axis x plane inf", "inf"),
-    ("compute x all hvi/cloud axis x plane 1 quantile 0.5", "not 0.5"),
-    ("compute x all hvi/cloud axis x plane 1 quantile", "quantile"),
-    ("compute x all hvi/cloud axis x plane 1 q 0.9", "keyword: q"),
-])
-def test_wrong_input(lmp, line, error):
-    r = lmp(SMALL.format(style="bond", extra="bond/types 1", line=line), expect_fail=True)
-    assert error in r.error, r
-
-
 @pytest.mark.parametrize("nranks", [1, 2])
 def test_ghosts_reach_as_far_as_is_looked(lmp, nranks):
     """beyond the reach of forces and skin: the cutoff of communication sets itself, and the fragments are those of a cutoff that was given"""

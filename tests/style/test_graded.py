@@ -152,17 +152,6 @@ def test_what_hangs_together_in_smoothing_lengths(run, tmp_path, nranks, newton)
         hvi.find(frame, column="c_f", sizes=size)
 
 
-@pytest.mark.parametrize("command, message", [
-    (f"compute w all hvi/wall axis z wall 1 0 {THICK} outer 1*2 wall 2 2e-3 1e-3", "walls 1 and 2 share a type"),
-    (f"compute w all hvi/wall axis z wall 1 0 {THICK} outer 3", "out of bounds"),
-    (f"compute w all hvi/wall axis z outer 2 wall 1 0 {THICK}", "outer belongs to a wall"),
-    (f"compute w all hvi/wall axis z wall 1 0 {THICK} outer 2 pieces no h", "Unknown compute hvi/wall keyword: h"),
-    ("compute f all hvi/fragment distance h 2", "(Expected|expected)")])
-def test_wrong_input(run, command, message):
-    r = run(plate(GRADED, 2 * A) + FIXES + command + "\nrun 0\n", expect_fail=True)
-    assert re.search(message, r.error), r
-
-
 def test_smoothing_lengths_need_the_pair_style(lmp, tmp_path):
     r = lmp("units lj\natom_style atomic\nregion b block 0 4 0 4 0 4\ncreate_box 1 b\nlattice sc 1\ncreate_atoms 1 box\nmass 1 1\npair_style lj/cut 1.5\npair_coeff 1 1 1 1\ncompute f all hvi/fragment distance 1.25 h\nrun 0\n",
             cwd=tmp_path, expect_fail=True)

@@ -386,36 +386,6 @@ thermo_modify format float %.17g
         assert np.array_equal(again.thermo[name], r.thermo[name][2:]), name
 
 
-@pytest.mark.parametrize("line, error", [
-    ("axis z centre 0 0", "hvi/hole plane"),
-    ("axis z plane 0", "hvi/hole centre"),
-    ("centre 0 0 plane 0", "hvi/hole axis"),
-    ("axis z centre 0", "hvi/hole centre"),
-    ("axis z plane 0 centre 0 0 dr", "hvi/hole dr"),
-    ("axis w centre 0 0 plane 0", "axis must be x, y or z, not w"),
-    ("axis z centre 0 inf plane 0", "'inf'"),
-    ("axis z centre nan 0 plane 0", "'nan'"),
-    ("axis z centre 0 0 plane inf", "'inf'"),
-    ("axis z centre 0 0 plane 1e400", "1e400"),
-    ("axis z centre 0 0 plane zero", "zero"),
-    ("axis z centre 0 0 plane 0 fill 0", "fill must be > 0 and < 1, not 0"),
-    ("axis z centre 0 0 plane 0 fill 1.0", "fill must be > 0 and < 1, not 1.0"),
-    ("axis z centre 0 0 plane 0 fill nan", "'nan'"),
-    ("axis z centre 0 0 plane 0 dr 0", "dr must be > 0, not 0"),
-    ("axis z centre 0 0 plane 0 dr -1", "dr must be > 0, not -1"),
-    ("axis z centre 0 0 plane 0 thickness 0", "thickness must be > 0, not 0"),
-    ("axis z centre 0 0 plane 0 reference -2", "reference must be > 0, not -2"),
-    ("axis z centre 0 0 plane 0 reference inf", "'inf'"),
-    ("axis z centre 0 0 plane 0 sectors 6", "sectors must be even, from 8 to 3600, not 6"),
-    ("axis z centre 0 0 plane 0 sectors 9", "sectors must be even, from 8 to 3600, not 9"),
-    ("axis z centre 0 0 plane 0 sectors 1e3", "1e3"),
-    ("axis z centre 0 0 plane 0 middle 3", "Unknown compute hvi/hole keyword: middle"),
-])
-def test_wrong_input(lmp, line, error):
-    r = lmp(f"region r block 0 1 0 1 0 1\ncreate_box 1 r\nmass 1 1\ncompute h all hvi/hole {line}", expect_fail=True)
-    assert error in r.error, r
-
-
 def test_two_dimensions(lmp):
     r = lmp("dimension 2\nregion r block 0 1 0 1 -0.5 0.5\ncreate_box 1 r\nmass 1 1\n"
             "compute h all hvi/hole axis z centre 0 0 plane 0", expect_fail=True)

@@ -43,14 +43,6 @@ def test_included_files_are_looked_at(lmp, tmp_path):
     assert "dx is 0.4" in lmp(TEXT.format(words=WORDS + " extra", more=more)).stdout
 
 
-@pytest.mark.parametrize("words, message", [
-    ("", "Illegal hvi/variables command"), ("known", "Illegal hvi/variables command"), ("dx", "Illegal hvi/variables command"),
-    ("known optional", "Illegal hvi/variables command"), ("some dx", "Illegal hvi/variables command"), ("known dx thickness gap", "variable gap is not defined"),
-    ("known dx dx", "names dx twice"), ("known dx thickness optional dx", "names dx twice")])
-def test_wrong_input(lmp, words, message):
-    assert message in lmp(TEXT.format(words=words, more=""), expect_fail=True).error
-
-
 def test_plugin(lmp, lmp_stock, plugin):
     text = f"plugin load {plugin}\n" + TEXT.format(words=WORDS, more="")
     assert "did you mean thickness?" in lmp(text, vars={"thicknes": 1}, exe=lmp_stock, expect_fail=True).error

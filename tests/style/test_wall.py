@@ -193,24 +193,3 @@ def test_quarter_is_a_quarter(walls):
 
 
 WALLS = "compute w all hvi/wall axis z "
-
-
-@pytest.mark.parametrize("command, message", [
-    ("compute w all hvi/wall", "Illegal compute hvi/wall command: missing argument"), ("compute w all hvi/wall wall 2 0 1", "begins with axis x, y or z, or with like ID, not wall"),
-    ("compute w all hvi/wall axis q", "axis must be x, y or z, not q"), (WALLS, "compute hvi/wall wall command: missing argument"),
-    (WALLS + "wall 2 0", "compute hvi/wall wall command: missing argument"), (WALLS + "wall 2 0 0", "wall must be > 0, not 0"),
-    (WALLS + "wall 9 0 1e-3", "Numeric index 9 is out of bounds (1-3)"), (WALLS + "layers 2", "layers belongs to a wall, and comes after it"),
-    (WALLS + "wall 2 0 1e-3 layers 0", "layers must be 1 or more, not 0"), (WALLS + "wall 2 0 1e-3 radius -1", "radius must be > 0, not -1"),
-    (WALLS + "wall 2 0 1e-3 pieces 0", "pieces must be no or a distance > 0, not 0"), (WALLS + "wall 2 0 1e-3 hole yes", "Unknown compute hvi/wall keyword: hole"),
-    (WALLS + "wall 3 6e-3 1e-3 wall 2 0 1e-3", "wall 2 begins at 0, before the rear of wall 1 at 0.007"), (WALLS + "wall 2 0 1e-3 wall 2 6e-3 1e-3", "walls 1 and 2 share a type"),
-    (WALLS + "wall 2 0 1e-3 center 0", "compute hvi/wall center command: missing argument"),
-    (WALLS + "wall 2 0 1e-3\ncompute v all hvi/wall like u pieces 1e-3", "there is no compute hvi/wall with the ID u"), ("compute w all hvi/wall like", "missing argument"),
-    (WALLS + "wall 2 0 1e-3\ncompute v all hvi/wall like w wall 3 6e-3 1e-3", "like takes pieces and no other keyword, not wall"),
-    (WALLS + "wall 2 0 1e-3\ncompute v all hvi/wall like w\nuncompute w\nthermo_style custom step c_v[1][1]", "the compute with fix w_COMPUTE_STORE is gone: uncompute v, too"),
-    (WALLS + "wall 2 0 1e-3\ncompute v all hvi/wall like w\nrun 1\nuncompute w\nprint '$(c_v[1][1])'", "the compute with fix w_COMPUTE_STORE is gone: uncompute v, too"),
-    ("group none empty\ncompute w none hvi/wall axis z wall 2 0 1e-3\nthermo_style custom step c_w[1][1]", "group none has no particles of type 2, wall 1")])
-def test_wrong_input(walls, command, message):
-    text = scene(steps=0)
-    text = re.sub("compute w .*\n", command + "\n", text) + "run 0\n"
-    r = walls(text, expect_fail=True)
-    assert message in r.error, r.error
