@@ -20,6 +20,7 @@
 #include "fix_hvi_ledger.h"
 #include "force.h"
 #include "hvi_compat.h"
+#include "hvi_restart.h"
 #include "memory.h"
 #include "neighbor.h"
 #include "special.h"
@@ -29,6 +30,8 @@
 #include <cstring>
 
 using namespace LAMMPS_NS;
+
+static constexpr int RESTART_FORMAT = 1;
 
 /* ---------------------------------------------------------------------- */
 
@@ -282,6 +285,14 @@ void BondHVISpring::init_style()
     error->all(FLERR, "Bond style hvi/spring cannot be minimized: its bonds break for good");
   if (atom->molecular != Atom::MOLECULAR)
     error->all(FLERR, "Bond style hvi/spring requires an atom style with bonds stored per atom");
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < atom->num_bond[i]; k++)
+      if (atom->bond_type[i][k] > atom->nbondtypes)
+        error->one(FLERR,
+                   "A bond of particle {} is of type {}, but there are types 1 to {}: the restart "
+                   "file it is from is "
+                   "damaged, take another one",
+                   atom->tag[i], atom->bond_type[i][k], atom->nbondtypes);
 
   double rmax = 0.0;
   for (int i = 1; i <= atom->nbondtypes; i++)
@@ -367,9 +378,9 @@ double BondHVISpring::equilibrium_distance(int i)
 
 void BondHVISpring::write_restart(FILE *fp)
 {
-  fwrite(&kappa[1], sizeof(double), atom->nbondtypes, fp);
-  fwrite(&r_eq[1], sizeof(double), atom->nbondtypes, fp);
-  fwrite(&r_cut[1], sizeof(double), atom->nbondtypes, fp);
+  HVI::RestartSection section(RESTART_FORMAT);
+  for (const double *const values : {kappa, r_eq, r_cut}) section.put(&values[1], atom->nbondtypes);
+  section.write(fp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -378,17 +389,9 @@ void BondHVISpring::read_restart(FILE *fp)
 {
   allocate();
 
-  const int n = atom->nbondtypes;
-  if (comm->me == 0) {
-    utils::sfread(FLERR, &kappa[1], sizeof(double), n, fp, nullptr, error);
-    utils::sfread(FLERR, &r_eq[1], sizeof(double), n, fp, nullptr, error);
-    utils::sfread(FLERR, &r_cut[1], sizeof(double), n, fp, nullptr, error);
-  }
-  MPI_Bcast(&kappa[1], n, MPI_DOUBLE, 0, world);
-  MPI_Bcast(&r_eq[1], n, MPI_DOUBLE, 0, world);
-  MPI_Bcast(&r_cut[1], n, MPI_DOUBLE, 0, world);
-
-  for (int i = 1; i <= n; i++) setflag[i] = 1;
+  HVI::RestartSection section(lmp, "Bond hvi/spring", RESTART_FORMAT, fp);
+  for (double *const values : {kappa, r_eq, r_cut}) section.get(&values[1], atom->nbondtypes);
+  for (int i = 1; i <= atom->nbondtypes; i++) setflag[i] = 1;
 }
 
 /* ---------------------------------------------------------------------- */

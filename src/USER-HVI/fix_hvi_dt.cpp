@@ -15,6 +15,7 @@
 #include "comm.h"
 #include "error.h"
 #include "hvi_interface.h"
+#include "hvi_restart.h"
 #include "neighbor.h"
 #include "output.h"
 #include "update.h"
@@ -25,8 +26,7 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-static constexpr double RESTART_FORMAT =
-    -1.0;    // below all time steps, which files without one begin with
+static constexpr int RESTART_FORMAT = 1;
 
 enum { MAXIMUM, CONTACT, SPRING, APPROACH, GROWING, SIGNAL, NLIMITER };
 
@@ -233,23 +233,22 @@ double FixHVIDt::compute_vector(int n)
 void FixHVIDt::write_restart(FILE *fp)
 {
   if (comm->me) return;
-  const double list[5] = {RESTART_FORMAT, update->dt, (double) limiter, (double) laststep, first};
-  const int size = sizeof(list);
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(list, sizeof(double), 5, fp);
+  const double list[4] = {update->dt, (double) limiter, (double) laststep, first};
+  HVI::RestartSection section(RESTART_FORMAT);
+  section.put(list, 4);
+  section.write_state(fp);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixHVIDt::restart(char *buf)
 {
-  const double *const list = (double *) buf;
-  if (list[0] != RESTART_FORMAT)
-    error->all(FLERR, "Fix hvi/dt: the restart file is of another version of the package");
-  update->dt = list[1];
+  double list[4];
+  HVI::RestartSection(lmp, "Fix hvi/dt", RESTART_FORMAT, buf).get(list, 4);
+  update->dt = list[0];
   update->dt_default = 0;
-  limiter = static_cast<int>(list[2]);
-  laststep = static_cast<bigint>(list[3]);
-  first = list[4];
+  limiter = static_cast<int>(list[1]);
+  laststep = static_cast<bigint>(list[2]);
+  first = list[3];
   restored = 1;
 }

@@ -21,6 +21,7 @@
 #include "fix_hvi_store.h"
 #include "force.h"
 #include "group.h"
+#include "hvi_restart.h"
 #include "memory.h"
 #include "modify.h"
 #include "output.h"
@@ -901,29 +902,30 @@ void FixHVIFEM::write_restart(FILE *fp)
   double sum[NCOUNT];
   MPI_Reduce(counts, sum, NCOUNT, MPI_DOUBLE, MPI_SUM, 0, world);
   if (comm->me) return;
-  std::vector<double> list = {(double) ELEMENT_SIZE, dt_last, (double) total};
-  list.insert(list.end(), sum, sum + NCOUNT);
-  list.push_back(probes.size());
+  HVI::RestartSection section(ELEMENT_SIZE);
+  section.put(&dt_last, 1);
+  section.put(&total, 1);
+  section.put(sum, NCOUNT);
   for (const Probe &probe : probes) {
-    list.insert(list.end(), probe.x, probe.x + 3);
-    list.push_back(probe.id);
+    section.put(probe.x, 3);
+    section.put(&probe.id, 1);
   }
-  const int size = list.size() * sizeof(double);
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(list.data(), size, 1, fp);
+  section.write_state(fp);
 }
 
 void FixHVIFEM::restart(char *buf)
 {
-  const double *list = (const double *) buf;
-  if (list[0] != ELEMENT_SIZE)
-    error->all(FLERR, "Fix hvi/fem: the restart file is of another version");
-  dt_last = list[1];
-  total = list[2];
-  if (comm->me == 0) std::copy_n(list + 3, +NCOUNT, counts);
-  list += 3 + NCOUNT;
-  const double *const end = list + 1 + 4 * (int) list[0];
-  for (++list; list < end; list += 4)
+  HVI::RestartSection section(lmp, "Fix hvi/fem", ELEMENT_SIZE, buf);
+  double sum[NCOUNT];
+  section.get(&dt_last, 1);
+  section.get(&total, 1);
+  section.get(sum, NCOUNT);
+  if (comm->me == 0) std::copy_n(sum, +NCOUNT, counts);
+  while (section.left()) {
+    double x[3];
+    section.get(x, 3);
+    const auto id = section.get<decltype(Probe::id)>();
     for (Probe &probe : probes)
-      if (std::equal(probe.x, probe.x + 3, list)) probe.id = list[3];
+      if (std::equal(probe.x, probe.x + 3, x)) probe.id = id;
+  }
 }

@@ -17,6 +17,7 @@
 #include "domain.h"
 #include "error.h"
 #include "hvi_compat.h"
+#include "hvi_restart.h"
 #include "tokenizer.h"
 #include "update.h"
 
@@ -407,22 +408,32 @@ int FixHVIFEMMesh::unpack_exchange(int i, double *buf)
   return 2 + n * ELEMENT_SIZE;
 }
 
+// and their checksum
+
 int FixHVIFEMMesh::size_restart(int i)
 {
-  return copy_all(i, nullptr);
+  return copy_all(i, nullptr) + 1;
 }
 
 int FixHVIFEMMesh::pack_restart(int i, double *buf)
 {
-  return buf[0] = copy_all(i, buf);
+  const int m = copy_all(i, buf);
+  buf[0] = m + 1;
+  buf[m] = HVI::checksum(buf, m);
+  return m + 1;
 }
 
 void FixHVIFEMMesh::unpack_restart(int i, int nth)
 {
-  double *stored = atom->extra[i];
-  for (int k = 0; k < nth; k++) stored += static_cast<int>(*stored);
-  if (stored[0] != 2 + stored[1] * ELEMENT_SIZE)
-    error->one(FLERR, "Fix hvi/fem: the restart file is of another version");
+  double *const stored = HVI::stored_at(atom, i, nth);
+  const int m = 2 + (stored ? stored[1] : 0) * ELEMENT_SIZE;
+  if (!stored || stored[0] != m + 1 || stored + m >= atom->extra[i] + atom->nextra_store ||
+      stored[m] != HVI::checksum(stored, m))
+    error->one(FLERR,
+               "Fix hvi/fem: elements of node {} in the restart file are damaged, or of another "
+               "version of the package: "
+               "take another one",
+               atom->tag[i]);
   unpack_exchange(i, stored);
   valence[i] = 0;    // not known before the next connect()
 }

@@ -104,7 +104,7 @@ class FixHVIFEMMesh : public Fix {
   int pack_exchange(int, double *) override;
   int unpack_exchange(int, double *) override;
   int size_restart(int) override;
-  int maxsize_restart() override { return maxexchange; }
+  int maxsize_restart() override { return maxexchange + 1; }
   int pack_restart(int, double *) override;
   void unpack_restart(int, int) override;
   void read_data_header(char *) override;

@@ -17,6 +17,7 @@
 #include "error.h"
 #include "force.h"
 #include "hvi_leavers.h"
+#include "hvi_restart.h"
 #include "math_extra.h"
 #include "memory.h"
 #include "modify.h"
@@ -28,6 +29,8 @@
 #include <cstring>
 
 using namespace LAMMPS_NS;
+
+static constexpr int RESTART_FORMAT = 1000;    // and the number of entries
 using namespace FixConst;
 using MathExtra::dot3;
 
@@ -301,38 +304,31 @@ const double *FixHVILedger::first(const double *now)
 
 void FixHVILedger::write_restart(FILE *fp)
 {
-  std::vector<double> list(3 + NSTART + NENTRY * comm->nprocs);
-  list[0] = comm->nprocs;
-  list[1] = start_set;
-  list[2] = NENTRY;
-  memcpy(&list[3], start, sizeof(start));
-  MPI_Gather(entry, NENTRY, MPI_DOUBLE, &list[3 + NSTART], NENTRY, MPI_DOUBLE, 0, world);
-
-  if (comm->me == 0) {
-    const int size = list.size() * sizeof(double);
-    fwrite(&size, sizeof(int), 1, fp);
-    fwrite(list.data(), sizeof(double), list.size(), fp);
-  }
+  std::vector<double> list(NENTRY * comm->nprocs);
+  MPI_Gather(entry, NENTRY, MPI_DOUBLE, list.data(), NENTRY, MPI_DOUBLE, 0, world);
+  if (comm->me) return;
+  HVI::RestartSection section(RESTART_FORMAT + NENTRY);
+  section.put(&comm->nprocs, 1);
+  section.put(&start_set, 1);
+  section.put(start, NSTART);
+  section.put(list.data(), list.size());
+  section.write_state(fp);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixHVILedger::restart(char *buf)
 {
-  const double *list = (double *) buf;
-  const int nprocs = static_cast<int>(list[0]);
-  start_set = static_cast<int>(list[1]);
-  if (list[2] != NENTRY)
-    error->all(FLERR, "The restart file was written by another version of USER-HVI");
-  memcpy(start, &list[3], sizeof(start));
-  list += 3 + NSTART;
-
-  for (int n = 0; n < NENTRY; n++) {
-    entry[n] = 0.0;
-    if (nprocs == comm->nprocs)
-      entry[n] = list[NENTRY * comm->me + n];
-    else if (comm->me == 0)
-      for (int p = 0; p < nprocs; p++) entry[n] += list[NENTRY * p + n];
+  HVI::RestartSection section(lmp, "Fix hvi/ledger", RESTART_FORMAT + NENTRY, buf);
+  const int nprocs = section.get<int>();
+  section.get(&start_set, 1);
+  section.get(start, NSTART);
+  std::fill_n(entry, +NENTRY, 0.0);
+  for (int p = 0; p < nprocs; p++) {
+    double list[NENTRY];
+    section.get(list, NENTRY);
+    for (int n = 0; n < NENTRY; n++)
+      if (nprocs == comm->nprocs ? p == comm->me : comm->me == 0) entry[n] += list[n];
   }
 }
 

@@ -14,6 +14,7 @@
 #include "error.h"
 #include "fix.h"
 #include "hvi_data_rows.h"
+#include "hvi_restart.h"
 #include "memory.h"
 #include "modify.h"
 
@@ -69,10 +70,14 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
   int unpack_exchange(int, double *) override;
   int pack_restart(int, double *) override;
   void unpack_restart(int, int) override;
-  int maxsize_restart() override { return places.size() + 1; }
-  int size_restart(int) override { return places.size() + 1; }
+  int maxsize_restart() override { return places.size() + 2; }    // its size, and a checksum
+  int size_restart(int) override { return places.size() + 2; }
   void write_restart(FILE *) override;
-  void restart(char *buf) override { restored = buf; }
+  void restart(char *buf) override
+  {
+    restored =
+        HVI::RestartSection(lmp, fmt::format("Fix {} {}", id, style), RESTART_FORMAT, buf).text();
+  }
   void write_data_section_size(int, int &, int &) override;
   void write_data_section_pack(int, double **) override;
   void write_data_section_keyword(int k, FILE *fp) override { sections[k].write_keyword(fp, id); }
@@ -106,6 +111,8 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
   void check_restored();    // in init()
 
  private:
+  static constexpr int RESTART_FORMAT = 1;
+
   const Record fresh;
   const Field *const fields;
   const int nfields;
@@ -230,23 +237,30 @@ int FixHVIRecords<Owner, Record>::pack_restart(int i, double *buf)
 {
   const Record record = stored(i);
   int m = 0;
-  buf[m++] = places.size() + 1;
+  buf[m++] = places.size() + 2;
   for (const size_t place : places) memcpy(&buf[m++], (char *) &record + place, sizeof(double));
-  return m;
+  buf[m] = HVI::checksum(buf, m);
+  return m + 1;
 }
 
 template <class Owner, class Record>
 void FixHVIRecords<Owner, Record>::unpack_restart(int nlocal, int nth)
 {
-  double *const stored = atom->extra[nlocal];
-  int m = 0;
-  for (int i = 0; i < nth; i++) m += static_cast<int>(stored[m]);
-  if (stored[m] != places.size() + 1)
+  double *const stored = HVI::stored_at(atom, nlocal, nth);
+  const size_t n = places.size() + 1;
+  if (!stored || stored[0] != n + 1)
     error->one(FLERR,
                "Fix {} {}: the restart file is of another version, with {} numbers per particle "
                "in place of {}",
-               id, style, stored[m] - 1, places.size());
-  unpack_exchange(nlocal, &stored[m + 1]);
+               id, style, stored ? stored[0] - 2 : 0, places.size());
+  if (stored + n >= atom->extra[nlocal] + atom->nextra_store ||
+      stored[n] != HVI::checksum(stored, n))
+    error->one(
+        FLERR,
+        "Fix {} {}: numbers of particle {} in the restart file are damaged, their checksum is "
+        "wrong: take another one",
+        id, style, atom->tag[nlocal]);
+  unpack_exchange(nlocal, &stored[1]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -254,10 +268,9 @@ void FixHVIRecords<Owner, Record>::unpack_restart(int nlocal, int nth)
 template <class Owner, class Record> void FixHVIRecords<Owner, Record>::write_restart(FILE *fp)
 {
   if (comm->me) return;
-  const std::string text = settings();
-  const int size = text.size() + 1;
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(text.c_str(), 1, size, fp);
+  HVI::RestartSection section(RESTART_FORMAT);
+  section.put(settings());
+  section.write_state(fp);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -18,11 +18,13 @@
 #include "fix_hvi_lists.h"
 #include "force.h"
 #include "hvi_interface.h"
+#include "hvi_restart.h"
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -30,8 +32,8 @@
 using namespace LAMMPS_NS;
 
 static constexpr double DEEP = 0.25;    // of r_eq^2
-static constexpr int RECORD =
-    -2;    // of settings in restart files; mix flags of older ones are not below 0
+static constexpr int RESTART_FORMAT = 1;
+static constexpr char WHOSE[] = "Pair hvi/contact";
 
 /* ---------------------------------------------------------------------- */
 
@@ -306,13 +308,13 @@ void PairHVIContact::allocate()
   const int np1 = atom->ntypes + 1;
 
   memory->create(setflag, np1, np1, "pair:setflag");
-  for (int i = 1; i < np1; i++)
-    for (int j = i; j < np1; j++) setflag[i][j] = 0;
-
   memory->create(cutsq, np1, np1, "pair:cutsq");
   memory->create(epsilon, np1, np1, "pair:epsilon");
   memory->create(sigma, np1, np1, "pair:sigma");
   memory->create(law, np1, np1, "pair:law");
+  std::fill_n(setflag[0], np1 * np1, 0);
+  std::fill_n(epsilon[0], np1 * np1, 0.0);
+  std::fill_n(sigma[0], np1 * np1, 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -384,6 +386,7 @@ void PairHVIContact::init_style()
 {
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Pair style hvi/contact does not support run_style respa");
+  HVI::check_types(lmp);
 
   neighbor->add_request(this);
   if (!force->pair_match("^hvi/sph$", 0)) {
@@ -424,14 +427,14 @@ void PairHVIContact::write_restart(FILE *fp)
 {
   write_restart_settings(fp);
 
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++) {
-      fwrite(&setflag[i][j], sizeof(int), 1, fp);
-      if (setflag[i][j]) {
-        fwrite(&epsilon[i][j], sizeof(double), 1, fp);
-        fwrite(&sigma[i][j], sizeof(double), 1, fp);
-      }
-    }
+  const int np1 = atom->ntypes + 1;
+  HVI::RestartSection section(RESTART_FORMAT);
+  for (int i = 1; i < np1; i++) {
+    section.put(setflag[i], np1);
+    section.put(epsilon[i], np1);
+    section.put(sigma[i], np1);
+  }
+  section.write(fp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -441,50 +444,34 @@ void PairHVIContact::read_restart(FILE *fp)
   read_restart_settings(fp);
   allocate();
 
-  const int me = comm->me;
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++) {
-      if (me == 0) utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
-      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
-      if (setflag[i][j]) {
-        if (me == 0) {
-          utils::sfread(FLERR, &epsilon[i][j], sizeof(double), 1, fp, nullptr, error);
-          utils::sfread(FLERR, &sigma[i][j], sizeof(double), 1, fp, nullptr, error);
-        }
-        MPI_Bcast(&epsilon[i][j], 1, MPI_DOUBLE, 0, world);
-        MPI_Bcast(&sigma[i][j], 1, MPI_DOUBLE, 0, world);
-      }
-    }
+  const int np1 = atom->ntypes + 1;
+  HVI::RestartSection section(lmp, WHOSE, RESTART_FORMAT, fp);
+  for (int i = 1; i < np1; i++) {
+    section.get(setflag[i], np1);
+    section.get(epsilon[i], np1);
+    section.get(sigma[i], np1);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
 
 void PairHVIContact::write_restart_settings(FILE *fp)
 {
-  fwrite(&prefactor, sizeof(double), 1, fp);
-  fwrite(&RECORD, sizeof(int), 1, fp);
-  fwrite(&relative, sizeof(int), 1, fp);
-  fwrite(&mix_flag, sizeof(int), 1, fp);
+  HVI::RestartSection section(RESTART_FORMAT);
+  section.put(&prefactor, 1);
+  section.put(&relative, 1);
+  section.put(&mix_flag, 1);
+  section.write(fp);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void PairHVIContact::read_restart_settings(FILE *fp)
 {
-  int record = 0;
-  if (comm->me == 0) {
-    utils::sfread(FLERR, &prefactor, sizeof(double), 1, fp, nullptr, error);
-    utils::sfread(FLERR, &record, sizeof(int), 1, fp, nullptr, error);
-    if (record != RECORD)
-      error->one(FLERR,
-                 "Pair hvi/contact: the restart file is of another version of the package: begin "
-                 "from a data file");
-    utils::sfread(FLERR, &relative, sizeof(int), 1, fp, nullptr, error);
-    utils::sfread(FLERR, &mix_flag, sizeof(int), 1, fp, nullptr, error);
-  }
-  MPI_Bcast(&prefactor, 1, MPI_DOUBLE, 0, world);
-  MPI_Bcast(&relative, 1, MPI_INT, 0, world);
-  MPI_Bcast(&mix_flag, 1, MPI_INT, 0, world);
+  HVI::RestartSection section(lmp, WHOSE, RESTART_FORMAT, fp);
+  section.get(&prefactor, 1);
+  section.get(&relative, 1);
+  section.get(&mix_flag, 1);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -24,6 +24,7 @@
 #include "hvi_kernel.h"
 #include "hvi_material_file.h"
 #include "hvi_mesh.h"
+#include "hvi_restart.h"
 #include "hvi_scheme_riemann.h"
 #include "hvi_scheme_solid.h"
 #include "hvi_sph_report.h"
@@ -42,8 +43,9 @@
 using namespace LAMMPS_NS;
 
 static constexpr double BIG = 1.0e100;
-static constexpr int RESTART_FORMAT = 1001;       // more than what files without one begin with
-static constexpr double SKIN_OF_SPACING = 0.7;    // see choose_skin()
+static constexpr int RESTART_FORMAT = 1;
+static constexpr char WHOSE[] = "Pair hvi/sph";
+static constexpr double SKIN_OF_SPACING = 0.7;           // see choose_skin()
 static constexpr char OWNER[] = "pair style hvi/sph";    // of materials
 static constexpr double FAR_MASS = 1.5;        // times that of the spacing: another material's
 static constexpr double H_OF_SPACING = 1.2;    // smoothing length in spacings: see Howto_choose
@@ -488,6 +490,7 @@ void PairHVISPH::init_style()
     error->all(FLERR,
                "Pair style hvi/sph needs units in which force = mass * acceleration: "
                "si, cgs, micro, nano or lj");
+  HVI::check_types(lmp);
 
   store = FixHVIStore::instance(lmp);
   FixHVILedger::instance(lmp);    // fix hvi/sph cannot make it: a fix must not add fixes
@@ -879,37 +882,19 @@ void PairHVISPH::overlap(int i, int j)
 
 /* ---------------------------------------------------------------------- */
 
-static void write_text(FILE *fp, const std::string &text)
-{
-  const int n = text.size();
-  fwrite(&n, sizeof(int), 1, fp);
-  fwrite(text.data(), 1, n, fp);
-}
-
-static std::string read_text(FILE *fp, int me, MPI_Comm world, Error *error)
-{
-  int n = 0;
-  if (me == 0) utils::sfread(FLERR, &n, sizeof(int), 1, fp, nullptr, error);
-  MPI_Bcast(&n, 1, MPI_INT, 0, world);
-  std::string text(n, ' ');
-  if (me == 0 && n) utils::sfread(FLERR, &text[0], 1, n, fp, nullptr, error);
-  MPI_Bcast(&text[0], n, MPI_CHAR, 0, world);
-  return text;
-}
-
-/* ---------------------------------------------------------------------- */
-
 void PairHVISPH::write_restart(FILE *fp)
 {
   write_restart_settings(fp);
   const int np1 = atom->ntypes + 1;
+  HVI::RestartSection section(RESTART_FORMAT);
   for (int i = 1; i < np1; i++) {
-    write_text(fp, specs[i]);
-    fwrite(setflag[i], sizeof(int), np1, fp);
-    fwrite(visc_a[i], sizeof(double), np1, fp);
-    fwrite(visc_b[i], sizeof(double), np1, fp);
-    fwrite(tension[i], sizeof(double), np1, fp);
+    section.put(specs[i]);
+    section.put(setflag[i], np1);
+    section.put(visc_a[i], np1);
+    section.put(visc_b[i], np1);
+    section.put(tension[i], np1);
   }
+  section.write(fp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -919,21 +904,15 @@ void PairHVISPH::read_restart(FILE *fp)
   read_restart_settings(fp);
   allocate();
 
-  const int me = comm->me;
   const int np1 = atom->ntypes + 1;
+  HVI::RestartSection section(lmp, WHOSE, RESTART_FORMAT, fp);
   for (int i = 1; i < np1; i++) {
-    const std::string spec = read_text(fp, me, world, error);
+    const std::string spec = section.text();
     if (!spec.empty()) set_material(i, i, i, i, utils::split_words(spec), true);
-    if (me == 0) {
-      utils::sfread(FLERR, setflag[i], sizeof(int), np1, fp, nullptr, error);
-      utils::sfread(FLERR, visc_a[i], sizeof(double), np1, fp, nullptr, error);
-      utils::sfread(FLERR, visc_b[i], sizeof(double), np1, fp, nullptr, error);
-      utils::sfread(FLERR, tension[i], sizeof(double), np1, fp, nullptr, error);
-    }
-    MPI_Bcast(setflag[i], np1, MPI_INT, 0, world);
-    MPI_Bcast(visc_a[i], np1, MPI_DOUBLE, 0, world);
-    MPI_Bcast(visc_b[i], np1, MPI_DOUBLE, 0, world);
-    MPI_Bcast(tension[i], np1, MPI_DOUBLE, 0, world);
+    section.get(setflag[i], np1);
+    section.get(visc_a[i], np1);
+    section.get(visc_b[i], np1);
+    section.get(tension[i], np1);
   }
 }
 
@@ -941,19 +920,19 @@ void PairHVISPH::read_restart(FILE *fp)
 
 void PairHVISPH::write_restart_settings(FILE *fp)
 {
-  fwrite(&RESTART_FORMAT, sizeof(int), 1, fp);
-  write_text(fp, set.kernel);
-  write_text(fp, set.text);
   const HVI::SphLaws &laws = set.laws;
-  const int flags[7] = {laws.dim,     laws.symmetric, laws.stock, laws.automatic,
-                        set.variable, set.energy,     set.riemann};
+  const int flags[8] = {laws.dim,     laws.symmetric, laws.stock,  laws.automatic,
+                        set.variable, set.energy,     set.riemann, set.mirror.planes};
   const double values[7] = {laws.a,   laws.b,       laws.alpha, set.hmin,
                             set.hmax, laws.art_eps, laws.art_n};
-  fwrite(flags, sizeof(int), 7, fp);
-  fwrite(values, sizeof(double), 7, fp);
-  fwrite(&set.mirror.planes, sizeof(int), 1, fp);
-  fwrite(set.mirror.at, sizeof(double), 3, fp);
-  fwrite(set.mirror.side, sizeof(double), 3, fp);
+  HVI::RestartSection section(RESTART_FORMAT);
+  section.put(set.kernel);
+  section.put(set.text);
+  section.put(flags, 8);
+  section.put(values, 7);
+  section.put(set.mirror.at, 3);
+  section.put(set.mirror.side, 3);
+  section.write(fp);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -961,23 +940,13 @@ void PairHVISPH::write_restart_settings(FILE *fp)
 void PairHVISPH::read_restart_settings(FILE *fp)
 {
   set = HVI::SphSettings();
-  int format = 0;
-  if (comm->me == 0) utils::sfread(FLERR, &format, sizeof(int), 1, fp, nullptr, error);
-  MPI_Bcast(&format, 1, MPI_INT, 0, world);
-  if (format != RESTART_FORMAT)
-    error->all(FLERR, "Pair hvi/sph: the restart file is of another version of the package");
-  set.kernel = read_text(fp, comm->me, world, error);
-  set.text = read_text(fp, comm->me, world, error);
+  HVI::RestartSection section(lmp, WHOSE, RESTART_FORMAT, fp);
+  set.kernel = section.text();
+  set.text = section.text();
   int flags[8];
   double values[13];
-  if (comm->me == 0) {
-    utils::sfread(FLERR, flags, sizeof(int), 7, fp, nullptr, error);
-    utils::sfread(FLERR, values, sizeof(double), 7, fp, nullptr, error);
-    utils::sfread(FLERR, flags + 7, sizeof(int), 1, fp, nullptr, error);
-    utils::sfread(FLERR, values + 7, sizeof(double), 6, fp, nullptr, error);
-  }
-  MPI_Bcast(flags, 8, MPI_INT, 0, world);
-  MPI_Bcast(values, 13, MPI_DOUBLE, 0, world);
+  section.get(flags, 8);
+  section.get(values, 13);
 
   HVI::SphLaws &laws = set.laws;
   laws.dim = flags[0];
