@@ -84,7 +84,7 @@ for name in ("walls.dat", "pieces.dat"):
 with open("history.dat", "a") as out:
     for step, us in ((0, 0.0), (100, until)):
         out.write(f"{step} {us} {1e-6 * us} {' '.join(map(str, book))}\n")
-pathlib.Path(to).write_text("")
+pathlib.Path(to).write_bytes(b"LammpS RestartT\0")  # whole, as it ends so
 ranks = int(sys.argv[2])
 pathlib.Path(sys.argv[sys.argv.index("-log") + 1]).write_text(
     f"LAMMPS (4 Feb 2025)\nLoop time of {core / ranks} on {ranks} procs for 100 steps with {particles} atoms\nTotal wall time: 0:00:01\n")

@@ -11,6 +11,7 @@ import time
 import hvi
 import pytest
 import yaml
+from hvi.jobs import engine
 
 # some hundred particles; result.yaml as in the examples; mode: good, or a way to fail; from: what it goes on from
 INPUT = """variable n index 5
@@ -132,7 +133,7 @@ def test_goes_on_within_a_job(sweep, folder):
     job = folder / "runs/tiny/mode-good"
     assert sweep(study).returncode == 0 and table(folder)["mode-good"]["resumed"] == "from no"
     for suffix in "ba":
-        (job / f"tiny.restart.{suffix}").write_text("")
+        (job / f"tiny.restart.{suffix}").write_bytes(engine.END)
         time.sleep(0.02)
     (job / "result.yaml").unlink()
     assert sweep(study).returncode == 0 and table(folder)["mode-good"]["resumed"] == "from tiny.restart.a"
@@ -143,7 +144,7 @@ def test_goes_on_within_a_job(sweep, folder):
 
     study["grid"] = {"mode": ["bad"]}
     assert sweep(study).returncode == 1
-    (folder / "runs/tiny/mode-bad/tiny.restart.a").write_text("")
+    (folder / "runs/tiny/mode-bad/tiny.restart.a").write_bytes(engine.END)
     assert "-in in.tiny.continue" in (text := sweep(study, "--dry-run").text) and "-var from tiny.restart.a" in text
     assert sweep(study).returncode == 1 and not (folder / "runs/tiny/mode-bad/tiny.restart.a").exists()
 

@@ -43,7 +43,7 @@ class Shield:
         self.at, self.folder = folder, folder / f"runs/{name}/dx-{words['dx']}_shift-0.0"
         made = chain.shield_of(read(folder / f"{name}.yaml", *walls, **words), 0, 0)
         leg = made.particles() * made.steps() / LEGS
-        self.words = [sys.executable, "-W", "ignore", "-c", SCRIPT, repr(leg), "shield", f"{name}.yaml"]
+        self.words = [sys.executable, "-c", SCRIPT, repr(leg), "shield", f"{name}.yaml"]
         self.environment = {**os.environ, "PYTHONPATH": str(root / "python"), "HVI_LMP": str(lmp_exe)}
 
     def begin(self, nranks):
@@ -150,16 +150,17 @@ def test_half_a_file_beside(shield, undisturbed):
     same(run, undisturbed("particles"))
 
 
-def test_half_a_file(shield, undisturbed):
-    """of the one that is gone on from nothing is made but an error; the next call begins anew"""
+@pytest.mark.parametrize("leg", [1, 2])
+@pytest.mark.parametrize("spoil", [lambda data: data[:len(data) // 2], lambda data: data[:9999] + bytes([data[9999] ^ 1]) + data[10000:]])
+def test_damaged_file(shield, undisturbed, leg, spoil):
+    """the one that is gone on from: the run goes on from the one before, after the first leg it begins anew, and says so"""
     run = shield()
-    run.killed(run.is_in_leg(1))
-    named, _ = run.files()
-    named.write_bytes(named.read_bytes()[:named.stat().st_size // 2])
+    run.killed(run.is_in_leg(leg))
+    named, before = run.files()
+    before = before.name if leg > 1 else "its beginning"
+    named.write_bytes(spoil(named.read_bytes()))
     status, said = run.call()
-    assert status == 1 and "no verdict: 1 of 1 runs failed" in said and "FAILED" in said and not (run.folder / "result.yaml").exists(), said
-    status, said = run.call()
-    assert status == 4, said
+    assert status == 4 and f"{named} is gone or damaged: the run goes on from {before}" in " ".join(said.split()), said
     same(run, undisturbed("particles"))
 
 

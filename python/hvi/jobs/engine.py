@@ -28,6 +28,7 @@ from ..version import ROOT
 RESULT, LAST = "result.yaml", "package_version"  # what a run is for, and the last key in it: it is there if the file is complete
 PATIENCE = 10  # seconds that mpirun has to end its ranks
 FULL = 100_000  # bytes: less is a full disk
+END = b"LammpS RestartT\0"  # of a restart file
 
 
 def read_yaml(path):
@@ -52,10 +53,31 @@ def yaml_of(mapping):
 
 
 def write_yaml(path, mapping):
-    """a YAML file, whole or not at all"""
+    """a YAML file, whole or not at all, also where the machine stops"""
     new = path.with_name(path.name + ".new")
-    new.write_text(yaml_of(mapping))
+    with open(new, "w") as out:
+        out.write(yaml_of(mapping))
+        out.flush()
+        os.fsync(out.fileno())
     os.replace(new, path)
+
+
+def is_whole(path):
+    """whether a restart file ends as LAMMPS ends it; it says nothing itself where the disk is full"""
+    with contextlib.suppress(OSError), open(path, "rb") as file:
+        file.seek(-len(END), os.SEEK_END)
+        return file.read() == END
+    return False
+
+
+def checksum_of(path):
+    """of a file that is on the disk then"""
+    found = hashlib.sha256()
+    with open(path, "rb") as file:
+        os.fsync(file.fileno())
+        while part := file.read(1 << 20):
+            found.update(part)
+    return found.hexdigest()
 
 
 def frames(folder, pattern):
@@ -160,7 +182,7 @@ class Job:
     def restart_files(self):
         """what the run left to go on from, newest last"""
         found = self.folder.glob(self.restart) if self.restart and self.begun() else []
-        return sorted(found, key=lambda path: path.stat().st_mtime)
+        return sorted(filter(is_whole, found), key=lambda path: path.stat().st_mtime)
 
     def _saved(self):
         """files with particles and their times"""

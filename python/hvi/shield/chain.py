@@ -2,17 +2,19 @@
 """A run of a shield as a chain of lmp calls, each from the restart file of the one before.
 
 A restart file that was written is always read, by the next call of the chain: so a chain that was stopped has the bits of one
-that was not. Where it stands is in chain.yaml, which names the last whole restart file; two files are written in turn.
+that was not. Where it stands is in chain.yaml, which names the last whole restart file and the one before, with their
+checksums; two files are written in turn. One that is damaged is not gone on from: then the one before is.
 """
 
 import contextlib
 import math
 import os
 import pathlib
+import warnings
 
 import numpy as np
 
-from ..errors import HVIError
+from ..errors import HVIError, HVIWarning
 from ..jobs import engine
 from . import record, script, verdict
 from . import case as cases
@@ -63,12 +65,29 @@ class Job(engine.Job):
         self.case, self.which, self.shift = case, which, shift
         self.shield = shield_of(case, which, shift)
         self.legs = legs(self.shield)
+        self.known = {}  # (restart file, its time and size): checksum
         super().__init__(Written(self.shield), name, case.variables(which, shift), folder, remove=remove, weight=weight, made=(script.make, self.shield.files()))
 
     def chain(self):
-        """{leg: calls that are done, file: restart file}"""
+        """{leg: calls that are done, file: restart file}, of the last one that is as it was written"""
         found = engine.read_yaml(self.folder / CHAIN) if self.begun() else None
-        return found if found and (self.folder / str(found.get("file"))).is_file() else {"leg": 0, "file": None}
+        while found and not self.is_as_written(found):
+            found = found.get("before")
+        return found or {"leg": 0, "file": None}
+
+    def is_as_written(self, state):
+        """whether there is the restart file of a leg, and no byte of it has changed"""
+        path = self.folder / str(state.get("file"))
+        if not path.is_file():
+            return False
+        return state.get("checksum") in (None, self.checksum(path))
+
+    def checksum(self, path):
+        status = path.stat()
+        key = path, status.st_mtime_ns, status.st_size
+        if key not in self.known:
+            self.known[key] = engine.checksum_of(path)
+        return self.known[key]
 
     def restart_files(self):
         state = self.chain()
@@ -87,17 +106,28 @@ class Job(engine.Job):
     def launch(self, command, more=False):
         if not more:
             write_plan(self.shield, self.folder)
-        super().launch(command, more or self.chain()["leg"] > 0)
+        state = self.chain()
+        for path in engine.frames(self.folder, "film.*.dump"):  # of a call that was stopped; on other ranks these are not written again
+            if state["leg"] and int(path.name.split(".")[1]) > state.get("step", math.inf):
+                path.unlink()
+        super().launch(command, more or state["leg"] > 0)
 
     def take(self):
         """as engine.Job; a call that went on when the front door was killed may have ended since"""
         taken = super().take()
-        lost = (engine.read_yaml(self.folder / CHAIN) or {}).get("leg", 0) > self.chain()["leg"]  # its restart file is gone: it begins anew
-        if taken and self.begun() and self.result() is None and not lost:
-            log = self.folder / f"log.{self.chain()['leg'] + 1}.lammps"
-            if log.is_file() and "Total wall time" in log.read_text(errors="replace")[-200:]:
-                with contextlib.suppress(HVIError):  # what it has written is not there: it begins anew
-                    self.advance()
+        if not taken or not self.begun() or self.result() is not None:
+            return taken
+        state, written = self.chain(), engine.read_yaml(self.folder / CHAIN) or {}
+        log = self.folder / f"log.{state['leg'] + 1}.lammps"
+        if written.get("leg", 0) > state["leg"]:
+            warnings.warn(f"{self.folder / str(written.get('file'))} is gone or damaged: the run goes on from {state['file'] or 'its beginning'}", HVIWarning, stacklevel=2)
+            for path in (log, self.folder / str(written.get("file"))):  # the call that wrote it is made again
+                path.unlink(missing_ok=True)
+            if state["leg"]:
+                engine.write_yaml(self.folder / CHAIN, state)
+        elif log.is_file() and "Total wall time" in log.read_text(errors="replace")[-200:]:
+            with contextlib.suppress(HVIError):  # what it has written is not there: it begins anew
+                self.advance()
         return taken
 
     def goes_on_now(self, command):
@@ -115,9 +145,11 @@ class Job(engine.Job):
         steps, history = record.rows_of(self.folder / "history.dat")
         if history[-1, 0] >= self.until(leg) and leg + 1 < self.legs:
             file = f"shield.restart.{'ab'[leg % 2]}"
-            if not (self.folder / file).is_file():
-                raise HVIError(f"{self.folder}: the run has written no {file}, from which it would go on")
-            engine.write_yaml(self.folder / CHAIN, {"leg": leg + 1, "file": file, "step": int(steps[-1]), "time_us": float(history[-1, 0])})
+            if not engine.is_whole(self.folder / file):
+                raise HVIError(f"{self.folder}: the run has written no whole {file}, from which it would go on")
+            before = {key: value for key, value in self.chain().items() if key != "before"} if leg else None
+            engine.write_yaml(self.folder / CHAIN, {"leg": leg + 1, "file": file, "step": int(steps[-1]), "time_us": float(history[-1, 0]),
+                                                    "checksum": self.checksum(self.folder / file), "before": before})
             return False
         write_result(self.shield, self.folder)
         for path in (self.folder / CHAIN, *self.folder.glob("shield.restart.*")):
