@@ -93,7 +93,7 @@ sanitize:
 # goes on where it stopped; LAMMPS is not needed
 mutate:
 	@cmake/deps.sh build test
-	@python3 tests/unit/mutate.py --out $(OUT)-mutate $(MUTATE_ARGS)
+	@python3 tests/unit/mutants.py --out $(OUT)-mutate $(MUTATE_ARGS)
 
 # in the folder of make sanitize, whose lmp it runs
 MINUTES ?= 10

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Mutants of the library against its unit tests: what no test of tests/unit notices is not tested there.
 
-    python3 tests/unit/mutate.py                        until tests/unit/mutants.csv has 300 mutants that compile (--count N: N); goes on where it stopped
-    python3 tests/unit/mutate.py --again survived       the survivors once more, after new tests; killed: all others
-    python3 tests/unit/mutate.py --report               tests/unit/mutants.md from the record, without running anything
+    python3 tests/unit/mutants.py                        until tests/unit/mutants.csv has 300 mutants that compile (--count N: N); goes on where it stopped
+    python3 tests/unit/mutants.py --again survived       the survivors once more, after new tests; killed: all others
+    python3 tests/unit/mutants.py --report               tests/unit/mutants.md from the record, without running anything
 
 A mutant differs from the source in one token, or lacks a statement, or returns the negative. Sites are drawn at random, the same for
 the same seed and sources. Unit tests are programs of their own here, compiled without optimization, LAMMPS and ccache; a mutant runs
@@ -205,7 +205,7 @@ def report(rows, seed):
     compiled = [r for r in rows if r["outcome"] != "does not compile"]
     count = lambda rows, *what: sum(r["outcome"] in what for r in rows)
     reasons = collections.Counter(r["explanation"].split(":")[0] for r in compiled if r["outcome"] == "survived")
-    text = ["# Mutants of the library", "", "Written by `python3 tests/unit/mutate.py` (`make mutate`) from mutants.csv, which has each mutant.", "",
+    text = ["# Mutants of the library", "", "Written by `python3 tests/unit/mutants.py` (`make mutate`) from mutants.csv, which has each mutant.", "",
             f"Seed {seed}: {len(rows)} mutants, {len(rows) - len(compiled)} of them do not compile. Of the {len(compiled)} others the unit tests kill "
             f"{count(compiled, 'killed', 'timeout')} ({count(compiled, 'timeout')} by running without end); {count(compiled, 'survived')} survive:", "",
             *(f"- {n}: {why or 'not explained'}" for why, n in reasons.most_common()), "", "| room | compile | killed | survive |", "|---|---|---|---|"]
