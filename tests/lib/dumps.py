@@ -50,5 +50,6 @@ def named(frame, **computes):
                 del out[name]
     for c, names in computes.items():
         columns = [out.pop(name) for name in frame if name.split("[")[0] == f"c_{c}"]
+        assert columns, f"no column c_{c} in the dump"
         out.update(zip(names.split(), columns) if names else {c: np.stack(columns, axis=1)})
     return out

@@ -302,7 +302,7 @@ def test_failure_without_modulus(lmp, tmp_path, pair, jc, nranks):
     lmp("".join(again.format(k) + f"run {20 - k}\n" + OUT.format(f"from{k}") for k in steps), nranks=nranks)
     wrong = []
     for k in now:
-        then = named(read_dump(tmp_path / f"then{k}"), R="drho de")
+        then = named(read_dump(tmp_path / f"then{k}"), Q="drho de")
         wrong += [(k, name, np.abs(then[name] - now[k][name]).max()) for name in then if not np.array_equal(then[name], now[k][name])]
     wrong += [(f"from{k}", name) for k in steps for name, a in read(tmp_path / f"from{k}").items() if not np.array_equal(a, whole[name])]
     wrong += [("parts", name) for name in whole if not np.array_equal(now[20][name], whole[name])]
