@@ -13,7 +13,7 @@ import sys
 import pytest
 
 ROOT = pathlib.Path(os.environ.get("HVI_ROOT", pathlib.Path(__file__).resolve().parents[1]))
-sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent / "lib"), str(ROOT / "python")]  # pytest itself puts tests there, for reference
+sys.path[:0] = [str(ROOT / folder) for folder in ("tests/lib", "python", "bench", "doc/ext")]  # pytest itself puts tests there, for reference
 from corrected_scenes import commands_of_pair  # noqa: E402
 from lammps_runs import Result  # noqa: E402
 from solid_scenes import MATERIAL  # noqa: E402

@@ -4,16 +4,13 @@ import csv
 import importlib
 import itertools
 import json
-import sys
 
 import pytest
+import report
+import run as bench
+import runners
 import yaml
 from conftest import ROOT
-
-sys.path.insert(0, str(ROOT / "bench"))
-import report  # noqa: E402
-import run as bench  # noqa: E402
-import runners  # noqa: E402
 
 CASES = {path.stem: yaml.safe_load(path.read_text()) for path in sorted((ROOT / "bench" / "cases").glob("*.yaml"))}
 NEEDED = {"title", "group", "about", "runner", "methods", "default", "short"}

@@ -1,17 +1,12 @@
 """bench/runners/impact.py: a tiny run of each kind keeps the contract of the bench, and wrong settings are named."""
 
 import math
-import pathlib
-import sys
 
 import pytest
 import yaml
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "bench"))
-from runners import Cannot, impact  # noqa: E402
-
-from hvi.errors import HVIError  # noqa: E402
+from conftest import ROOT
+from hvi.errors import HVIError
+from runners import Cannot, impact
 
 CASES = {path.stem: yaml.safe_load(path.read_text()) for path in (ROOT / "bench" / "cases").glob("*.yaml")}
 CASES = {name: case for name, case in CASES.items() if case["runner"] == "impact"}

@@ -1,15 +1,9 @@
 """The report in doc/speed-error.md, and the tables of README.md and doc/src/Howto_choose.rst, are those of the records in bench/records."""
 
-import pathlib
-import sys
-
+import pareto
 import pytest
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "bench"), str(ROOT / "python")]
-
-import pareto  # noqa: E402
-import report  # noqa: E402
+import report
+from conftest import ROOT
 
 RECORDS = [str(ROOT / "bench" / "records")]
 

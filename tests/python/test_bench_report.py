@@ -4,25 +4,22 @@ import html.parser
 import io
 import json
 import os
-import pathlib
 import re
 import subprocess
 import sys
 
+import blocks
+import figures
 import numpy as np
+import pareto
 import pytest
+import report
+import sections
 import yaml
+from conftest import ROOT
+from hvi.errors import HVIError
+from hvi.report import page
 from PIL import Image
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "bench"))
-import blocks  # noqa: E402
-import figures  # noqa: E402
-import pareto  # noqa: E402
-import report  # noqa: E402
-import sections  # noqa: E402
-from hvi.errors import HVIError  # noqa: E402
-from hvi.report import page  # noqa: E402
 
 EVIL = "<script>alert(1)</script> | *star*"
 SOD = {"title": "Sod's shock tube", "group": "exact", "question": ["shock", "wave"], "about": f"A tube. {EVIL}",

@@ -2,7 +2,6 @@
 
 import re
 import shlex
-import sys
 
 import pytest
 from hvi import cli
@@ -14,7 +13,6 @@ def markdown(root):
 
 
 def test_every_style_has_its_page(root):
-    sys.path.insert(0, str(root / "doc" / "ext"))
     import stylepages
 
     assert list(stylepages.problems(root / "doc" / "src", root / "src" / "USER-HVI")) == []
@@ -33,7 +31,6 @@ def test_plain_ascii(root, markdown):
 
 def test_index_of_a_letter_with_an_accent_is_beside_it(root):
     """in MathML as Docutils writes it; limits of sums stay where they are"""
-    sys.path.insert(0, str(root / "doc" / "ext"))
     from accents import index_beside
 
     def formula(text):

@@ -6,7 +6,6 @@ Every file of potentials/ is read, checked, drawn, and must say what it has not 
 import csv
 import os
 import re
-import sys
 
 import numpy as np
 import pytest
@@ -186,7 +185,6 @@ def test_table(capsys, tmp_path):
 
 def test_table_of_the_documentation():
     """made from the files, and named in the page"""
-    sys.path.insert(0, str(ROOT / "doc" / "ext"))
     import materials
 
     rows = materials.rows(ROOT / "potentials")

@@ -1,15 +1,8 @@
 """bench/scaling.py: the model of communication and imbalance, by counting in small cases; no run, no time."""
 
-import importlib.util
-import pathlib
-
 import numpy as np
 import pytest
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-spec = importlib.util.spec_from_file_location("scaling", ROOT / "bench" / "scaling.py")
-scaling = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(scaling)
+import scaling
 
 
 def lattice(n):

@@ -31,7 +31,6 @@ def mine_folder(folder):
     return folder
 
 
-
 # ---------------------------------------------------------------------- lists
 def test_list_of_the_example():
     found = shots.read_list(shots.SETTINGS.parent / "shots.csv")
