@@ -20,7 +20,10 @@
 #include "hvi_mesh.h"
 #include "memory.h"
 #include "modify.h"
+#include "nbin.h"
+#include "neigh_list.h"
 #include "neighbor.h"
+#include "npair.h"
 #include "update.h"
 
 #include <algorithm>
@@ -36,9 +39,8 @@ static constexpr double FAR_AWAY = 1.0e100;
 static constexpr int LOOK_AHEAD = 5;     // steps
 static constexpr double MARGIN = 1.5;    // for velocities that change in these steps
 
-static constexpr double LEAST_BOX = 0.005;    // over the reach, or LAMMPS makes no bins
-static constexpr double MOST_BINS = 1.0e8,
-                        BINS_PER_PARTICLE = 100.0;    // of all ranks: on each; and more
+static constexpr double LEAST_BOX = 0.005;     // over the reach, or LAMMPS makes no bins
+static constexpr double MOST_BINS = 1.0e18;    // of that size: no debris flies so far
 
 static bool making = false;    // else it stands in an input
 
@@ -47,7 +49,7 @@ static bool making = false;    // else it stands in an input
 FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), has_rows(false), moved(nullptr), going(nullptr),
     nmax(0), farthest{}, beyond{}, unseen{}, delay(0), relative(true), ahead(false), made(0),
-    next(0), looked(0), known(false), leaving(false)
+    next(0), looked(0), known(false), leaving(false), sized(-1), bin(0.0), sort_bin(0.0)
 {
   if (!making)
     error->all(FLERR, "Fix hvi/lists is made by pair styles and cannot be given in an input");
@@ -115,15 +117,21 @@ bool FixHVILists::may_keep_rows(double cut) const
 }
 
 /* ----------------------------------------------------------------------
-   LAMMPS makes bins of half the reach in all of the box.  It says when it cannot, but not why, and a box that grows with
-   what flies away takes all time and memory before.
+   LAMMPS fills the box with bins of half the reach, twice, for neighbors and for sorting.  A box that grows with
+   debris would have more of them than there is memory: beyond so many they are wider.  A box without end says that
+   something else is wrong.
 ------------------------------------------------------------------------- */
 
 void FixHVILists::init()
 {
-  if (neighbor->style != Neighbor::BIN || !force->pair) return;
-  const bool sorts = atom->sortfreq > 0 && atom->userbinsize == 0.0;
-  check_box(domain->prd, force->pair->cutforce + neighbor->skin, sorts ? MAXSMALLINT : FAR_AWAY);
+  sized = neighbor->binsizeflag;
+  bin = neighbor->binsize_user;
+  sort_bin = atom->userbinsize;
+  if (force->pair && neighbor->style == Neighbor::BIN)
+    check_box(domain->prd, force->pair->cutforce + neighbor->skin,
+              update->ntimestep == 0 && atom->sortfreq > 0 && sort_bin == 0.0 ? MAXSMALLINT
+                                                                              : MOST_BINS);
+  pre_exchange();    // LAMMPS looks at bins for sorting before it asks fixes
 }
 
 void FixHVILists::setup_pre_exchange()
@@ -131,29 +139,46 @@ void FixHVILists::setup_pre_exchange()
   pre_exchange();
 }
 
+// of a box that is about to be another, both count
+
 void FixHVILists::pre_exchange()
 {
-  if (neighbor->style != Neighbor::BIN || domain->nonperiodic != 2 || atom->natoms == 0) return;
-  double ends[6], length[3];    // least coordinates, and least of those turned around
-  std::fill(ends, ends + 6, FAR_AWAY);
-  for (int i = 0; i < atom->nlocal; i++)
+  static constexpr double MANY = 4.0e6, PER_PARTICLE = 16.0;
+  double ends[6], length[3], size = 1.0;    // ends: less the highest
+  for (int k = 0; k < 3; k++) {
+    ends[k] = domain->boxlo[k];
+    ends[3 + k] = -domain->boxhi[k];
+  }
+  for (int i = 0; i < atom->nlocal && domain->nonperiodic == 2; i++)
     for (int k = 0; k < 3; k++) {
-      ends[k] = MIN(ends[k], atom->x[i][k]);
-      ends[3 + k] = MIN(ends[3 + k], -atom->x[i][k]);
+      if (domain->boundary[k][0] >= 2) ends[k] = MIN(ends[k], atom->x[i][k]);
+      if (domain->boundary[k][1] >= 2) ends[3 + k] = MIN(ends[3 + k], -atom->x[i][k]);
     }
   MPI_Allreduce(MPI_IN_PLACE, ends, 6, MPI_DOUBLE, MPI_MIN, world);
-  for (int k = 0; k < 3; k++) {
-    const double lo = domain->boundary[k][0] > 1 ? ends[k] : domain->boxlo[k];
-    const double hi = domain->boundary[k][1] > 1 ? -ends[3 + k] : domain->boxhi[k];
-    length[k] = MAX(hi - lo, LEAST_BOX * neighbor->cutneighmax);
+  for (int k = 0; k < domain->dimension; k++) {
+    length[k] = MAX(-(ends[k] + ends[3 + k]), 0.0);
+    size *= length[k];
   }
-  check_box(length, neighbor->cutneighmax,
-            MOST_BINS * comm->nprocs + BINS_PER_PARTICLE * atom->natoms);
+  if (force->pair && neighbor->style == Neighbor::BIN && domain->nonperiodic == 2)
+    check_box(length, force->pair->cutforce + neighbor->skin, MOST_BINS);
+  set_bins(pow(size / (MANY + PER_PARTICLE * atom->natoms), 1.0 / domain->dimension));
+}
+
+void FixHVILists::set_bins(double least)
+{
+  const double half = force->pair ? 0.5 * (force->pair->cutforce + neighbor->skin) : 0.0;
+  const bool wider = least > (sized ? bin : half);
+  neighbor->binsizeflag = wider ? 1 : sized;
+  neighbor->binsize_user = wider ? least : bin;
+  for (int k = 0; k < neighbor->nlist; k++)
+    if (NPair *const builds = neighbor->lists[k]->np)
+      if (builds->nb) builds->nb->copy_neighbor_info();
+  atom->userbinsize = least > (sort_bin > 0.0 ? sort_bin : half) ? least : sort_bin;
 }
 
 void FixHVILists::check_box(const double *length, double cut, double most) const
 {
-  const double bin = neighbor->binsizeflag ? neighbor->binsize_user : 0.5 * cut;
+  const double width = sized > 0 ? bin : 0.5 * cut;
   double bins = 1.0;
   for (int k = 0; k < domain->dimension && cut > 0.0; k++) {
     if (length[k] < LEAST_BOX * cut)
@@ -162,7 +187,7 @@ void FixHVILists::check_box(const double *length, double cut, double most) const
           "Particles are looked for within {:.6g}, the reach of the pair style and the skin, in "
           "a box that is only {:.6g} long along {}: is the reach of a type in other units?",
           cut, length[k], "xyz"[k]);
-    bins *= 1.0 + length[k] / bin;
+    bins *= 1.0 + length[k] / width;
   }
   if (bins > most)
     error->all(
@@ -236,6 +261,7 @@ void FixHVILists::setup(int /*vflag*/)
 
 void FixHVILists::post_run()
 {
+  if (sized >= 0) set_bins(0.0);
   if (neighbor->delay == NEVER) neighbor->delay = delay;
 }
 

@@ -77,9 +77,12 @@ class FixHVILists : public Fix {
   bigint made, next, looked;    // step when lists were made, are looked at next, were looked at
   bool known;                   // no particle has come since lists were made
   bool leaving;                 // some particle is to be lost
+  int sized;                    // size of bins of neigh_modify and atom_modify sort
+  double bin, sort_bin;
 
   void check_box(const double *length, double cut, double most) const;
   void measure();
+  void set_bins(double least);
   bool exceeded(double time);
 };
 
