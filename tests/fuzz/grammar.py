@@ -10,6 +10,8 @@ import random
 import re
 import sys
 
+import mutate
+import seeds
 from seeds import ROOT
 
 sys.path[1:1] = [str(ROOT / "tests"), str(ROOT / "tests" / "lib")]
@@ -174,6 +176,9 @@ class Writer:
             mesh, strike = fem_scenes.plate(nx=3, ny=2, nz=1, core=0, n=rng.choice([2, 3])), ""
         text = fem_scenes.start(mesh, boundary=" ".join(rng.choice("sfm") for _ in range(3)), newton=rng.choice(["on", "off"]), comm=rng.choice(["brick", "tiled"]),
                                 fem=self.some("fix_hvi_fem", 3, {"probe"}), spall=SPALL(rng), data=self.folder / "mesh.data")
+        if self.odd:  # the part that fix hvi/fem reads
+            whole, name, section = (self.folder / "mesh.data").read_bytes().partition(b"\nElements")
+            (self.folder / "mesh.data").write_bytes(whole + name + mutate.mutated(rng, [section], seeds.NUMBERS))
         text = re.sub(r"thermo_style.*\n|thermo_modify.*\n|thermo 10\n|fix step.*\n", "", text.replace(str(self.folder) + "/", "").replace(str(fem_scenes.ALUMINUM), "Al6061-T6.hvi"))
         lines = text.splitlines()
         cut = next(k for k, line in enumerate(lines) if line.startswith("pair_style"))
@@ -347,8 +352,6 @@ eps_c 0.15
 
 def beside(folder):
     """files that inputs read"""
-    import seeds
-
     (folder / "m.hvi").write_text(MATERIAL)
     (folder / "x.table").write_text(seeds.table().replace("UNITS: si", "UNITS: lj"))
 
