@@ -34,7 +34,7 @@ enum { MAXIMUM, CONTACT, SPRING, APPROACH, GROWING, SIGNAL, NLIMITER };
 
 FixHVIDt::FixHVIDt(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtmin(0.0), dtmax(HVI::NO_BOUND), floor(0.01), asked(0), every(1),
-    limiter(MAXIMUM), restored(0), chosen(0), laststep(0), first(0.0)
+    limiter(MAXIMUM), restored(0.0), chosen(0), laststep(0), first(0.0)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix hvi/dt", error);
 
@@ -112,10 +112,8 @@ void FixHVIDt::setup(int /*vflag*/)
   // reset_timestep may have turned back the clock
 
   if (laststep > update->ntimestep) laststep = update->ntimestep;
-  if (restored)
-    restored = 0;
-  else
-    apply(choose(chosen));
+  if (update->dt != restored) apply(choose(chosen));    // the command timestep may have changed it
+  restored = 0.0;
   chosen = 1;
 }
 
@@ -250,5 +248,5 @@ void FixHVIDt::restart(char *buf)
   limiter = static_cast<int>(list[1]);
   laststep = static_cast<bigint>(list[2]);
   first = list[3];
-  restored = 1;
+  restored = update->dt;
 }

@@ -39,9 +39,10 @@ class FixHVIDt : public Fix {
   double factor, dtmin, dtmax, floor;
   int asked, every;    // asked 0: every is what suits the sources
   int limiter;
-  int restored, chosen;    // dt is from a restart file, from an earlier run
-  bigint laststep;         // that chose dt
-  double first;            // step that was chosen; 0: none yet
+  double restored;    // dt of a restart file, 0: there was none
+  int chosen;         // in an earlier run
+  bigint laststep;    // that chose dt
+  double first;       // step that was chosen; 0: none yet
   std::vector<HVI::TimeStepSource *> sources;
 
   double choose(int);

@@ -92,6 +92,15 @@ def test_max(lmp):
     assert first(lmp, pair(3.0), f"{C} max 0.02") == (0.02, MAXIMUM)
 
 
+def test_timestep_after_a_restart(lmp):
+    """a step that the user changes is bounded at once, as at the start of a run; one that is not goes on"""
+    text = scene(pair(3.0), "s.data") + f"fix step all hvi/dt {C} max 0.02\n" + SHOW + "run 3\nwrite_restart r\n"
+    lmp(text)
+    again = f"read_restart r\nfix step all hvi/dt {C} max 0.02\n{{}}" + SHOW + "run 1\n"
+    assert list(lmp(again.format("")).thermo["Dt"]) == [0.02, 0.02]
+    assert list(lmp(again.format("timestep 0.5\n")).thermo["Dt"]) == [0.02, 0.02]
+
+
 @pytest.mark.parametrize("newton, nranks, comm", [("off", 1, "brick"), ("on", 2, "brick"), ("off", 2, "tiled"), ("on", 3, "tiled")])
 def test_same_on_any_layout(lmp, newton, nranks, comm):
     """the stiffest pair may lie across ranks"""
