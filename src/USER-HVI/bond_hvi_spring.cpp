@@ -109,7 +109,7 @@ template <int EVFLAG, int NEWTON_BOND, int EXACT> void BondHVISpring::eval()
 
   // a batch at a time: distances; forces, of as many at once as vectors have lanes; who gets them
 
-  double delx[NBATCH], dely[NBATCH], delz[NBATCH], rsq[NBATCH], force[NBATCH];
+  double delx[NBATCH], dely[NBATCH], delz[NBATCH], rsq[NBATCH], fbonds[NBATCH];
 
   for (int first = 0; first < nbondlist; first += NBATCH) {
     const int nbatch = MIN(NBATCH, nbondlist - first);
@@ -130,10 +130,10 @@ template <int EVFLAG, int NEWTON_BOND, int EXACT> void BondHVISpring::eval()
 
     if (atom->nbondtypes == 1) {
       const HVI::Spring s = law[1];
-      for (int n = 0; n < nbatch; n++) force[n] = s.force(rsq[n]);
+      for (int n = 0; n < nbatch; n++) fbonds[n] = s.force(rsq[n]);
     } else
       for (int n = 0; n < nbatch; n++)
-        force[n] = bond[n][2] > 0 ? law[bond[n][2]].force(rsq[n]) : 0.0;
+        fbonds[n] = bond[n][2] > 0 ? law[bond[n][2]].force(rsq[n]) : 0.0;
 
     for (int n = 0; n < nbatch; n++) {
       const int type = bond[n][2];
@@ -141,7 +141,7 @@ template <int EVFLAG, int NEWTON_BOND, int EXACT> void BondHVISpring::eval()
       const int i1 = bond[n][0];
       const int i2 = bond[n][1];
       const HVI::Spring &s = law[type];
-      const double fbond = force[n];
+      const double fbond = fbonds[n];
 
       if (s.broken(rsq[n])) {
         bond[n][2] = 0;
@@ -171,7 +171,7 @@ template <int EVFLAG, int NEWTON_BOND, int EXACT> void BondHVISpring::eval()
    and the half kick it no longer gives into the ledger
 ------------------------------------------------------------------------- */
 
-void BondHVISpring::break_bond(int i1, int i2, int type, int newton_bond, double energy, double fx,
+void BondHVISpring::break_bond(int i1, int i2, int type, int newton_bond, double ebond, double fx,
                                double fy, double fz)
 {
   const int nlocal = atom->nlocal;
@@ -181,7 +181,7 @@ void BondHVISpring::break_bond(int i1, int i2, int type, int newton_bond, double
   // newton_bond off: a bond between ranks is broken, and half of it booked, on both
 
   const int booked_here_alone = newton_bond || i2 < nlocal;
-  ledger->book_break(nerased, booked_here_alone ? energy : 0.5 * energy);
+  ledger->book_break(nerased, booked_here_alone ? ebond : 0.5 * ebond);
   ledger->book_lost_kick(i1, fx, fy, fz);
   if (booked_here_alone) ledger->book_lost_kick(i2, -fx, -fy, -fz);
 }

@@ -94,7 +94,7 @@ void ComputeHVICloud::compute_vector()
   each([&](int i, double m, const double *x) {
     if (!(x[axis] > plane)) return;
 
-    Particle p;
+    Particle p = {};
     p.mass = m;
     p.s = x[axis];
     p.vs = v[i][axis];

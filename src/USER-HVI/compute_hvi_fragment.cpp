@@ -212,19 +212,19 @@ void ComputeHVIFragment::make_rows()
 
   each([&](int i, double m, const double *x) {
     if (id[i] == 0) return;
-    const HVI::Components::Node &fragment = components.component(i);
-    const bool here = fragment.rank == comm->me;
-    const int vertex = here ? fragment.vertex : components.local(i);
+    const HVI::Components::Node &piece = components.component(i);
+    const bool here = piece.rank == comm->me;
+    const int vertex = here ? piece.vertex : components.local(i);
 
     if (slot[vertex] < 0) {
-      const Row empty = {std::abs(fragment.id), 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0, 0};
+      const Row empty = {std::abs(piece.id), 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0, 0};
       if (here) {
         slot[vertex] = rows.size();
         rows.push_back(empty);
       } else {
         slot[vertex] = shares.size();
-        shares.push_back({empty, fragment.vertex});
-        rank.push_back(fragment.rank);
+        shares.push_back({empty, piece.vertex});
+        rank.push_back(piece.rank);
       }
     }
     Row &row = here ? rows[slot[vertex]] : shares[slot[vertex]].row;

@@ -329,8 +329,9 @@ void ComputeHVIHole::make_map(double spacing)
       for (int sy = mirrored[1] ? -1 : 1; sy <= 1; sy += 2) {
         const double share = unit * p.mass / (p.parts * p.parts), edge = 0.5 * (p.parts - 1);
         for (int c = 0; c < p.parts * p.parts; c++) {
-          const double u[2] = {map.node(0, sx * p.y[0] + grain * (c / p.parts - edge)),
-                               map.node(1, sy * p.y[1] + grain * (c % p.parts - edge))};
+          const int row_of_parts = c / p.parts, column = c % p.parts;
+          const double u[2] = {map.node(0, sx * p.y[0] + grain * (row_of_parts - edge)),
+                               map.node(1, sy * p.y[1] + grain * (column - edge))};
           if (u[0] < 1.0 || u[0] >= map.n[0] - 2 || u[1] < 1.0 || u[1] >= map.n[1] - 2) continue;
           const int i[2] = {(int) u[0], (int) u[1]};
           double w[2][4];
@@ -344,7 +345,7 @@ void ComputeHVIHole::make_map(double spacing)
           for (int a = 0; a < 4; a++) {
             int64_t *const row = &mass[map.index(i[0] + a - 1, i[1] - 1)];
             const double part = share * w[0][a];
-            for (int b = 0; b < 4; b++) row[b] += (int64_t) (part * w[1][b] + 0.5);
+            for (int b = 0; b < 4; b++) row[b] += std::llround(part * w[1][b]);
           }
         }
       }

@@ -61,14 +61,14 @@ class ComputeHVIHole : public ComputeHVIMatter {
 
   // the plate's layer; all but the particles is the same on all ranks
 
-  std::vector<Particle> layer;    // of this rank
-  double half, farthest;          // thickness of the layer / 2, largest |s|
-  int64_t count, cells;           // of its particles, and of their parts
-  double least_mass;              // of a particle
-  double mean_mass, unit;         // of a part; masses are added up as integers: mass * unit
-  double grain;                   // how far parts are from each other
-  bool mirrored[2];
-  double lo[2], hi[2];    // where the plate is
+  std::vector<Particle> layer;           // of this rank
+  double half = 0.0, farthest = 0.0;     // thickness of the layer / 2, largest |s|
+  int64_t count = 0, cells = 0;          // of its particles, and of their parts
+  double least_mass = 0.0;               // of a particle
+  double mean_mass = 0.0, unit = 0.0;    // of a part; masses are added up as integers: mass * unit
+  double grain = 0.0;                    // how far parts are from each other
+  bool mirrored[2] = {};
+  double lo[2] = {}, hi[2] = {};    // where the plate is
   std::vector<int64_t> mass;
   HVI::Plate map;
 

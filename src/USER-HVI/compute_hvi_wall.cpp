@@ -62,9 +62,9 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
     axis = other->axis;
     id_fix = utils::strdup(other->id_fix);
     owns_fix = false;
-    for (const Wall &w : other->walls) {
+    for (const Place &place : other->walls) {
       walls.emplace_back();
-      static_cast<Place &>(walls.back()) = w;
+      static_cast<Place &>(walls.back()) = place;
     }
   } else {
     if (strcmp(arg[iarg], "axis") != 0)
@@ -153,7 +153,7 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
   if (first->restart_reset)
     first->restart_reset = 0;
   else
-    for (int i = 0; i < atom->nlocal; i++) set_arrays(i);
+    for (int i = 0; i < atom->nlocal; i++) ComputeHVIWall::set_arrays(i);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -514,11 +514,11 @@ void ComputeHVIWall::find_pieces()
    the piece that has the particle with this ID; 0: there is none
 ------------------------------------------------------------------------- */
 
-int64_t ComputeHVIWall::piece_of(const std::vector<int64_t> &piece, int64_t id) const
+int64_t ComputeHVIWall::piece_of(const std::vector<int64_t> &piece, int64_t tag) const
 {
   int64_t mine = 0, found;
   for (int i = 0; i < atom->nlocal; i++)
-    if (atom->tag[i] == id) mine = piece[i];
+    if (atom->tag[i] == tag) mine = piece[i];
   MPI_Allreduce(&mine, &found, 1, MPI_INT64_T, MPI_MAX, world);
   return found;
 }

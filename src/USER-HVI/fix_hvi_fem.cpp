@@ -603,13 +603,13 @@ void FixHVIFEM::check_state()
   int here = 1, all;
   for (std::size_t e = 0; e < elements.size(); e++) {
     Element &one = elements[e];
-    if (const auto *const begun =
+    if (const auto *const other =
             HVI::SolidModel::misread(mechanics.laws[one.type].solid, one.solid))
       error->one(FLERR,
                  "Fix hvi/fem: element {} of type {} has {}, by {}, which its type does not have "
                  "in this run: give fix hvi/johnson-cook the keywords, and the type the material "
                  "file, of the run that its state is from",
-                 one.id, one.type, begun->what, begun->law);
+                 one.id, one.type, other->what, other->law);
     if (one.fingerprint != fingerprint(e)) here = 0;
     const double volume = load(e).V[0];
     if (std::fabs(volume - one.V) > 1.0e-9 * one.V) {
@@ -712,17 +712,17 @@ double FixHVIFEM::void_work(int i) const
    Lists leave out pairs of embedded particles.  First nodes are owned here: others, and particles, hang on them.
 ------------------------------------------------------------------------- */
 
-void FixHVIFEM::join(HVI::Components &components, const std::vector<std::int64_t> &id, int first,
+void FixHVIFEM::join(HVI::Components &components, const std::vector<std::int64_t> &ids, int first,
                      bool failed_alone)
 {
-  const auto counts = of_embedded.gather([&id](int i) {
-    return id[i];
+  const auto held = of_embedded.gather([&ids](int i) {
+    return ids[i];
   });
   std::vector<char> holds(elements.size());
   for (std::size_t e = 0; e < elements.size(); e++)
     holds[e] = elements[e].n == 0 && !(failed_alone && elements[e].solid.failed());
-  for (std::size_t k = 0; k < counts.size(); k++)
-    if (counts[k] > 0) holds[embedded[k].element] = 1;
+  for (std::size_t k = 0; k < held.size(); k++)
+    if (held[k] > 0) holds[embedded[k].element] = 1;
 
   const auto hang = [&](const Element &one, std::int64_t tag, int slot) {
     const int i = of_nodes.local(tag);

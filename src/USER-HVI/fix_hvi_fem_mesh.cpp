@@ -383,7 +383,8 @@ int FixHVIFEMMesh::copy_all(int i, double *buf) const
     if (buf) memcpy(buf + m, &one, sizeof(Element));
     m += ELEMENT_SIZE;
   });
-  if (buf) buf[1] = (m - 2) / ELEMENT_SIZE;
+  const int number = (m - 2) / ELEMENT_SIZE;
+  if (buf) buf[1] = number;
   return m;
 }
 
@@ -468,8 +469,9 @@ static int columns(int section)
 
 void FixHVIFEMMesh::read_data_section(char *keyword, int n, char *buf, tagint offset)
 {
-  const int section = utils::strmatch(keyword, "_state_\\d+$") ? 1 + atoi(strrchr(keyword, '_') + 1)
-                                                               : 0;
+  const int section = utils::strmatch(keyword, "_state_\\d+$")
+      ? 1 + utils::inumeric(FLERR, strrchr(keyword, '_') + 1, false, lmp)
+      : 0;
   if (section && by_id.size() != elements.size()) {
     by_id.clear();
     for (std::size_t e = 0; e < elements.size(); e++) by_id[elements[e].id] = e;
@@ -491,7 +493,7 @@ void FixHVIFEMMesh::read_data_section(char *keyword, int n, char *buf, tagint of
       if (section) {
         const auto found = by_id.find(one.id);
         if (found == by_id.end()) continue;    // of another rank
-        double number[COLUMNS];
+        double number[COLUMNS] = {};
         for (int c = 0; c < columns(section); c++) number[c] = values.next_double();
         memcpy((double *) &elements[found->second] + IDS + COLUMNS * (section - 1), number,
                columns(section) * sizeof(double));
@@ -525,7 +527,7 @@ void FixHVIFEMMesh::read_data_section(char *keyword, int n, char *buf, tagint of
 
 void FixHVIFEMMesh::write_data_header(FILE *fp, int /*mth*/)
 {
-  fmt::print(fp, "{} elements\n", total);
+  utils::print(fp, "{} elements\n", total);
 }
 
 void FixHVIFEMMesh::write_data_section_size(int section, int &nx, int &ny)
@@ -541,7 +543,7 @@ void FixHVIFEMMesh::write_data_section_keyword(int section, FILE *fp)
   const std::string name = section ? fmt::format("{}_state_{}", id, section - 1) : "Elements";
   utils::logmesg(lmp, "  section {1}: for read_data, fix {0} {2} {1}\n", id, name,
                  section ? "NULL" : "elements");
-  fmt::print(fp, "\n{}\n\n", name);
+  utils::print(fp, "\n{}\n\n", name);
 }
 
 void FixHVIFEMMesh::write_data_section_pack(int section, double **buf)
@@ -563,7 +565,7 @@ void FixHVIFEMMesh::write_data_section(int section, FILE *fp, int n, double **bu
     for (int c = 1; c <= columns(section); c++)
       line += section ? fmt::format(" {}", buf[row][c])
                       : fmt::format(" {}", (bigint) ubuf(buf[row][c]).i);
-    fmt::print(fp, "{}\n", line);
+    utils::print(fp, "{}\n", line);
   }
 }
 

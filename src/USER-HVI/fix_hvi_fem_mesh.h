@@ -125,7 +125,7 @@ class FixHVIFEMMesh : public Fix {
   std::vector<HVI::Cells> subcells;    // by n
   std::size_t moved =
       -1;    // element that motion() was asked of before, and what it found of its corners
-  HVI::Motion corner_motion[HVI::CORNERS];
+  HVI::Motion corner_motion[HVI::CORNERS] = {};
 
   bigint announced = -1;         // number of elements in the header of a data file
   std::int64_t id_before = 0;    // largest ID of elements before a data file

@@ -62,7 +62,7 @@ FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
 
 FixHVILists::~FixHVILists()
 {
-  if (neighbor) post_run();    // also if an error has ended the run
+  if (neighbor) FixHVILists::post_run();    // also if an error has ended the run
   memory->destroy(moved);
   memory->destroy(going);
 }

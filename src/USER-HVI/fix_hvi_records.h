@@ -315,8 +315,8 @@ void FixHVIRecords<Owner, Record>::read_data_section(char *keyword, int n, char 
       return rows.has(i);
     });
     if (!given) extra[i] = fresh;
-    for (int n = 0; n < nfields; n++) {
-      const Field &field = fields[n];
+    for (int m = 0; m < nfields; m++) {
+      const Field &field = fields[m];
       if (!field.column || field.section != k) continue;
       if (field.set)
         field.set(static_cast<Owner &>(*this), i, *value);

@@ -490,13 +490,13 @@ double FixHVISPH::first_half_solid(int i, double dtfm)
   double *const v = atom->v[i], *const f = atom->f[i];
   Extra &e = extra[i];
   const double beyond = missed_work(i), gain = atom->desph[i] - beyond, kick = missed_kick(i);
-  const bool known = !std::isnan(e.old_drho);
+  const bool has_old = !std::isnan(e.old_drho);
   const double dtf_then = 0.5 * last;    // to the last digit as at the end of the last step
   const double per_mass =
       dtf_then / (atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]]) / dtf_then;
   for (int k = 0; k < 3; k++) {
     const double end = v[k] + 2.0 * dtfm * f[k];
-    const double change = known ? per_mass * f[k] - e.old_a[k] : 0.0;
+    const double change = has_old ? per_mass * f[k] - e.old_a[k] : 0.0;
     v[k] += dtfm * f[k];
     atom->x[i][k] += dtv * v[k];
     e.v_work[k] = end + dtf / 3.0 * change;
@@ -504,8 +504,8 @@ double FixHVISPH::first_half_solid(int i, double dtfm)
     atom->vest[i][k] = v[k];
   }
   const double drho = dtf * atom->drho[i], de = dtf * gain;
-  e.drho = drho + dtv * (known ? atom->drho[i] - e.old_drho : 0.0);
-  e.de = de + dtf * (known ? gain - e.old_de : 0.0);
+  e.drho = drho + dtv * (has_old ? atom->drho[i] - e.old_drho : 0.0);
+  e.de = de + dtf * (has_old ? gain - e.old_de : 0.0);
   e.old_drho = e.drho != 0.0 || e.de != 0.0 ? atom->drho[i] : NAN;
   e.old_de = gain;
   e.new_rho = atom->rho[i];
@@ -533,7 +533,7 @@ void FixHVISPH::pre_force(int /*vflag*/)
 
 void FixHVISPH::final_integrate()
 {
-  const HVI::SphFields &fields = store->fields;
+  const HVI::SphFields &sph = store->fields;
   double *const rho = atom->rho, *const esph = atom->esph;
   double missed = 0.0;
   swiftest = 0.0;
@@ -546,8 +546,8 @@ void FixHVISPH::final_integrate()
     e.rates_rho = rho[i];
     e.rates_esph = esph[i];
     double gain = atom->desph[i];
-    if (fields.settings.solid && has_material(i)) {
-      const double beyond = missed_work(i), by_L = -fields.density(i) * fields.divergence(i);
+    if (sph.settings.solid && has_material(i)) {
+      const double beyond = missed_work(i), by_L = -sph.density(i) * sph.divergence(i);
       gain -= beyond;
       missed += dtf * beyond;
       e.step = may_be_still(i) ? -dtv : dtv;
@@ -565,14 +565,14 @@ void FixHVISPH::final_integrate()
   ledger->book_missed(missed);
   keep_places();
 
-  const double now = fields.viscous_power;
+  const double now = sph.viscous_power;
   ledger->book_viscous(dtf * (power + now));
   power = now;
-  if (fields.settings.mirror.planes) {
+  if (sph.settings.mirror.planes) {
     double impulse[3];
     for (int k = 0; k < 3; k++) {
-      impulse[k] = dtf * (push[k] + fields.plane_force[k]);
-      push[k] = fields.plane_force[k];
+      impulse[k] = dtf * (push[k] + sph.plane_force[k]);
+      push[k] = sph.plane_force[k];
     }
     ledger->book_mirror(impulse);
   }
@@ -715,8 +715,8 @@ void FixHVISPH::count_frozen() const
 
 const double *FixHVISPH::work_velocity(int i) const
 {
-  const bool known = integrates(i) || (atom->mask[i] & store->embedded);
-  return known ? extra[i].v_work : atom->v[i];
+  const bool has_own = integrates(i) || (atom->mask[i] & store->embedded);
+  return has_own ? extra[i].v_work : atom->v[i];
 }
 
 void FixHVISPH::set_work_velocity(int i, const double *v)
@@ -903,14 +903,14 @@ void FixHVISPH::check_restart() const
 
 void FixHVISPH::check_left_out() const
 {
-  int known = groupbit | wallbit;
+  int cared_for = groupbit | wallbit;
   for (const Fix *const other : modify->get_fix_list())
     if (utils::strmatch(other->style, "^sph") || utils::strmatch(other->style, "^meso") ||
         utils::strmatch(other->style, "^move$") || utils::strmatch(other->style, "^rigid"))
-      known |= other->groupbit;
+      cared_for |= other->groupbit;
   bigint here = 0, everywhere;
   for (int i = 0; i < atom->nlocal; i++)
-    if (has_material(i) && !(atom->mask[i] & known)) here++;
+    if (has_material(i) && !(atom->mask[i] & cared_for)) here++;
   MPI_Allreduce(&here, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (everywhere && comm->me == 0)
     error->warning(

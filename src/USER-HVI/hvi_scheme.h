@@ -50,7 +50,7 @@ struct HVIPairTables {
 class HVIScheme : protected Pointers {
  public:
   HVIScheme(class LAMMPS *, const HVIPairTables &);
-  virtual ~HVIScheme() = default;
+  ~HVIScheme() override = default;
 
   void prepare();
   void forces(bool tally);
@@ -123,10 +123,10 @@ class HVIScheme : protected Pointers {
   void start();    // images, inactive particles, records of owned particles, ghosts and images
   double mass(int i) const;
   bool has_record(int i) const;    // of this style, and neither idle nor frozen
-  template <class Work> void each_active(const Work &work) const    // owned particle
+  template <class Work> void each_active(const Work &action) const    // owned particle
   {
     for (const int i : active)
-      if (has_record(i)) work(i);
+      if (has_record(i)) action(i);
   }
   void take_out(int i);
   [[noreturn]] void no_answer(int i, double rho) const;

@@ -98,7 +98,8 @@ class HVITagExchange : protected Pointers {
   void run(const Side &from, const Side &to, const Pack &pack, const Unpack &unpack)
   {
     using Row = std::decay_t<decltype(pack(0))>;
-    static constexpr int WIDTH = sizeof(Row) / sizeof(double);
+    static constexpr int WIDTH =
+        sizeof(Row) / sizeof(double);    // NOLINT(bugprone-sizeof-expression): 1 of a number
     static_assert(std::is_trivially_copyable<Row>::value && WIDTH * sizeof(double) == sizeof(Row),
                   "a row is plain data of numbers of eight bytes");
     sent.resize(from.there.size() * WIDTH);

@@ -151,17 +151,17 @@ void PairHVIContact::work_off(const Touching &touch, int ntouch)
   const int *const type = atom->type;
   const int nlocal = atom->nlocal;
 
-  double force[NTOUCH];    // Watson & Steinhauser eq 2
+  double fpairs[NTOUCH];    // Watson & Steinhauser eq 2
   const HVI::Contact one_law = common;
   for (int n = 0; n < ntouch; n++)
-    force[n] = (UNIFORM ? one_law : law[type[touch.i[n]]][type[touch.j[n]]]).force(touch.rsq[n]);
+    fpairs[n] = (UNIFORM ? one_law : law[type[touch.i[n]]][type[touch.j[n]]]).force(touch.rsq[n]);
 
   for (int n = 0; n < ntouch; n++) {
     const int i = touch.i[n], j = touch.j[n];
     if (touch.rsq[n] == 0.0)
       error->one(FLERR, "Pair hvi/contact: particles {} and {} are at the same place at step {}",
                  atom->tag[i], atom->tag[j], update->ntimestep);
-    const double fpair = force[n];
+    const double fpair = fpairs[n];
     f[i][0] += touch.delx[n] * fpair;
     f[i][1] += touch.dely[n] * fpair;
     f[i][2] += touch.delz[n] * fpair;

@@ -48,9 +48,9 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::Ener
 
  protected:
   double prefactor;
-  int relative;           // 1 if lists are made anew by relative motion
-  int uniform;            // 1 if all pairs of types share one law,
-  HVI::Contact common;    // and this is it
+  int relative;                // 1 if lists are made anew by relative motion
+  int uniform;                 // 1 if all pairs of types share one law,
+  HVI::Contact common = {};    // and this is it
   double **epsilon, **sigma;
   HVI::Contact **law;
   bool looked;    // for pairs that are deep in each other

@@ -820,9 +820,9 @@ void PairHVISPH::compute(int eflag, int vflag)
   if (vflag_fdotr) virial_fdotr_compute();
 }
 
-int PairHVISPH::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+int PairHVISPH::pack_forward_comm(int n, int *sent, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {
-  return scheme->pack_forward(n, list, buf);
+  return scheme->pack_forward(n, sent, buf);
 }
 
 void PairHVISPH::unpack_forward_comm(int n, int first, double *buf)
@@ -835,9 +835,9 @@ int PairHVISPH::pack_reverse_comm(int n, int first, double *buf)
   return scheme->pack_reverse(n, first, buf);
 }
 
-void PairHVISPH::unpack_reverse_comm(int n, int *list, double *buf)
+void PairHVISPH::unpack_reverse_comm(int n, int *sent, double *buf)
 {
-  scheme->unpack_reverse(n, list, buf);
+  scheme->unpack_reverse(n, sent, buf);
 }
 
 /* ---------------------------------------------------------------------- */

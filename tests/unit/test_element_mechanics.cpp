@@ -99,7 +99,7 @@ struct Body {
     ElementBatch b = batch();
     int lane = -1;
     const int trouble = solid.mechanics.advance(b, dt, due, lane);
-    if (trouble) EXPECT_EQ(lane, 0);
+    if (trouble) { EXPECT_EQ(lane, 0); }
     return trouble;
   }
 

@@ -90,8 +90,8 @@ void look(const Scene &s, double at, bool above, bool newton,
       EXPECT_EQ(motion.cell_of(*i), c);
       EXPECT_LT(*i, owned);
       seen++;
-      if (before[*i]) EXPECT_EQ(before[*i], lists.first[*i]);
-      if (!lists.has(c)) EXPECT_EQ(lists.number[*i], 0);
+      if (before[*i]) { EXPECT_EQ(before[*i], lists.first[*i]); }
+      if (!lists.has(c)) { EXPECT_EQ(lists.number[*i], 0); }
       for (int k = 0; k < lists.number[*i]; k++) {
         const int a = number_of[*i], b = number_of[lists.first[*i][k]];
         found[{std::min(a, b), std::max(a, b)}]++;

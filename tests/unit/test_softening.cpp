@@ -13,7 +13,7 @@ using namespace HVI;
 
 namespace {
 
-const double G = 26e9, Y = 0.3e9, RHO = 2700.0;
+const double Y = 0.3e9, RHO = 2700.0;
 const std::string EOS = "eos gruneisen\nrho0 2700\nC 5240\nS1 1.4\ng0 2\na 0.5\ncp 885\n";
 const std::string PERFECT = "strength perfect\nG 26e9\nY 0.3e9\n";
 const std::string DAMAGE = "damage johnson-cook\nD1 0.2\nD2 0\nD3 0\nD4 0\nD5 0\n";

@@ -152,7 +152,7 @@ namespace {
     if (given) return twice();
     given = true;
     if (name == "rho0") {
-      const std::string problem = value(name, words[1], DENSITY, data.rho0);
+      std::string problem = value(name, words[1], DENSITY, data.rho0);
       if (problem.empty() && !(data.rho0 > 0.0)) return lines.here("rho0 must be > 0");
       return problem;
     }

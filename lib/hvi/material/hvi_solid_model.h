@@ -195,8 +195,8 @@ class SolidModel {
   double u_f = 0.0;    // of fracture
   double biggest = NO_LIMIT;
   std::shared_ptr<const Eos> eos;
-  double rho0;
-  Spall spall;
+  double rho0 = 0.0;
+  Spall spall = Spall::NONE;
   double sigma_p = 0.0;    // limit of tension
   bool with_spall = false, with_voids = false;
   SpallVoids voids = {};
@@ -204,9 +204,9 @@ class SolidModel {
   SpallGrady grady = {};
   double fragment_energy = 0.0;            // per volume, 0: unknown
   double T0 = 0.0, cp = 0.0, chi = 1.0;    // temperature from plastic work
-  bool thermal, from_work;
-  double weibull, reference;
-  int seed, dim;
+  bool thermal = false, from_work = false;
+  double weibull = 0.0, reference = 0.0;
+  int seed = 0, dim = 3;
 
   SolidModel() = default;
   std::string take_spall(const Material &);

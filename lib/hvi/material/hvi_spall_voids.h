@@ -108,7 +108,7 @@ struct SpallVoids {
     if (g == 0.0) return std::min(-tension, NO_TENSION);
     double lo = 0.0, hi = full > 1.0 ? 1.0 + std::log(full) : 1.0;
     for (int k = 0; k < 200; k++) {
-      const bool chord = k % 4 < 3 && g > lo && g < hi;
+      const bool chord = (k % 4 < 3) && (g > lo) && (g < hi);
       if (!chord) g = 0.5 * (lo + hi);
       left = before * std::exp(-g);
       now = eos.evaluate(rho / left, e, p, csq) ? -left * p : -tension;

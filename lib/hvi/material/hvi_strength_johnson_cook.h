@@ -90,10 +90,10 @@ struct StrengthJohnsonCook {
      much.  The error of a step is like the cube of the one before.  Where that fails: NaN.
   ------------------------------------------------------------------------- */
 
-  Vec solve(const Vec &trial, const Vec &G, const Vec &factor, const Vec &eps, double dt) const
+  Vec solve(const Vec &trial, const Vec &shear, const Vec &factor, const Vec &eps, double dt) const
   {
     const Vec zero = {}, unknown = zero + NAN;
-    const Vec y0 = factor * (A + B * power(eps)), G3 = 3.0 * G;
+    const Vec y0 = factor * (A + B * power(eps)), G3 = 3.0 * shear;
     Vec end = trial > y0 ? unknown : trial;
     Vec x = (trial - y0) / G3;
     const double c = dt > 0.0 ? C : 0.0;
@@ -118,7 +118,7 @@ struct StrengthJohnsonCook {
       const Vec bend = 1.0 + 0.5 * newton * (G3x + Y2) * slope;
       const Vec step = newton / (bend > 0.5 ? bend : zero + 0.5);
       const Vec last = abs(step) < 1e-5 ? Y + step * (Y1 + 0.5 * step * Y2) : unknown;
-      end = end == end ? end : last;
+      end = end == end ? end : last;    // NOLINT(misc-redundant-expression): where NaN
       if (sum(end) == sum(end)) break;
       x *= exp(step);
       L += step;

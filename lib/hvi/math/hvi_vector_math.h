@@ -66,7 +66,7 @@ HVI_INLINE Vec log(const Vec &x)
   static constexpr double odd[12] = {1.0 / 3,  1.0 / 5,  1.0 / 7,  1.0 / 9,  1.0 / 11, 1.0 / 13,
                                      1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21, 1.0 / 23, 1.0 / 25};
   const Vec value = n * LN2_HIGH + (2.0 * f + (2.0 * f * s * polynomial(odd, s) + n * LN2_LOW));
-  return x == x ? value : x;
+  return x == x ? value : x;    // NOLINT(misc-redundant-expression): a NaN stays
 }
 
 }    // namespace HVI
