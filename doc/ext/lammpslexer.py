@@ -1,6 +1,6 @@
 """Colors for LAMMPS input: the command, comments, variables, quoted text."""
 
-from pygments.lexer import RegexLexer, bygroups
+from pygments.lexer import RegexLexer
 from pygments.token import Comment, Keyword, Name, String, Text
 
 

@@ -333,7 +333,7 @@ COPPER = ("eos gruneisen rho0 8930 C 3815.4 S1 1.49 g0 2.0 cp 383 T0 300",
 
 def octant(radial, across, inner=8.0, outer=10.0):
     """An eighth of a shell, of three patches of squares between an axis and the diagonal; radial: layers, across: squares along an edge of a patch"""
-    axes, u = np.eye(3), np.arange(across + 1) / across
+    axes = np.eye(3)
     points, cells = [], []
     grid = block(across, across, radial, n=0)
     for k in range(3):

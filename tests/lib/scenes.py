@@ -195,7 +195,7 @@ def impact(n=4000, tD=0.425, rp=20.0, v0=6700.0, newton="on", comm="tiled", sort
     a, a0 = (volume * 1e-9 / n) ** (1 / 3), 2.738e-4  # spacing, and that of the paper's main case
     sigma, s = a / R_EQ, a / a0
     rs, t, half = 0.5e-3 * d, 1e-3 * tD * d, 2.5e-3 * rp
-    styles = f"""pair_style hvi/contact
+    styles = """pair_style hvi/contact
 bond_style hvi/spring
 """
     coeffs = f"""pair_coeff * * {0.01 * s**3} {sigma}

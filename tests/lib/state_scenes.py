@@ -224,11 +224,11 @@ if __name__ == "__main__":
     a.add_argument("--liquid", action="store_true", help="without strength")
     a.add_argument("--profile", action="store_true", help="prints the means of the layers, from the contact, in units of the exact state")
     o = vars(a.parse_args())
-    exe, case, profile = (o.pop(k) for k in ("lmp", "case", "profile"))
+    exe, case, layers = (o.pop(k) for k in ("lmp", "case", "profile"))
     out = run_case(exe, case, **o)
     print(f"{case}, {o['kernel']} {o['h']}, h {'variable' if o['variable'] else 'constant'}, {o['words']}: {name(out)}; errors in %")
     print(lines(out))
-    if profile:
+    if layers:
         for side in ("flyer", "target"):
             rows, want = out[side]["layers"], out[side]["exact"][-1]
             print(side)

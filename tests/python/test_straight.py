@@ -85,8 +85,7 @@ def test_front_door_runs_it(root, lmp_exe, tmp_path, capsys, monkeypatch):
     status = cli.main(words)
     assert status in (0, 3, 4) and "2 runs, 0 done before, 2 to run" in capsys.readouterr().out
     assert cli.main(words) == status and "2 runs, 2 done before, 0 to run" in capsys.readouterr().out
-    saved = yaml.safe_load((tmp_path / "runs/c/verdict.yaml").read_text())
-    assert not list(tmp_path.glob("runs/c/*/chain.yaml"))
+    assert (tmp_path / "runs/c/verdict.yaml").exists() and not list(tmp_path.glob("runs/c/*/chain.yaml"))
     assert cli.main(["report", "runs/c"]) == 0 and (tmp_path / "runs/c/report.html").stat().st_size > 1e5
     page = (tmp_path / "runs/c/report.html").read_text()
     assert "Plane of wall 2" in page and "Wall 2: no picture" not in page

@@ -202,7 +202,7 @@ def solve(layers, tstop, cells=6000, cfl=0.8, at=(), start=None):
     where = np.searchsorted(np.cumsum(dm), at)
     times, history = [0.0], [u[where]]
     us, ps = np.empty(len(x)), np.empty(len(x))
-    t, impulse = 0.0, 0.0
+    t = 0.0
     while t < tstop:
         dt = min(cfl * np.min(dm * tau / c), tstop - t)
         for i, j in pairs:  # end a step where a gap closes

@@ -20,7 +20,7 @@ def continued(read="read_restart half", fem=FAILS, newton="on", **more):
     """the same words without the box and what is in it"""
     mesh, _ = strike_plate()
     text = start(mesh, fem=fem, every=5, more="f_wall[1][1] f_wall[1][7] f_wall[1][11]", newton=newton, data="again.data", **more)
-    first, last = text.index("fix prop"), text.index("pair_style")
+    last = text.index("pair_style")
     head = f"newton {newton}\n" + ("atom_modify sort 0 0\n" if read.startswith("read_restart") else "")
     if read.startswith("read_restart"):
         head += read + "\nfix prop all property/atom rmass ghost yes\n"

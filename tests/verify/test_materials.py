@@ -193,7 +193,7 @@ def sheared(lmp, file, law, v, heat, words, tmp_path):
     dx, rate, dt = 1e-3, 5e4, 1e-6
     m = v["rho0"] * dx**3
     text = BLOCK.format(dx=dx, m=m, rho0=v["rho0"], E=m * v["cp"] * heat, file=file, h=1.2 * dx, skin=0.2 * dx, rate=rate, law=law, words=words, dt=dt)
-    lmp(text + f"run 1\n")
+    lmp(text + "run 1\n")
     first, last = (f.table for f in frames(tmp_path / "out"))
     k = np.arange(len(last)).reshape(6, 6, 6)[2:4, 2:4, 2:4].ravel()
     return dict(zip(("rho", "p", "T", "eps", "rate", "damage", "vm"), last[k, 1:].T), p=first[k, 2], T=first[k, 3])

@@ -6,6 +6,7 @@ Other than the compute, it does not guess whether the plate is cut at the center
 
 import dataclasses
 import math
+from typing import Optional
 import warnings
 
 import numpy as np
@@ -30,11 +31,11 @@ class Hole:
     """
 
     values: dict
-    areal: np.ndarray = None
-    x: np.ndarray = None
-    y: np.ndarray = None
+    areal: Optional[np.ndarray] = None
+    x: Optional[np.ndarray] = None
+    y: Optional[np.ndarray] = None
     edge: float = 0.0
-    inside: np.ndarray = None
+    inside: Optional[np.ndarray] = None
 
 
 class Layer:

@@ -2,6 +2,7 @@
 """Velocity maps: how fast what is where. Sums over particles in bins, weighted with mass."""
 
 import dataclasses
+from typing import Optional
 
 import numpy as np
 
@@ -17,7 +18,7 @@ class Map:
     values: np.ndarray
     x: np.ndarray
     y: np.ndarray
-    line: np.ndarray = None
+    line: Optional[np.ndarray] = None
 
 
 def _cloud(source, axis, plane, bins):

@@ -9,6 +9,7 @@ before anybody asks for it: at the end of the file, or in the middle where a res
 import dataclasses
 import gzip
 import os
+from typing import Optional
 
 from ..errors import HVIError, reading
 from ..progress import silent
@@ -30,18 +31,18 @@ class Header:
 
     path: str
     start: int
-    step: int = None
-    n: int = None
-    box: Box = None
-    time: float = None
-    units: str = None
-    label: str = None
-    mirror: tuple = None
+    step: Optional[int] = None
+    n: Optional[int] = None
+    box: Optional[Box] = None
+    time: Optional[float] = None
+    units: Optional[str] = None
+    label: Optional[str] = None
+    mirror: Optional[tuple] = None
     columns: tuple = ()
-    body: int = None
+    body: Optional[int] = None
     size: int = 0
     rows: int = 0
-    problem: str = None
+    problem: Optional[str] = None
 
     @property
     def where(self):

@@ -218,7 +218,7 @@ class Columns(TopologyAttr):
     """
 
     attrname = singular = "dumpcolumns"
-    target_classes = []
+    target_classes: list = []
     per_object = None
 
     def __init__(self, names):

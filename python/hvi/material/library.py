@@ -9,6 +9,7 @@ import math
 import os
 import pathlib
 import re
+from typing import Optional
 
 from ..errors import HVIError, reading
 from ..version import ROOT
@@ -80,7 +81,7 @@ class Material:
     sections: dict = dataclasses.field(default_factory=dict)  # {(kind, law): {key: value}}, presets filled in, units of the file
     notes: dict = dataclasses.field(default_factory=dict)  # {(kind, law): {key: comment}}
     why: dict = dataclasses.field(default_factory=dict)  # {kind: why there is none}
-    table: str = None  # file of eos table
+    table: Optional[str] = None  # file of eos table
 
     @property
     def name(self):

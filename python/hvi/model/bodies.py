@@ -2,6 +2,7 @@
 """Bodies for SPH, filled with particles on a lattice or like glass: equal masses, exact total, center of mass in the center."""
 
 import dataclasses
+from typing import Optional
 
 import numpy as np
 
@@ -190,7 +191,7 @@ class Body:
     x: np.ndarray
     shape: Shape
     volume: float
-    step: np.ndarray = None
+    step: Optional[np.ndarray] = None
 
     @property
     def spacing(self):

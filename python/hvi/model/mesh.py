@@ -2,6 +2,7 @@
 """Hexahedra for fix hvi/fem with the particles they hold, and free particles beside them; written as LAMMPS data files."""
 
 import dataclasses
+from typing import Optional
 
 import numpy as np
 
@@ -53,10 +54,10 @@ class Mesh:
     free_type: np.ndarray
     free_volume: np.ndarray
     node_type: int
-    box: np.ndarray = None
+    box: Optional[np.ndarray] = None
     periodic: tuple = (False, False, False)
     mirror: str = "none"
-    volume: float = None
+    volume: Optional[float] = None
 
     @property
     def per_edge(self):

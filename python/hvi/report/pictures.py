@@ -163,7 +163,6 @@ def profile(run, scene, k, width=8.4):
     """A slice of wall k through the shot: particles, and the faces of what is left of it before and after"""
     front, rear = run.faces(k)
     thick = rear - front
-    dx = run.of_wall(k, "spacing_mm")
     slice_ = np.abs(scene.x[:, 1]) <= slice_of(run, k) / 2
     high = thick * (1.5 + max(float(run.result.get(f"wall{k}_bulge_over_thickness", 0.0)), 0.0))
     near = slice_ & (scene.x[:, 2] > front - 2.0 * thick) & (scene.x[:, 2] < rear + high)

@@ -17,6 +17,7 @@ import dataclasses
 import functools
 import math
 import re
+from typing import Optional
 import typing
 
 from .. import tables
@@ -35,12 +36,12 @@ class Shield:
     wall_thickness_cm: float
     wall_density: float
     projectile_density: float
-    wall_yield_ksi: float = None  # equations of two walls need it
-    bumper_thickness_cm: float = None  # None: one wall only
-    bumper_density: float = None
-    standoff_cm: float = None
-    wall_brinell: float = None  # these two for the equation of one wall
-    wall_sound_km_s: float = None
+    wall_yield_ksi: Optional[float] = None  # equations of two walls need it
+    bumper_thickness_cm: Optional[float] = None  # None: one wall only
+    bumper_density: Optional[float] = None
+    standoff_cm: Optional[float] = None
+    wall_brinell: Optional[float] = None  # these two for the equation of one wall
+    wall_sound_km_s: Optional[float] = None
     aluminum: bool = True  # all of it
 
     @property

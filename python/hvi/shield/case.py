@@ -71,7 +71,8 @@ KEYS = {
 
 
 # its attributes are these keys; method is None only while it is read: that of the case
-Wall = dataclasses.make_dataclass("Wall", [(name, Any, key.default) if key.default is not REQUIRED else (name, Any) for name, key in WALL.items()], frozen=True)
+Wall = dataclasses.make_dataclass("Wall", [(name, Any, key.default) if key.default is not REQUIRED else (name, Any) for name, key in WALL.items()],  # type: ignore[misc]  # either form is one that it takes
+                              frozen=True)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -303,7 +304,7 @@ def warn(case, reader):
         node = reader.at["settings: solid"]
         warnings.warn(f"{reader.path}, line {node.start_mark.line + 1}: all runs have the same seed of weibull: what another would change is in no verdict", HVIWarning,
                       stacklevel=3)
-    last, coarse = case.walls[-1], (case.walls[-1].spacings_mm or case.spacings_mm)[0]
+    coarse = (case.walls[-1].spacings_mm or case.spacings_mm)[0]
     if geometry.layers_of(case, len(case.walls), 0) < LAYERS and "layers" not in case.settings:
         node = reader.at.get(f"wall {len(case.walls)}: spacings_mm") or reader.at["spacings_mm"]
         warnings.warn(f"{reader.path}, line {node.start_mark.line + 1}: {coarse:g} mm leaves fewer than {LAYERS} layers of particles in the last wall: if that "

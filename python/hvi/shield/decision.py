@@ -2,7 +2,6 @@
 """Does the wall hold?  One case at several spacings and shifts of the lattice, one verdict."""
 
 import itertools
-import math
 
 from ..errors import HVIError
 from ..jobs import engine

@@ -5,6 +5,7 @@ import dataclasses
 import functools
 import math
 import pathlib
+from typing import Optional
 
 import numpy as np
 import yaml
@@ -58,10 +59,10 @@ class Projectile:
 
     material: str
     shape: str = "sphere"
-    diameter_mm: float = None
-    length_mm: float = None
-    side_mm: float = None
-    thickness_mm: float = None
+    diameter_mm: Optional[float] = None
+    length_mm: Optional[float] = None
+    side_mm: Optional[float] = None
+    thickness_mm: Optional[float] = None
     pitch_deg: float = 0.0
     fill: str = FILLS[0]
     files: tuple = ()

@@ -7,7 +7,7 @@ The wall that decides is the last one that was reached. It fails if it is perfor
 import dataclasses
 import math
 import types
-from typing import Callable
+from typing import Callable, Optional
 
 from ..material import laws
 from . import case as cases
@@ -39,7 +39,7 @@ class Rule:
     when: Callable
     why: str
     says: Callable
-    remedy: Callable = None
+    remedy: Optional[Callable] = None
     each: bool = False  # when gives the walls that it applies to, one sentence for each
 
 
