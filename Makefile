@@ -8,6 +8,9 @@
 #   make fuzz    fuzzers of all readers and of LAMMPS inputs, MINUTES=10 of each: see tests/fuzz/README.md
 #   make bench   speed against error, the short form (bench-full: all of it): build/bench/speed-error.html
 #   make mutate  mutants of the library against its unit tests, on from tests/unit/mutants.csv (MUTATE_ARGS)
+
+#   make check                     static checks: warnings of two compilers, clang-tidy, cppcheck, flake8, mypy, LAMMPS's coding standard
+#   make force-styles              LAMMPS's own testers of forces and fixes, with our styles: tests/force-styles
 #   make doc | sanitize | clean
 #
 # LAMMPS_VERSION=20250204|20260704   which pinned LAMMPS          LAMMPS_SOURCE_DIR=DIR   your own LAMMPS source tree
@@ -32,7 +35,7 @@ TOP := $(CURDIR)
 OUT = $(abspath $(BUILD))
 export CMAKE_BUILD_PARALLEL_LEVEL = $(JOBS)
 
-.PHONY: all build demo demo-dem test verify doc bench bench-full mutate sanitize clean fuzz
+.PHONY: all build demo demo-dem test verify doc bench bench-full mutate sanitize clean fuzz check force-styles
 all: build
 
 # configures quietly; what went wrong is told in one line
@@ -102,6 +105,17 @@ fuzz:
 	@$(MAKE) build BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON
 	@python=$$(cmake/find-python.sh numpy scipy yaml meshio) && fuzz=$(abspath $(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize)) && \
 	  cmake/env.sh $$python tests/fuzz/fuzz.py --minutes $(MINUTES) --jobs $(JOBS) --out $$fuzz/fuzz --lmp $$fuzz/lmp $(FUZZ_ARGS)
+
+check:
+	@cmake/deps.sh build check
+	@$(MAKE) build
+	@cmake/check.sh $(OUT) "$(or $(LAMMPS_SOURCE_DIR),$$(cmake/fetch.sh $(LAMMPS_VERSION)))" $(CHECK_ARGS)
+
+force-styles:
+	@cmake/deps.sh build test check
+	@$(MAKE) build
+	@cmake --build $(BUILD) --parallel $(JOBS) --target force-style-testers
+	@ctest --test-dir $(BUILD) --output-on-failure -C force -L force -j $(JOBS)
 
 doc:
 	@cmake/deps.sh doc
