@@ -167,6 +167,7 @@ void FixHVILists::pre_exchange()
 void FixHVILists::set_bins(double least)
 {
   const double half = force->pair ? 0.5 * (force->pair->cutforce + neighbor->skin) : 0.0;
+  if (half == 0.0) least = 0.0;    // LAMMPS has no bins then
   const bool wider = least > (sized ? bin : half);
   neighbor->binsizeflag = wider ? 1 : sized;
   neighbor->binsize_user = wider ? least : bin;
