@@ -253,7 +253,7 @@ void FixHVIFEM::post_integrate()
 void FixHVIFEM::release()
 {
   enum { FREED, STATES, N };
-  int here[N] = {0, 0}, all[N];
+  bigint here[N] = {0, 0}, all[N];
   std::vector<std::size_t> freed;
   for (std::size_t e = 0; e < elements.size(); e++) {
     Element &one = elements[e];
@@ -271,7 +271,7 @@ void FixHVIFEM::release()
     counts[HEAT] += one.mass * heat;
     counts[HOURGLASS] += one.hourglass;
   }
-  MPI_Allreduce(here, all, N, MPI_INT, MPI_SUM, world);
+  MPI_Allreduce(here, all, N, MPI_LMP_BIGINT, MPI_SUM, world);
   if (!all[FREED]) return;
   total -= all[FREED];
   next_reneighbor = update->ntimestep;
