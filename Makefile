@@ -16,12 +16,14 @@
 # LAMMPS_VERSION=20250204|20260704   which pinned LAMMPS          LAMMPS_SOURCE_DIR=DIR   your own LAMMPS source tree
 # BUILD=DIR                          build folder                 JOBS=N                  processes of the compilation
 # PORTABLE=yes                       no -march=native             DEPS=no                 do not look for Debian packages
+# SIZES=bigbig                       LAMMPS's integers: smallbig (default), bigbig, smallsmall; in build-bigbig
 # ALLOW_UNTESTED=yes                 another LAMMPS version       CMAKE_ARGS="-D..."      more options for CMake
 # HVI_CACHE=DIR                      where LAMMPS is kept         PYTHON=FILE             interpreter for tests and pictures
 
 LAMMPS_VERSION ?= 20250204
 LAMMPS_SOURCE_DIR ?=
-BUILD ?= $(if $(filter 20250204,$(LAMMPS_VERSION)),build,build-$(LAMMPS_VERSION))
+SIZES ?= smallbig
+BUILD ?= build$(if $(filter 20250204,$(LAMMPS_VERSION)),,-$(LAMMPS_VERSION))$(if $(filter smallbig,$(SIZES)),,-$(SIZES))
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 RANKS ?= $(if $(filter 1,$(shell nproc 2>/dev/null)),1,2)
 PORTABLE ?= no
@@ -43,7 +45,7 @@ build:
 	@cmake/deps.sh build
 	@if [ -z "$(LAMMPS_SOURCE_DIR)" ]; then cmake/fetch.sh $(LAMMPS_VERSION) >/dev/null; fi
 	@mkdir -p $(BUILD)
-	@cmake -S cmake -B $(BUILD) -DHVI_LAMMPS_VERSION=$(LAMMPS_VERSION) -DLAMMPS_SOURCE_DIR="$(LAMMPS_SOURCE_DIR)" \
+	@cmake -S cmake -B $(BUILD) -DHVI_LAMMPS_VERSION=$(LAMMPS_VERSION) -DLAMMPS_SOURCE_DIR="$(LAMMPS_SOURCE_DIR)" -DHVI_SIZES=$(SIZES) \
 	  -DHVI_PORTABLE=$(if $(filter yes,$(PORTABLE)),ON,OFF) -DHVI_SANITIZE=$(SANITIZE) \
 	  -DHVI_ALLOW_UNTESTED=$(if $(filter yes,$(ALLOW_UNTESTED)),ON,OFF) $(CMAKE_ARGS) \
 	  >$(BUILD)/configure.log 2>&1 || \
