@@ -74,6 +74,8 @@ void HVITorn::find_pairs()
 
 bool HVITorn::needs_types_only(Pair *pair) const
 {
+  // a pair style that is there: no carrier is no null
+  // NOLINTNEXTLINE(clang-analyzer-core.NullDereference)
   if (!pair->single_enable || pair->manybody_flag || pair->single_extra || pair->nextra)
     return false;
   return !(atom->q_flag || atom->mu_flag || atom->radius_flag || atom->vfrac_flag ||
@@ -111,6 +113,8 @@ void HVITorn::find_bonds()
 double HVITorn::cutsq(const PairSource &s, int itype, int jtype) const
 {
   if (s.pair && !HVI::acts(force, s.pair, itype, jtype)) return 0.0;
+  // without a carrier there is a pair style: find_pairs()
+  // NOLINTNEXTLINE(clang-analyzer-core.NullDereference)
   return s.carrier ? s.carrier->pair_cutsq(itype, jtype) : s.pair->cutsq[itype][jtype];
 }
 
