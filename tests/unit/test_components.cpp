@@ -38,6 +38,7 @@ TEST_F(ComponentsOf, DeliveryToMyselfKeepsTheOrder)
 TEST_F(ComponentsOf, LowestIdAndLowestVertexStandForAll)
 {
   Components c(MPI_COMM_WORLD);
+  EXPECT_EQ(c.rounds(), 0);
   c.start({7, 3, 5, 0, 9, 11}, 6);
   c.join(2, 1);
   c.join(0, 2);

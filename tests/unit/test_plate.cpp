@@ -245,7 +245,7 @@ TEST(PlateHole, FragmentsInItAreNotPlate)
 {
   const auto hole = [](int fragment) {
     Plate p = plate(14, [=](int x, int y) {
-      return most(x, y) > 6 || (most(x - 1, y) <= fragment && fragment >= 0) ? 1.0 : 0.0;
+      return most(x, y) > 6 || (most(x - 1, y) <= fragment && fragment >= 0) ? 1e-3 : 0.0;
     });
     p.find_intact();
     EXPECT_EQ(p.find_hole(0.5, false), Plate::HOLE);
