@@ -129,19 +129,18 @@ double ElementMechanics::let_go(Element &one, const ElementNodes &nodes, const C
 static double with_pairs(const ElementStep &step, double felt[9])
 {
   const double *const L = step.L, *const m = step.sums.M, *const other = step.sums.M_of_others;
-  const double trace = L[0] + L[4] + L[8];
   const double Phi[9] = {m[0], m[3], m[4], m[3], m[1], m[5], m[4], m[5], m[2]};
   const double Phi_c[9] = {other[0], other[3], other[4], other[3], other[1],
                            other[5], other[4], other[5], other[2]};
-  double trace_felt = trace + step.sums.trace_L_of_others;
+  double of_others = step.sums.trace_L_of_others;
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
       double l = L[3 * i + j] + step.sums.L[3 * i + j];
       for (int k = 0; k < 3; k++) l -= L[3 * i + k] * Phi[3 * k + j];
       felt[3 * i + j] = l;
-      trace_felt -= L[3 * i + j] * Phi_c[3 * j + i];
+      of_others -= L[3 * i + j] * Phi_c[3 * j + i];
     }
-  return trace_felt + felt[0] + felt[4] + felt[8] - trace;
+  return felt[0] + felt[4] + felt[8] + of_others;
 }
 
 /* ----------------------------------------------------------------------
