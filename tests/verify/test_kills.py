@@ -1,6 +1,6 @@
 """Runs that are killed without notice at random moments, one rank of two or all, go on from a whole restart file, and end as those that nobody killed.
 
-The seed of a round is its parameter; `python3 tests/kill_runs.py` does the same by hand.
+The seed of a round is its parameter; `python3 tests/lib/kill_runs.py` does the same by hand.
 """
 
 import pytest

@@ -1,6 +1,6 @@
 """Runs that are killed without notice, and go on: shields by the front door, a debris cloud by its two inputs.
 
-    python3 tests/kill_runs.py [--kills 50] [--only particles debris ...] [--seed 4711] [--out DIR]
+    python3 tests/lib/kill_runs.py [--kills 50] [--only particles debris ...] [--seed 4711] [--out DIR]
 
 Each case is run once as it is, then with kills at random moments, of all processes or of one rank, some in each run; what is left at the end is compared.
 Seed and moments are printed. tests/verify/test_kills.py is this with fewer kills.
@@ -21,7 +21,7 @@ import time
 import yaml
 
 if __name__ == "__main__":
-    sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1] / "python")]
+    sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[2] / "python")]
 
 from hvi.jobs import engine
 from hvi.shield import chain
@@ -256,7 +256,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("kills"))
     parser.add_argument("--lmp", type=pathlib.Path, default=pathlib.Path("build/lmp"))
     args = parser.parse_args()
-    root = pathlib.Path(__file__).resolve().parents[1]
+    root = pathlib.Path(__file__).resolve().parents[2]
     for name in args.only:
         folder = args.out.resolve() / name
         shutil.rmtree(folder, ignore_errors=True)

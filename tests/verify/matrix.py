@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Builds and tests the package in its forms: compiler x LAMMPS version x built in or plugin x sanitizers x sizes of integers.
 
-    python3 tests/matrix.py                   all cells that the record does not have for these sources; writes tests/matrix.md
-    python3 tests/matrix.py --only ^clang     those whose name it is found in          --list: names only
-    python3 tests/matrix.py --jobs 2 --make CMAKE_ARGS="-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"
+    python3 tests/verify/matrix.py                   all cells that the record does not have for these sources; writes tests/verify/matrix.md
+    python3 tests/verify/matrix.py --only ^clang     those whose name it is found in          --list: names only
+    python3 tests/verify/matrix.py --jobs 2 --make CMAKE_ARGS="-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"
 
 A cell is one build, all warnings in our files counted, and a short list of tests. What was interrupted goes on where it
 stopped: each cell is recorded (build-matrix/record.json) as it ends, with a hash of the sources that it is of.
@@ -20,7 +20,7 @@ import re
 import shlex
 import subprocess
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 OUT = ROOT / "build-matrix"
 COMPILERS = ("g++", "clang++")
 VERSIONS = {"20250204": "4 Feb 2025", "20260704": "4 Jul 2026"}
@@ -97,7 +97,7 @@ def test(folder, form):
 def table(record):
     compilers = {c: subprocess.run([c, "--version"], text=True, capture_output=True).stdout.splitlines()[0] for c in COMPILERS}
     lines = ["# Builds and tests of the package in its forms", "",
-             "Written by `tests/matrix.py` from its record; what was not run says so.", "",
+             "Written by `tests/verify/matrix.py` from its record; what was not run says so.", "",
              "Compilers: " + "; ".join(compilers.values()) + ".",
              "Tests: those of the library (`tests/unit`, of the forms that are built in) and " + ", ".join(f"`{t}`" for t in TESTS) + " of `tests/style`.", "",
              "| compiler | LAMMPS | form | sanitizers | integers | warnings in our files | tests passed | failed | sources | date |",
@@ -112,7 +112,7 @@ def table(record):
         else:
             row += [got["warnings"], got["passed"], got["failed"], got["sources"], got["date"]]
         lines.append("| " + " | ".join(map(str, row)) + " |")
-    (ROOT / "tests/matrix.md").write_text("\n".join(lines) + "\n")
+    (ROOT / "tests/verify/matrix.md").write_text("\n".join(lines) + "\n")
 
 
 def main():
