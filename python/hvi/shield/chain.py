@@ -7,6 +7,7 @@ checksums; two files are written in turn. One that is damaged is not gone on fro
 """
 
 import contextlib
+import math
 import os
 import pathlib
 import warnings
