@@ -12,6 +12,7 @@ those that execute its statement (by gcov), the likeliest first, until one fails
 
 import argparse
 import collections
+import concurrent.futures
 import csv
 import hashlib
 import json
@@ -37,22 +38,29 @@ KEYWORDS = set("return if for while do else switch case default const static con
                "explicit inline typedef namespace friend operator new delete throw enum union virtual sizeof goto".split())
 TOKEN = re.compile(r"""//[^\n]*|/\*.*?\*/|^[ \t]*\#(?:else\b.*?^[ \t]*\#endif|(?:\\\n|[^\n])*)|"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'
     |0x[0-9a-fA-F.]+(?:p[-+]?\d+)?\w*|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?\w*|\w+|::|->|<<=|>>=|<<|[-+*/<>=!&|^%]=|&&|\|\||\+\+|--|\S""", re.X | re.S | re.M)
-NEGATED = "template <class T> T hvi_negated(T x) { if constexpr (std::is_same_v<T, bool>) return !x; else return -x; }\n"
-HEADERS = "gtest/gtest.h Eigen/Dense algorithm cmath filesystem fstream functional map random sstream type_traits".split()
+NEGATED = "template <class T> T hvi_negated(T x) { if constexpr (std::is_same_v<T, bool>) return !x; else return -x; }\n" \
+          "inline const int hvi_mutant = std::getenv(\"HVI_MUTANT\") ? std::atoi(std::getenv(\"HVI_MUTANT\")) : -1;\n"
+HEADERS = "gtest/gtest.h Eigen/Dense algorithm cmath cstdlib filesystem fstream functional map random sstream type_traits".split()
 
 
 def sites(text):
-    """(offset, original, mutant, first line and last line of the statement) of all mutants of a source."""
+    """(offset, original, mutant, lines of the statement, switch) of all mutants of a source. A switch is (start, end, before, between, after):
+    text[start:end] becomes before + the mutated text + between + the text + after, where a number says which of the two is run."""
     tokens = [m for m in TOKEN.finditer(text) if not m[0].startswith(("//", "/*")) and not m[0].lstrip().startswith("#")]
     word = [m[0] for m in tokens] + [""] * 2
     line = lambda offset: text.count("\n", 0, offset) + 1
     edges = [-1] + [k for k, w in enumerate(word) if w in ("{", "}", ";")] + [len(tokens)]
+    fixed = False
     for begin, end in zip(edges, edges[1:]):
         inside = range(begin + 1, end)
         if not inside or "static_assert" in word[begin + 1:end]:
             continue
         lines = line(tokens[begin + 1].start()), line(tokens[end - 1].end())
         message = any(word[k].startswith('"') for k in inside)
+        fixed = (bool({"constexpr", "case", "template", "enum", "using"} & set(word[begin + 1:end]))
+                 or fixed and (word[begin] == "}" or word[begin] == "{" and word[begin - 1] in ("=", ",", "{", "(")))    # constants: no switch
+        first = next((k for k in range(end - 1, begin, -1) if word[k] in (")", "else") and is_statement(word, k + 1, end)), begin) + 1
+        whole = (tokens[first].start(), tokens[end].end(), "{ if (hvi_mutant == %d) { ", " } else { ", " } }") if is_statement(word, first, end) else None
         for k in inside:
             w, m, before, after = word[k], tokens[k], word[k - 1], word[k + 1]
             new = None
@@ -63,20 +71,42 @@ def sites(text):
                 new = WORDS[w]
             elif re.match(r"\.?\d", w) and not w.startswith("0x") and not (before == "[" and re.match(r"\w", word[k - 3]) and word[k - 3] != "return"):
                 new = f"({w} * 1.1)" if re.search(r"[.eE]", w) and float(w.rstrip("fFlL")) else f"({w} + 1)"
-            elif w == "return" and k + 1 < end and word[end] == ";":
-                yield m.start(), text[m.start():tokens[end - 1].end()], f"return hvi_negated({text[tokens[k + 1].start():tokens[end - 1].end()]})", lines
-            elif (word[end] == ";" and w not in KEYWORDS and re.match(r"[A-Za-z_*]", w) and (k == begin + 1 or before in (")", "else"))
-                  and (w in ("break", "continue") or after in ("=", ".", "->", "(", "[", "++", "--", "+=", "-=", "*=", "/="))
-                  and "{" not in text[m.start():tokens[end].start()]):
-                depth = 0    # a statement from here to ;, not the end of a for (...)
-                for x in word[k:end]:
-                    depth += (x in "([") - (x in ")]")
-                    if depth < 0:
-                        break
-                if depth == 0:
-                    yield m.start(), text[m.start():tokens[end].end()], ";", lines
+            elif w == "return" and k + 1 < end and word[end] == ";" and word[k + 1] != "{":
+                value = tokens[k + 1].start(), tokens[end - 1].end()
+                yield (m.start(), text[m.start():value[1]], f"return hvi_negated({text[slice(*value)]})", lines,
+                       (m.start(), value[1], "if (hvi_mutant == %d) ", "; else ", ""))
+            elif k == first and whole:
+                yield m.start(), text[m.start():tokens[end].end()], ";", lines, whole
             if new:
-                yield m.start(), w, new, lines
+                around = whole if w[-1] == "=" and len(w) == 2 and w[0] in "+-*/" else expression(word, tokens, k)
+                yield m.start(), w, new, lines, None if fixed else around
+
+
+def is_statement(word, k, end):
+    """Whether what can be left out stands from token k to the ; at end."""
+    if word[end] != ";" or word[k] in KEYWORDS or not re.match(r"[A-Za-z_*]", word[k]):
+        return False
+    depth = [0]
+    for x in word[k:end]:
+        depth.append(depth[-1] + (x in "([") - (x in ")]"))
+    return (word[k] in ("break", "continue") or word[k + 1] in ("=", ".", "->", "(", "[", "++", "--", "+=", "-=", "*=", "/=")) and not depth[-1] and min(depth) == 0
+
+
+def expression(word, tokens, k):
+    """A switch for the smallest expression with token k that stands by itself."""
+    if re.match(r"\.?\d|true$|false$", word[k]):
+        return tokens[k].start(), tokens[k].end(), "(hvi_mutant == %d ? ", " : ", ")"
+    ends = []
+    for step, opens, closes in ((-1, ")]}", "([{"), (1, "([{", ")]}")):
+        depth, at = 0, k
+        while 0 < at < len(tokens) - 1:
+            x = word[at + step]
+            if not depth and (x in (",", ";", "=", "?", ":", "return") or x in closes or x in ("{", "}") or (x[-1] == "=" and x in SWAPS and x[0] in "+-*/")):
+                break
+            depth += (x in opens) - (x in closes)
+            at += step
+        ends.append(at)
+    return tokens[ends[0]].start(), tokens[ends[1]].end(), "(hvi_mutant == %d ? (", ") : (", "))"
 
 
 class Build:
@@ -93,14 +123,15 @@ class Build:
         include = " ".join(f"-I{self.src}/lib/hvi/{r}" for r in ROOMS)
         self.compile = shlex.split(f"{compiler} -std=c++17 -O0 -march=native -w -I{self.src}/tests/unit {include} -isystem /usr/include/eigen3 {mpi}")
         self.link = shlex.split(f"{compiler} --coverage"), shlex.split(f"-lgtest_main -lgtest -lpthread {link}")
-        (out / "all.h").write_text("".join(f"#include <{h}>\n" for h in HEADERS) + NEGATED)
-        if not (out / "all.h.gch").exists():
+        text = "".join(f"#include <{h}>\n" for h in HEADERS) + NEGATED
+        if not (out / "all.h.gch").exists() or (out / "all.h").read_text() != text:
+            (out / "all.h").write_text(text)
             subprocess.run([*self.compile, "-x", "c++-header", out / "all.h", "-o", out / "all.h.gch"], check=True)
         self.sources = sorted(self.src.rglob("*.cpp"))
         self.tests = [f.stem for f in self.sources if "tests" in f.parts]
         self.deps, self.parts, self.lines = {}, {}, {}
-        for f in self.sources:    # all once as it stands; what has not changed since is kept
-            self.objects(f)
+        self.pool = concurrent.futures.ThreadPoolExecutor(int(os.environ.get("JOBS", 2)))
+        list(self.pool.map(self.objects, self.sources))    # all once as it stands; what has not changed since is kept
         archive = out / "libhvi.a"
         archive.unlink(missing_ok=True)
         subprocess.run(["ar", "qcs", archive, *(out / f"{f.stem}.o" for f in self.sources if "tests" not in f.parts)], check=True)
@@ -109,21 +140,22 @@ class Build:
 
     def objects(self, f):
         o, d, key = (self.out / (f.stem + e) for e in (".o", ".d", ".key"))
-        digest = lambda: hashlib.md5(b"".join(pathlib.Path(x).read_bytes() for x in read_deps(d))).hexdigest()
-        if not (d.exists() and all(pathlib.Path(x).exists() for x in read_deps(d)) and o.exists() and key.exists() and key.read_text() == digest()):
+        known = lambda: [pathlib.Path(x) for x in d.read_text().replace("\\\n", " ").split(":", 1)[1].split() if str(self.src) in x]
+        digest = lambda: hashlib.md5(b"".join(x.read_bytes() for x in known())).hexdigest()
+        if not (o.exists() and key.exists() and all(x.exists() for x in known()) and key.read_text() == digest()):
             subprocess.run([*self.compile, "--coverage", "-include", self.out / "all.h", "-MMD", "-c", f, "-o", o], check=True)
             key.write_text(digest())
-        self.deps[f.stem] = {x for x in read_deps(d) if str(self.src) in x}
+        self.deps[f.stem] = {str(x) for x in known()}
 
     def measure(self, t, archive):
         """A test's program: which objects of the library it takes, which lines it executes, how long it takes."""
         known, program = self.out / f"{t}.json", self.out / t
-        r = subprocess.run([*self.link[0], self.out / f"{t}.o", archive, f"-Wl,-Map={self.out}/map", *self.link[1], "-o", program])
-        if r.returncode:
-            raise SystemExit(f"{t} does not link")
-        parts = [t, *sorted(set(re.findall(r"libhvi\.a\((\w+)\.o\)", (self.out / "map").read_text())))]
-        key = hashlib.md5("".join((self.out / f"{p}.key").read_text() for p in parts).encode()).hexdigest()
-        if not known.exists() or json.loads(known.read_text())["key"] != key:
+        key = lambda parts: hashlib.md5("".join((self.out / f"{p}.key").read_text() for p in parts).encode()).hexdigest()
+        self.lines[t] = json.loads(known.read_text()) if known.exists() else {"parts": [t], "key": ""}
+        if key(self.lines[t]["parts"]) != self.lines[t]["key"]:
+            if subprocess.run([*self.link[0], self.out / f"{t}.o", archive, f"-Wl,-Map={self.out}/map", *self.link[1], "-o", program]).returncode:
+                raise SystemExit(f"{t} does not link")
+            parts = [t, *sorted(set(re.findall(r"libhvi\.a\((\w+)\.o\)", (self.out / "map").read_text())))]
             for f in self.out.glob("*.gcda"):
                 f.unlink()
             before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
@@ -138,60 +170,84 @@ class Build:
                     for x in f["lines"] if str(self.src) in f["file"] else ():
                         n = str(x["line_number"])
                         lines[f["file"]][n] = lines[f["file"]].get(n, 0) + x["count"]
-            known.write_text(json.dumps({"key": key, "parts": parts, "seconds": seconds, "lines": lines}))
-        self.lines[t] = json.loads(known.read_text())
+            known.write_text(json.dumps({"key": key(parts), "parts": parts, "seconds": seconds, "lines": lines}))
+            self.lines[t] = json.loads(known.read_text())
         self.parts[t] = self.lines[t]["parts"]
 
-    def run(self, program, seconds):
+    def run(self, program, seconds, mutant=-1):
         limit = lambda: (resource.setrlimit(resource.RLIMIT_CPU, (int(seconds), int(seconds))), resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30)))
         work = self.out / "work"
         work.mkdir(exist_ok=True)
         r = subprocess.run([ROOT / "cmake/env.sh", program], preexec_fn=limit, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=work, text=True,
-                           errors="replace", env={**os.environ, "GTEST_FAIL_FAST": "1", "TMPDIR": str(work)})
+                           errors="replace", env={**os.environ, "GTEST_FAIL_FAST": "1", "HVI_MUTANT": str(mutant), "TMPDIR": str(work)})
         if r.returncode == 0:
             return None, r.stdout
         if r.returncode in (-24, -9, 152, 137):
             return "timeout", r.stdout
         return (re.findall(r"\[  FAILED  \] (\w[\w/.]*)", r.stdout) or re.findall(r"\[ RUN      \] (\S+)", r.stdout) or ["start"])[-1], r.stdout
 
-    def judge(self, f, lines):
-        """Outcome and test of the mutant that stands in the copy of f."""
-        f, within = str(f), [str(n) for n in range(lines[0], lines[1] + 1)]
+    def compile_mutants(self, mutants, made):
+        """Compiles all that includes one of them and is not made. Returns those that stand where the compiler says that something is wrong."""
+        touched = {}
+        for k, f, text, offset, old, new, lines, switch in sorted(mutants, key=lambda m: -m[3]):
+            text = touched.get(f, text)
+            if len(mutants) == 1 or not switch:
+                touched[f] = text[:offset] + new + text[offset + len(old):]
+            else:
+                start, end, before, between, after = switch
+                plain = text[start:end]
+                mutated = (plain[:offset - start] + new + plain[offset - start + len(old):]).replace("\n", " ")    # lines keep their numbers
+                touched[f] = text[:start] + before % k + mutated + between + plain + after + text[end:]
+        for f, text in touched.items():
+            (self.src / f).write_text(text)
+        (self.out / "mutant").mkdir(exist_ok=True)
+
+        def one(source):
+            target = self.out / "mutant" / f"{source.stem}.o"
+            r = subprocess.run([*self.compile, "-include", self.out / "all.h", "-c", source, "-o", target], stderr=subprocess.PIPE, text=True,
+                               env={**os.environ, "CCACHE_DISABLE": "1"})
+            if not r.returncode:
+                made[source.stem] = target
+                return set()
+            places = {(f, int(n)) for f, n in re.findall(r"/src/(lib/[\w./]+):(\d+)", r.stderr)}
+            return ({m[0] for m in mutants if any((m[1], n) in places for n in range(m[6][0], m[6][1] + 1))}
+                    or {m[0] for m in mutants if str(self.src / m[1]) in self.deps[source.stem]})
+
+        paths = {str(self.src / f) for f in touched}
+        wrong = set().union(*self.pool.map(one, [s for s in self.sources if s.stem not in made and self.deps[s.stem] & paths]))
+        for f in touched:
+            shutil.copyfile(ROOT / f, self.src / f)
+        return wrong
+
+    def judge(self, mutant, made, programs):
+        """Outcome of a mutant, and by which test."""
+        number, f, lines = mutant[0], str(self.src / mutant[1]), mutant[6]
         users = [t for t in self.tests if any(f in self.deps[p] for p in self.parts[t])]
-        seen = {t: [self.lines[t]["lines"].get(f, {}).get(n) for n in within] for t in users}
-        data = any(x is not None for counts in seen.values() for x in counts)
-        runs = [t for t in users if not data or any(seen[t])]
+        counts = lambda t, more: [self.lines[t]["lines"].get(f, {}).get(str(n)) for n in range(lines[0] - more, lines[1] + more + 1)]
+        data = any(x is not None for t in users for x in counts(t, 0))
+        runs = [t for t in users if any(counts(t, 0))] or [t for t in users if not data or any(counts(t, 2))]    # gcov may count in the next line
         stem = pathlib.Path(f).stem[4:]
-        runs.sort(key=lambda t: (t[5:] not in stem and stem not in t, sum(f in self.deps[p] for p in self.parts[t]), self.lines[t]["seconds"]))
-        made = {}
-
-        def make(p):
-            if p not in made:
-                source = next(s for s in self.sources if s.stem == p)
-                made[p] = self.out / "mutant" / f"{p}.o"
-                made[p].parent.mkdir(exist_ok=True)
-                return subprocess.run([*self.compile, "-include", self.out / "all.h", "-c", source, "-o", made[p]], stderr=subprocess.DEVNULL,
-                                      env={**os.environ, "CCACHE_DISABLE": "1"}).returncode == 0
-            return True
-
-        for t in runs or sorted((s for s in self.deps if f in self.deps[s]), key=lambda s: len(self.deps[s]))[:1]:
-            changed = [p for p in self.parts.get(t, [t]) if f in self.deps[p]]
-            if not all(make(p) for p in changed):
-                return "does not compile", ""
-            if not runs:
-                return "survived", "none runs it"
-            objects = [made.get(p, self.out / f"{p}.o") for p in self.parts[t]]
-            program = self.out / "mutant" / "program"
-            if subprocess.run([*self.link[0], *objects, *self.link[1], "-o", program], stderr=subprocess.DEVNULL).returncode:
-                return "does not compile", ""
-            failed, _ = self.run(program, 10 + 10 * self.lines[t]["seconds"])
+        for t in sorted(runs, key=lambda t: (t[5:] not in stem and stem not in t, self.lines[t]["seconds"])):
+            if t not in programs:
+                programs[t] = self.out / "mutant" / t
+                subprocess.run([*self.link[0], *(made.get(p, self.out / f"{p}.o") for p in self.parts[t]), *self.link[1], "-o", programs[t]], check=True)
+            failed, _ = self.run(programs[t], 10 + 10 * self.lines[t]["seconds"], number)
             if failed:
                 return ("timeout", t) if failed == "timeout" else ("killed", failed)
-        return "survived", " ".join(sorted(t[5:] for t in runs))
+        return "survived", " ".join(sorted(t[5:] for t in runs)) or "none runs it"
 
 
-def read_deps(d):
-    return d.read_text().replace("\\\n", " ").split(":", 1)[1].split()
+def split_batch(todo, found, count):
+    """Of the next ones: those that can be switched together, those to be compiled alone, the others."""
+    batch, alone, taken = [], [], collections.defaultdict(list)
+    for k in todo[:count]:
+        f, switch = found[k][0], found[k][-1]
+        if not switch:
+            alone.append(k)
+        elif all(switch[1] <= start or end <= switch[0] for start, end in taken[f]):
+            taken[f].append(switch[:2])
+            batch.append(k)
+    return batch, alone, [k for k in todo if k not in set(batch + alone)]
 
 
 def write(rows):
@@ -233,31 +289,41 @@ def main():
         found = {}
         for f in files:
             text = f.read_text()
-            for offset, old, new, lines in sites(text):
+            for offset, old, new, lines, switch in sites(text):
                 start = text.rfind("\n", 0, offset) + 1
                 key = str(f.relative_to(ROOT)), text.count("\n", 0, offset) + 1, offset - start + 1, " ".join(old.split()), " ".join(new.split())
-                found[key] = f, text[:offset] + new + text[offset + len(old):], lines
+                comment = switch and "//" in text[switch[0]:switch[1]]
+                found[key] = str(f.relative_to(ROOT)), text, offset, old, new, lines, None if comment else switch
         identity = lambda r: (r["file"], int(r["line"]), int(r["column"]), r["original"], r["mutant"])
         rows = [r for r in rows if identity(r) in found]    # what the sources do not have any more goes
         order = sorted(found)
         random.Random(a.seed).shuffle(order)
         recorded = {identity(r): r for r in rows}
-        again = [k for k in order if k in recorded and recorded[k]["outcome"] == a.again and a.only in k[0]]
         print(f"{len(found)} sites in {len(files)} files, {len(rows)} in the record")
-        for k in again if a.again else order:
-            if not a.again and (k in recorded or sum(r["outcome"] != "does not compile" for r in rows) >= a.count):
-                continue
-            f, text, lines = found[k]
-            copy = build.src / f.relative_to(ROOT)
-            copy.write_text(text)
-            outcome, test = build.judge(copy, lines)
-            copy.write_text(f.read_text())
-            r = recorded.get(k) or dict(zip(FIELDS, [*k, "", "", ""]))
-            if k not in recorded:
-                rows.append(r)
-            r |= {"outcome": outcome, "test": test, "explanation": r["explanation"] if outcome == "survived" else ""}
-            write(rows)
-            print(f"{k[0]}:{k[1]}:{k[2]}  {k[3][:60]} -> {k[4][:60]}: {outcome} {test}", flush=True)
+        todo = [k for k in order if (k in recorded and recorded[k]["outcome"] == a.again and a.only in k[0] if a.again else k not in recorded)]
+        while todo and (a.again or sum(r["outcome"] != "does not compile" for r in rows) < a.count):
+            batch, alone, todo = split_batch(todo, found, len(todo) if a.again else a.count - sum(r["outcome"] != "does not compile" for r in rows))
+            mutants = [(n, *found[k]) for n, k in enumerate(batch)]
+            programs, made = {}, {}
+            while mutants:    # what cannot be switched is compiled by itself
+                wrong = build.compile_mutants(mutants, made)
+                if not wrong:
+                    break
+                alone += [batch[m[0]] for m in mutants if m[0] in wrong]
+                mutants = [m for m in mutants if m[0] not in wrong]
+            print(f"{len(mutants)} together, {len(alone)} each by itself", flush=True)
+            for k in [batch[m[0]] for m in mutants] + alone:
+                if k in alone:
+                    mutants, programs, made = [(0, *found[k])], {}, {}
+                    wrong = build.compile_mutants(mutants, made)
+                m = next(m for m in mutants if m[1:] == found[k])
+                outcome, test = ("does not compile", "") if k in alone and wrong else build.judge(m, made, programs)
+                r = recorded.setdefault(k, dict(zip(FIELDS, [*k, "", "", ""])))
+                if r not in rows:
+                    rows.append(r)
+                r |= {"outcome": outcome, "test": test, "explanation": r["explanation"] if outcome == "survived" else ""}
+                write(rows)
+                print(f"{k[0]}:{k[1]}:{k[2]}  {k[3][:60]} -> {k[4][:60]}: {outcome} {test}", flush=True)
     report(rows, a.seed)
 
 

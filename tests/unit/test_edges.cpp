@@ -4,7 +4,9 @@
 ------------------------------------------------------------------------- */
 
 #include "hexahedra.h"
+#include "hvi_contact_step.h"
 #include "hvi_element_mechanics.h"
+#include "hvi_eos_gruneisen.h"
 #include "hvi_eos_idealgas.h"
 #include "hvi_eos_table.h"
 #include "hvi_material.h"
@@ -47,9 +49,145 @@ TEST(Edges, VoidsThatTakeNothingFromTheTensionDoNotGrow)
   EXPECT_NEAR(law.growth(3.0, 1.0, 0.0, 1.0), 2.0, 1e-7);
 }
 
-TEST(Edges, NothingMovesWithoutParticles)
+TEST(Edges, DamageOfOneKindIsNotTakenForTheOther)
+{
+  const std::string text =
+      "# UNITS: si\neos linear\nrho0 2700\nK 76e9\nstrength perfect\nG 26e9\nY 0.3e9\n"
+      "damage johnson-cook\nD1 0.2\nD2 0\nD3 0\nD4 0\nD5 0\n";
+  SolidOptions options;
+  options.strength = "perfect";
+  options.thermal = false;
+  options.spall = Spall::NONE;
+  for (const bool softens : {false, true}) {
+    Material material;
+    std::string why;
+    ASSERT_EQ(parse_material(text + (softens ? "u_f 1e-5\n" : ""), "x.hvi", "si", material), "");
+    const auto model = SolidModel::make(material, options, why);
+    ASSERT_TRUE(model) << why;
+    EXPECT_EQ(model->softens(), softens);
+    SolidState s = SolidModel::blank();
+    const auto first = [&]() {
+      const SolidModel::Begun *const begun = SolidModel::misread(model.get(), s);
+      return begun ? std::string(begun->what) : "";
+    };
+    EXPECT_EQ(first(), "");
+    s.damage = 0.5;    // of a law without u_f
+    EXPECT_EQ(first().empty(), !softens);
+    s.initiation = 1.0;    // with it
+    EXPECT_EQ(first().empty(), softens);
+    s.damage = 0.0;
+    s.initiation = 0.3;    // its begin
+    EXPECT_EQ(first().empty(), softens);
+  }
+}
+
+// close to the pole of the Hugoniot, dtau/deta = g tau - p0/(rho0 cp), by many small steps
+
+TEST(Edges, TemperatureNearThePole)
+{
+  const double values[] = {8000.0, 4000.0, 2.5, 1.5, 0.0, 400.0, 0.0, 0.0, 300.0};
+  const EosGruneisen law = EosGruneisen::make(values);
+  for (const double eta : {0.3, 0.39, 0.394, 0.3955}) {
+    const int n = 400000;
+    const double d = eta / n;
+    double tau = 300.0;
+    const auto slope = [](double eta, double tau) {
+      const double D = 1.0 - 2.5 * eta, p0 = 8000.0 * 16e6 * eta * (1.0 - 0.75 * eta) / (D * D);
+      return 1.5 * tau - p0 / (8000.0 * 400.0);
+    };
+    for (int k = 0; k < n; k++) {
+      const double half = tau + 0.5 * d * slope(k * d, tau);
+      tau += d * slope((k + 0.5) * d, half);
+    }
+    const double e = 400.0 * (1000.0 - tau);
+    EXPECT_NEAR(law.temperature(8000.0 / (1.0 - eta), e), 1000.0, 1e-3 * std::fabs(tau)) << eta;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+TEST(Edges, ContactStepLosesNoNanInAnyLane)
+{
+  const Contact law = Contact::make(1.0, 1.0, 1.0);
+  for (int bad = 0; bad < 16; bad++) {
+    UniformContactStep step(law, 1.0);
+    const auto row = step.row();
+    for (int n = 0; n < 16; n++) {
+      row.rsq[n] = 1.1;
+      row.rdotv[n] = n == bad ? NAN : -1.0;
+    }
+    step.filled(16);
+    ContactTimes least = {1e200, 1e200};
+    step.finish(least);
+    EXPECT_TRUE(std::isnan(least.approach)) << bad;
+  }
+}
+
+TEST(Edges, CellsReachThoseNextToThem)
 {
   EXPECT_EQ(Sleep().fastest(), 0.0);
+  constexpr int N = 9;    // a row of cells, one point each, every one next to the last
+  double at[N][3];
+  const double *x[N];
+  for (int i = 0; i < N; i++) {
+    at[i][0] = 1.3 * i + 0.65;
+    at[i][1] = at[i][2] = 0.0;
+    x[i] = at[i];
+  }
+  RelativeMotion motion;
+  motion.start(N, x, 1.0, 0.1);
+  ASSERT_EQ(motion.cells(), N);
+  Sleep sleep;
+  sleep.start(motion);
+  for (int i = 0; i < N; i++) {
+    const double v[3] = {i == 2 ? 3.0 : 0.0, i == 2 ? -4.0 : 0.0, 0.0};
+    sleep.add(motion.cell_of(i), v, false);
+  }
+  sleep.settle(motion, 1e-3);
+  EXPECT_EQ(sleep.fastest(), 5.0);
+  sleep.spread(motion);
+  for (int i = 0; i < N; i++) {
+    EXPECT_EQ(sleep.asleep(motion.cell_of(i)), i == 0 || i > 3) << i;
+    EXPECT_EQ(sleep.near_awake(motion.cell_of(i)), i <= 4) << i;
+  }
+  sleep.reach_out(motion, {motion.cell_of(8)});    // and a ghost in the last
+  for (int i = 0; i < N; i++) EXPECT_EQ(sleep.reached(motion.cell_of(i)), i <= 5 || i >= 7) << i;
+  sleep.reach_out(motion, {});
+  for (int i = 0; i < N; i++) EXPECT_EQ(sleep.reached(motion.cell_of(i)), i <= 5) << i;
+}
+
+/* ---------------------------------------------------------------------- */
+
+// FNV-1a of "kind law", then of each key after that and of the bytes of its value after this; all added up.  Restart
+// files have it
+
+TEST(Edges, ChecksumOfAMaterial)
+{
+  const auto fnv = [](const void *bytes, size_t n, std::uint64_t hash) {
+    for (size_t k = 0; k < n; k++)
+      hash = (hash ^ ((const unsigned char *) bytes)[k]) * 1099511628211ull;
+    return hash;
+  };
+  const auto of = [&](const std::string &law,
+                      const std::vector<std::pair<std::string, double>> &values) {
+    const std::uint64_t first = fnv(law.data(), law.size(), 14695981039346656037ull);
+    std::uint64_t sum = first;
+    for (const auto &[key, value] : values)
+      sum += fnv(&value, sizeof(double), fnv(key.data(), key.size(), first));
+    return sum;
+  };
+  Material material;
+  ASSERT_EQ(
+      parse_material("# UNITS: si\neos linear\nK 90 # [1]\nrho0 1.5\nstrength perfect\nG 26\nY 3\n",
+                     "x.hvi", "si", material),
+      "");
+  EXPECT_EQ(material.checksum,
+            of("eos linear", {{"rho0", 1.5}, {"K", 90.0}}) +
+                of("strength perfect", {{"G", 26.0}, {"Y", 3.0}}));
+
+  const std::string words = "a b 1 ";
+  const std::uint64_t table = fnv("table", 5, 14695981039346656037ull);
+  EXPECT_EQ(checksum_of_table("# no\n a  b\n\n1 # one\n"), fnv(words.data(), words.size(), table));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -241,6 +379,14 @@ TEST(Edges, ElementFeelsPairsOfOtherBodies)
       EXPECT_NEAR(one.solid.expansion, trace_felt, 1e-13);
       continue;
     }
+    const ElementStep before = step;    // at the start of a run: no step has led here
+    const Deviator was = one.solid.S;
+    ASSERT_EQ(mechanics.advance(b, 1000.0 * dt, false, lane), ElementMechanics::NO_TROUBLE);
+    const Tensor end = velocity_gradient(x, v);
+    for (int k = 0; k < 9; k++) EXPECT_NEAR(step.L[k], end(k / 3, k % 3), 1e-13);
+    EXPECT_EQ(step.p, before.p);
+    EXPECT_NEAR(one.rho, rho, 1e-14);
+    EXPECT_EQ(one.solid.S.xy, was.xy);
     const Tensor D = 0.5 * (felt + felt.transpose());
     const Tensor S = 2.0 * 26.0 * dt * (D - D.trace() / 3.0 * Tensor::Identity());
     const Deviator &s = one.solid.S;
