@@ -37,7 +37,6 @@ namespace HVI {
 
 class HotExpansion {
  public:
-  HotExpansion() = default;
   explicit HotExpansion(double G0) : h(3.0 * G0 > VAPOR ? VAPOR / G0 : 3.0) {}
 
   // p1, its slope at constant e over x or something else that x has the slope dx over, and dp1/de/rho0, to
@@ -54,7 +53,7 @@ class HotExpansion {
 
  private:
   static constexpr double VAPOR = 2.0 / 3.0;
-  double h = 3.0;
+  double h;
 };
 
 }    // namespace HVI
