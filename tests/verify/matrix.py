@@ -44,14 +44,14 @@ def sources():
     files = subprocess.run(["git", "ls-files", "src", "lib", "cmake", "tests", "potentials", "Makefile"], cwd=ROOT, text=True, capture_output=True, check=True).stdout.split()
     h = hashlib.sha256()
     for f in sorted(files):
-        if not f.endswith("matrix.md") and (ROOT / f).exists():
+        if not f.startswith("tests/matrix.") and (ROOT / f).exists():
             h.update(f.encode() + (ROOT / f).read_bytes())
     return h.hexdigest()[:12]
 
 
-def run(command, log, **more):
+def run(command, log, cwd=ROOT, **more):
     with open(log, "w") as out:
-        return subprocess.run([str(c) for c in command], cwd=ROOT, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, **more).returncode
+        return subprocess.run([str(c) for c in command], cwd=cwd, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, **more).returncode
 
 
 def make(folder, compiler, version, sanitize, sizes, jobs, more):
@@ -87,7 +87,7 @@ def test(folder, form):
     run([ROOT / "cmake/env.sh", python, "-m", "pytest", "-q", "-p", "no:cacheprovider", *(ROOT / f"tests/style/test_{t}.py" for t in TESTS)], log, env=env)
     passed, failed = (sum(map(int, re.findall(rf"(\d+) {word}", log.read_text(errors="replace").splitlines()[-1]))) for word in ("passed", "(?:failed|errors?)"))
     if form != "plugin":
-        code = run([ROOT / "cmake/env.sh", folder / "tests/hvi_unit"], folder / "unit.log", env=env)
+        code = run([ROOT / "cmake/env.sh", folder / "tests/hvi_unit"], folder / "unit.log", folder / "tests", env=env)
         text = (folder / "unit.log").read_text(errors="replace")
         passed += int((re.findall(r"\[  PASSED  \] (\d+) tests?", text) or [0])[-1])
         failed += max(int((re.findall(r"(\d+) FAILED TESTS?", text) or [0])[-1]), int(code != 0))
