@@ -19,6 +19,7 @@
 #include "error.h"
 #include "fix_hvi_ledger.h"
 #include "force.h"
+#include "hvi_anew.h"
 #include "hvi_compat.h"
 #include "hvi_restart.h"
 #include "memory.h"
@@ -47,6 +48,7 @@ BondHVISpring::BondHVISpring(LAMMPS *lmp) :
 
 BondHVISpring::~BondHVISpring()
 {
+  HVI::run_anew(update);
   memory->destroy(xowner);
 
   if (allocated && !copymode) {
@@ -248,6 +250,7 @@ void BondHVISpring::allocate()
 
 void BondHVISpring::coeff(int narg, char **arg)
 {
+  HVI::run_anew(update);
   if (narg < 4) utils::missing_cmd_args(FLERR, "bond_coeff hvi/spring", error);
   if (narg > 4)
     error->all(FLERR, "Bond_coeff for hvi/spring takes T kappa r_eq r_cut, but got extra: {}",

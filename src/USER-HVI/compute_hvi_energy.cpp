@@ -18,6 +18,7 @@
 #include "fix_hvi_ledger.h"
 #include "fix_hvi_store.h"
 #include "group.h"
+#include "hvi_anew.h"
 #include "hvi_energy_carrier.h"
 #include "hvi_interface.h"
 #include "update.h"
@@ -77,6 +78,7 @@ ComputeHVIEnergy::ComputeHVIEnergy(LAMMPS *lmp, int narg, char **arg) :
 
 ComputeHVIEnergy::~ComputeHVIEnergy()
 {
+  HVI::run_anew(update);
   delete[] vector;
 }
 

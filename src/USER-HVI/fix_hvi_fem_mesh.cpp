@@ -16,6 +16,7 @@
 #include "atom_vec.h"
 #include "domain.h"
 #include "error.h"
+#include "hvi_anew.h"
 #include "hvi_compat.h"
 #include "hvi_restart.h"
 #include "tokenizer.h"
@@ -337,6 +338,7 @@ void FixHVIFEMMesh::begin()
 
 FixHVIFEMMesh::~FixHVIFEMMesh()
 {
+  HVI::run_anew(update);
   if (!begun) return;
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);

@@ -16,6 +16,7 @@
 #include "comm.h"
 #include "error.h"
 #include "force.h"
+#include "hvi_anew.h"
 #include "hvi_leavers.h"
 #include "hvi_restart.h"
 #include "math_extra.h"
@@ -67,6 +68,7 @@ FixHVILedger::FixHVILedger(LAMMPS *lmp, int narg, char **arg) :
 
 FixHVILedger::~FixHVILedger()
 {
+  HVI::run_anew(update);
   memory->destroy(lost);
   atom->delete_callback(id, Atom::GROW);
 }

@@ -17,6 +17,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "hvi_anew.h"
 #include "hvi_mesh.h"
 #include "memory.h"
 #include "modify.h"
@@ -62,6 +63,7 @@ FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
 
 FixHVILists::~FixHVILists()
 {
+  HVI::run_anew(update);
   if (neighbor) FixHVILists::post_run();    // also if an error has ended the run
   memory->destroy(moved);
   memory->destroy(going);

@@ -13,6 +13,7 @@
 #include "comm.h"
 #include "error.h"
 #include "fix.h"
+#include "hvi_anew.h"
 #include "hvi_data_rows.h"
 #include "hvi_restart.h"
 #include "memory.h"
@@ -166,6 +167,7 @@ template <class Owner, class Record> void FixHVIRecords<Owner, Record>::begin()
 
 template <class Owner, class Record> FixHVIRecords<Owner, Record>::~FixHVIRecords()
 {
+  HVI::run_anew(update);
   if (known) {
     atom->delete_callback(id, Atom::GROW);
     atom->delete_callback(id, Atom::RESTART);

@@ -21,6 +21,7 @@
 #include "fix_hvi_store.h"
 #include "force.h"
 #include "group.h"
+#include "hvi_anew.h"
 #include "hvi_compat.h"
 #include "hvi_interface.h"
 #include "hvi_timestep.h"
@@ -187,6 +188,7 @@ FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
 
 FixHVISPH::~FixHVISPH()
 {
+  HVI::run_anew(update);
   atom->delete_callback(id, Atom::BORDER);
 }
 

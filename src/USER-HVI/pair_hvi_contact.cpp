@@ -17,6 +17,7 @@
 #include "error.h"
 #include "fix_hvi_lists.h"
 #include "force.h"
+#include "hvi_anew.h"
 #include "hvi_interface.h"
 #include "hvi_restart.h"
 #include "memory.h"
@@ -51,6 +52,7 @@ PairHVIContact::PairHVIContact(LAMMPS *lmp) :
 PairHVIContact::~PairHVIContact()
 {
   if (copymode) return;
+  HVI::run_anew(update);
 
   if (allocated) {
     memory->destroy(setflag);
@@ -323,6 +325,7 @@ void PairHVIContact::allocate()
 
 void PairHVIContact::settings(int narg, char **arg)
 {
+  HVI::run_anew(update);
   prefactor = 1.0;
   relative = 0;
 
@@ -351,6 +354,7 @@ void PairHVIContact::settings(int narg, char **arg)
 
 void PairHVIContact::coeff(int narg, char **arg)
 {
+  HVI::run_anew(update);
   if (narg < 4) utils::missing_cmd_args(FLERR, "pair_coeff hvi/contact", error);
   if (narg > 4)
     error->all(FLERR, "Pair_coeff for pair hvi/contact takes I J epsilon sigma, but got extra: {}",

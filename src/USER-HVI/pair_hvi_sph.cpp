@@ -21,6 +21,7 @@
 #include "fix_hvi_lists.h"
 #include "fix_hvi_sph.h"
 #include "force.h"
+#include "hvi_anew.h"
 #include "hvi_kernel.h"
 #include "hvi_material_file.h"
 #include "hvi_mesh.h"
@@ -69,6 +70,7 @@ PairHVISPH::PairHVISPH(LAMMPS *lmp) :
 PairHVISPH::~PairHVISPH()
 {
   if (copymode) return;
+  HVI::run_anew(update);
   deallocate();
 }
 
@@ -117,6 +119,7 @@ void PairHVISPH::deallocate()
 
 void PairHVISPH::settings(int narg, char **arg)
 {
+  HVI::run_anew(update);
   if (narg < 1)
     error->all(
         FLERR,
@@ -287,6 +290,7 @@ void PairHVISPH::settings(int narg, char **arg)
 
 void PairHVISPH::coeff(int narg, char **arg)
 {
+  HVI::run_anew(update);
   if (narg < 3) utils::missing_cmd_args(FLERR, "pair_coeff hvi/sph", error);
   if (!allocated) allocate();
 

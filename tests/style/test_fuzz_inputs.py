@@ -31,6 +31,16 @@ def test_what_was_found(lmp_exe, tmp_path, name):
     assert all(text in message for text in expected) and bool(expected) == bool(message), message
 
 
+def test_pre_no_is_as_pre_yes(lmp_exe, tmp_path):
+    """where a fix is gone, and the next run is told not to set up"""
+    grammar.beside(tmp_path)
+    for word in ("no", "yes"):
+        text = FOUND["unfix-pre-no"].read_text().partition("run 3")[0]
+        (tmp_path / "in.fuzz").write_text(f"{text}run 3 pre {word}\nwrite_dump all custom {word} id x y z vx vy vz fx fy fz modify format float %.17g sort id\n")
+        assert inputs.check(lmp_exe, tmp_path / "in.fuzz", 300) == ("", "")
+    assert (tmp_path / "no").read_text() == (tmp_path / "yes").read_text()
+
+
 def test_random_inputs(lmp_exe, tmp_path):
     n, ran, found, messages = inputs.run(lmp_exe, tmp_path, "short", count=12)
     assert n == 12 and not found, found
