@@ -6,6 +6,10 @@
    See the LICENSE file in the top-level directory.
 ------------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Contributing author: the lammps-hvi developers
+------------------------------------------------------------------------- */
+
 #include "hvi_restart.h"
 
 #include "atom.h"
