@@ -43,7 +43,7 @@ static constexpr double MARGIN = 1.5;    // for velocities that change in these 
 static constexpr double LEAST_BOX = 0.005;     // over the reach, or LAMMPS makes no bins
 static constexpr double MOST_BINS = 1.0e18;    // of that size: no debris flies so far
 
-static bool making = false;    // else it stands in an input
+static bool making = false;    // else it stands in an input, or goes for good
 
 /* ---------------------------------------------------------------------- */
 
@@ -63,7 +63,7 @@ FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
 
 FixHVILists::~FixHVILists()
 {
-  HVI::run_anew(update);
+  if (!making) HVI::run_anew(update);       // in an init() another takes its place
   if (neighbor) FixHVILists::post_run();    // also if an error has ended the run
   memory->destroy(moved);
   memory->destroy(going);
@@ -73,8 +73,8 @@ FixHVILists::~FixHVILists()
 
 FixHVILists *FixHVILists::make(LAMMPS *lmp, bool relative, bool ahead)
 {
-  if (lmp->modify->get_fix_by_id(LISTS_ID)) lmp->modify->delete_fix(LISTS_ID);
   making = true;
+  if (lmp->modify->get_fix_by_id(LISTS_ID)) lmp->modify->delete_fix(LISTS_ID);
   auto *const made =
       dynamic_cast<FixHVILists *>(lmp->modify->add_fix(fmt::format("{} all hvi/lists", LISTS_ID)));
   making = false;
