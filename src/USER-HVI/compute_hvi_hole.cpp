@@ -44,8 +44,8 @@ static constexpr double ONE_SIDED = 0.01;              // a plate with less on o
 
 ComputeHVIHole::ComputeHVIHole(LAMMPS *lmp, int narg, char **arg) :
     ComputeHVIMatter(lmp, narg, arg), axis(-1), sectors(36), center{NAN, NAN}, plane(NAN),
-    thickness(0.0), dr(0.0), fill(0.5), reference(0.0), is_away(false), warned_open(false),
-    warned_away(false), warned_coarse(false), warned_dr(false)
+    thickness(0.0), dr(0.0), fill(0.5), reference(0.0), is_away(false), placed(false),
+    warned_open(false), warned_away(false), warned_coarse(false), warned_dr(false)
 {
   if (domain->dimension != 3)
     error->all(FLERR, "Compute hvi/hole needs a three-dimensional simulation");
@@ -128,6 +128,8 @@ void ComputeHVIHole::compute_vector()
 
   find_layer();
   const bool found_plate = find_extent();
+  if (placed) is_away = false;    // it has been there, and flies
+  placed = placed || (found_plate && !is_away);
   if (is_away && comm->me == 0 && !warned_away) {
     error->warning(
         FLERR,

@@ -57,6 +57,7 @@ class ComputeHVIHole : public ComputeHVIMatter {
   int axis, across[2], sectors;
   double center[2], plane, thickness, dr, fill, reference;
   bool is_away;    // from the centre, or from the plane
+  bool placed;     // a plate has been there
   bool warned_open, warned_away, warned_coarse, warned_dr;
 
   // the plate's layer; all but the particles is the same on all ranks

@@ -249,4 +249,5 @@ void FixHVIDt::restart(char *buf)
   laststep = static_cast<bigint>(list[2]);
   first = list[3];
   restored = update->dt;
+  chosen = 1;
 }

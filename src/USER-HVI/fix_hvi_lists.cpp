@@ -50,7 +50,7 @@ static bool making = false;    // else it stands in an input, or goes for good
 FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), has_rows(false), moved(nullptr), going(nullptr),
     nmax(0), farthest{}, beyond{}, unseen{}, delay(0), relative(true), ahead(false), made(0),
-    next(0), looked(0), known(false), leaving(false), sized(-1), bin(0.0), sort_bin(0.0)
+    next(0), looked(0), known(false), leaving(false), put{-1, 0.0, -1.0}, given{0, 0.0, 0.0}
 {
   if (!making)
     error->all(FLERR, "Fix hvi/lists is made by pair styles and cannot be given in an input");
@@ -126,65 +126,90 @@ bool FixHVILists::may_keep_rows(double cut) const
 
 void FixHVILists::init()
 {
-  sized = neighbor->binsizeflag;
-  bin = neighbor->binsize_user;
-  sort_bin = atom->userbinsize;
+  set_bins(0.0);
   if (force->pair && neighbor->style == Neighbor::BIN)
-    check_box(domain->prd, force->pair->cutforce + neighbor->skin,
-              update->ntimestep == 0 && atom->sortfreq > 0 && sort_bin == 0.0 ? MAXSMALLINT
-                                                                              : MOST_BINS);
-  pre_exchange();    // LAMMPS looks at bins for sorting before it asks fixes
+    check_box(domain->prd, force->pair->cutforce + neighbor->skin);
+  if (update->whichflag) widen_bins(false);    // LAMMPS makes bins for sorting before it asks fixes
 }
 
 void FixHVILists::setup_pre_exchange()
 {
-  pre_exchange();
+  widen_bins(true);
 }
-
-// of a box that is about to be another, both count
 
 void FixHVILists::pre_exchange()
 {
-  static constexpr double MANY = 4.0e6, PER_PARTICLE = 16.0;
-  double ends[6], length[3], size = 1.0;    // ends: less the highest
+  if (domain->box_change) widen_bins(false);
+}
+
+// of a box that is about to be another, both count; not where it begins to follow the particles
+
+void FixHVILists::widen_bins(bool shrinks)
+{
+  static constexpr double MANY = 4.0e6, PER_PARTICLE = 16.0, FLAT = 99.0;
+  double ends[6], length[3], size = 1.0, shortest = FAR_AWAY;    // ends: less the highest
   for (int k = 0; k < 3; k++) {
-    ends[k] = domain->boxlo[k];
-    ends[3 + k] = -domain->boxhi[k];
+    const bool follows[2] = {shrinks && atom->natoms > 0 && domain->boundary[k][0] == 2,
+                             shrinks && atom->natoms > 0 && domain->boundary[k][1] == 2};
+    ends[k] = follows[0] ? FAR_AWAY : domain->boxlo[k];
+    ends[3 + k] = follows[1] ? FAR_AWAY : -domain->boxhi[k];
   }
   for (int i = 0; i < atom->nlocal && domain->nonperiodic == 2; i++)
-    for (int k = 0; k < 3; k++) {
-      if (domain->boundary[k][0] >= 2) ends[k] = MIN(ends[k], atom->x[i][k]);
-      if (domain->boundary[k][1] >= 2) ends[3 + k] = MIN(ends[3 + k], -atom->x[i][k]);
+    for (int k = 0; k < 3; k++) {    // NaN is less than nothing
+      const double x = atom->x[i][k];
+      if (domain->boundary[k][0] >= 2 && x < ends[k]) ends[k] = x;
+      if (domain->boundary[k][1] >= 2 && -x < ends[3 + k]) ends[3 + k] = -x;
     }
   MPI_Allreduce(MPI_IN_PLACE, ends, 6, MPI_DOUBLE, MPI_MIN, world);
   for (int k = 0; k < domain->dimension; k++) {
     length[k] = MAX(-(ends[k] + ends[3 + k]), 0.0);
+    if (!(length[k] < FAR_AWAY)) return;    // no particle has a place: LAMMPS says so
+    if (length[k] > 0.0) shortest = MIN(shortest, length[k]);
     size *= length[k];
   }
   if (force->pair && neighbor->style == Neighbor::BIN && domain->nonperiodic == 2)
-    check_box(length, force->pair->cutforce + neighbor->skin, MOST_BINS);
-  set_bins(pow(size / (MANY + PER_PARTICLE * atom->natoms), 1.0 / domain->dimension));
+    check_box(length, force->pair->cutforce + neighbor->skin);
+  const double least = pow(size / (MANY + PER_PARTICLE * atom->natoms), 1.0 / domain->dimension);
+  set_bins(MIN(least, FLAT * shortest));
 }
+
+/* ----------------------------------------------------------------------
+   0: those of neigh_modify and atom_modify sort again.  What stands there is theirs, unless it was put there here.
+------------------------------------------------------------------------- */
 
 void FixHVILists::set_bins(double least)
 {
+  if (neighbor->binsizeflag != put.wide || neighbor->binsize_user != put.bin)
+    given = {neighbor->binsizeflag, neighbor->binsize_user, given.sort_bin};
+  if (atom->userbinsize != put.sort_bin) given.sort_bin = atom->userbinsize;
+
   const double half = force->pair ? 0.5 * (force->pair->cutforce + neighbor->skin) : 0.0;
   if (half == 0.0) least = 0.0;    // LAMMPS has no bins then
-  const bool wider = least > (sized ? bin : half);
-  neighbor->binsizeflag = wider ? 1 : sized;
-  neighbor->binsize_user = wider ? least : bin;
+  const bool wider = least > (given.wide ? given.bin : half);
+  const bool sorts = least > (given.sort_bin > 0.0 ? given.sort_bin : half);
+  put = {wider ? 1 : given.wide, wider ? least : given.bin, sorts ? least : given.sort_bin};
+  neighbor->binsizeflag = put.wide;
+  neighbor->binsize_user = put.bin;
+  atom->userbinsize = put.sort_bin;
   for (int k = 0; k < neighbor->nlist; k++)
     if (NPair *const builds = neighbor->lists[k]->np)
       if (builds->nb) builds->nb->copy_neighbor_info();
-  atom->userbinsize = least > (sort_bin > 0.0 ? sort_bin : half) ? least : sort_bin;
 }
 
-void FixHVILists::check_box(const double *length, double cut, double most) const
+// restart files have it, and particles are sorted by now
+
+void FixHVILists::give_back_sorting()
 {
-  const double width = sized > 0 ? bin : 0.5 * cut;
+  if (atom->userbinsize != put.sort_bin) return;
+  atom->userbinsize = put.sort_bin = given.sort_bin;
+}
+
+void FixHVILists::check_box(const double *length, double cut) const
+{
+  const double width = given.wide ? given.bin : 0.5 * cut;
   double bins = 1.0;
   for (int k = 0; k < domain->dimension && cut > 0.0; k++) {
-    if (length[k] < LEAST_BOX * cut)
+    if (length[k] < LEAST_BOX * width)
       error->all(
           FLERR,
           "Particles are looked for within {:.6g}, the reach of the pair style and the skin, in "
@@ -192,7 +217,7 @@ void FixHVILists::check_box(const double *length, double cut, double most) const
           cut, length[k], "xyz"[k]);
     bins *= 1.0 + length[k] / width;
   }
-  if (bins > most)
+  if (bins > MOST_BINS)
     error->all(
         FLERR,
         "The box is {:.4g} by {:.4g} by {:.4g} long, {:.3g} bins of neighbors for a reach of "
@@ -211,6 +236,7 @@ void FixHVILists::setup_pre_neighbor()
 
 void FixHVILists::pre_neighbor()
 {
+  give_back_sorting();
   if (ahead && !in_charge()) return;    // nobody else asks for the cells
   made = update->ntimestep;
   next = made + 1;
@@ -264,7 +290,7 @@ void FixHVILists::setup(int /*vflag*/)
 
 void FixHVILists::post_run()
 {
-  if (sized >= 0) set_bins(0.0);
+  set_bins(0.0);
   if (neighbor->delay == NEVER) neighbor->delay = delay;
 }
 

@@ -77,10 +77,16 @@ class FixHVILists : public Fix {
   bigint made, next, looked;    // step when lists were made, are looked at next, were looked at
   bool known;                   // no particle has come since lists were made
   bool leaving;                 // some particle is to be lost
-  int sized;                    // size of bins of neigh_modify and atom_modify sort
-  double bin, sort_bin;
 
-  void check_box(const double *length, double cut, double most) const;
+  struct Bins {
+    int wide;    // neighbor->binsizeflag
+    double bin, sort_bin;
+  };
+  Bins put, given;    // last set here; of neigh_modify and atom_modify sort
+
+  void check_box(const double *length, double cut) const;
+  void widen_bins(bool shrinks);
+  void give_back_sorting();
   void measure();
   void set_bins(double least);
   bool exceeded(double time);

@@ -76,6 +76,7 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
   void write_restart(FILE *) override;
   void restart(char *buf) override
   {
+    found = true;
     restored =
         HVI::RestartSection(lmp, fmt::format("Fix {} {}", id, style), RESTART_FORMAT, buf).text();
   }
@@ -121,6 +122,7 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
   std::vector<std::string> suffixes;
   bool known = false;
   bool may_be_lost = false;            // given between read_restart and a run
+  bool found = false;                  // in the restart file
   std::deque<HVIDataRows> sections;    // they cannot be copied
 
   void refuse_another() const;
@@ -195,11 +197,11 @@ template <class Owner, class Record> void FixHVIRecords<Owner, Record>::refuse_a
 
 template <class Owner, class Record> void FixHVIRecords<Owner, Record>::check_restored()
 {
-  if (may_be_lost && restored.empty() && comm->me == 0)
+  if (may_be_lost && !found && comm->me == 0)
     error->warning(
         FLERR,
         "Fix {} {}: the restart file has nothing of a fix of this ID and style, so what it "
-        "keeps of particles begins anew: give it the ID that it had",
+        "keeps of particles begins anew: if an earlier run had one, give it the ID that it had",
         id, style);
   may_be_lost = false;
 }

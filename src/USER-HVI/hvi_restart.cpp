@@ -131,6 +131,8 @@ RestartSection::RestartSection(LAMMPS *lmp, const std::string &whose, int form, 
     form(form), whose(whose), lmp(lmp)
 {
   Header head;
+  memcpy(&head.form, state, sizeof(head.form));    // LAMMPS does not say how much there is
+  if (head.form != MARK + form) refuse();
   memcpy(&head, state, sizeof(head));
   check(head);
   bytes.assign(state + sizeof(head), head.size);
