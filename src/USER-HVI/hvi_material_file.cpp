@@ -20,6 +20,8 @@ using namespace LAMMPS_NS;
 
 namespace {
 
+constexpr size_t LARGEST = 100000000;    // bytes: more is no file of ours, or has no end
+
 // The text of a file, found as LAMMPS finds potentials, on all ranks; returns what is wrong.
 
 std::string read_text(LAMMPS *lmp, const std::string &what, const std::string &filename,
@@ -32,15 +34,23 @@ std::string read_text(LAMMPS *lmp, const std::string &what, const std::string &f
     if (fp) {
       char buffer[4096];
       size_t n;
-      while ((n = fread(buffer, 1, sizeof(buffer), fp)) > 0) text.append(buffer, n);
-      length = ferror(fp) ? -2 : (int) text.size();
+      while (text.size() <= LARGEST && (n = fread(buffer, 1, sizeof(buffer), fp)) > 0)
+        text.append(buffer, n);
+      length = ferror(fp)             ? -2
+          : text.size() > LARGEST     ? -3
+          : text.find('\0') < LARGEST ? -4
+                                      : (int) text.size();
       fclose(fp);
     }
   }
   MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
   if (length == -1)
     return "Cannot find " + what + " file " + filename + ", neither here nor in LAMMPS_POTENTIALS";
-  if (length == -2) return "Cannot read " + what + " file " + filename;
+  if (length == -2) return "Cannot read " + what + " file " + filename + ": is it a folder?";
+  if (length == -3)
+    return "The " + what + " file " + filename + " is larger than " + std::to_string(LARGEST) +
+        " bytes: is it the right one?";
+  if (length == -4) return "The " + what + " file " + filename + " is no text: it has a byte of 0";
   text.resize(length);
   MPI_Bcast(&text[0], length, MPI_CHAR, 0, lmp->world);
   return "";

@@ -196,28 +196,6 @@ e     0    2
 """
 
 
-@pytest.mark.parametrize("change, says", [
-    (("UNITS: si", "UNITS: metal"), "Table file x.table:1: unknown UNITS: metal; known are si, cgs, micro, lj"),
-    (("UNITS: si", "UNITS: lj"), "x.table:1: UNITS: lj cannot be converted to units si of the run"),
-    (("UNITS: si", ""), "x.table:2: no UNITS: in the comments before the first key"),
-    (("1.5   0    1.5", "1.5   0"), "x.table:8: pressure: 1 values in the row, not 2"),
-    (("1.5   0    1.5", "1.5   0  1.5  2"), "x.table:8: pressure: 3 values in the row, not 2"),
-    (("1.5   0    1.5", "0.5   0  1.5"), "x.table:8: density 0.5 is not above that of the row before"),
-    (("e     0    2", "e  0  -2"), "x.table:6: energy -2 is not above the one before"),
-    (("1.5   0    1.5", "1.5   0  nan"), "x.table:8: pressure: nan is not a number"),
-    (("1.5   0    1.5", "1.5   0  1e999"), "x.table:8: pressure: 1e999 is not a finite number in units si"),
-    (("2     1    3\n", ""), "x.table:5: pressure: the file ends after 2 of 3 densities"),
-    (("2     1    3", "2    -1    -3"), "x.table: pressure falls with density at constant entropy"),
-    (("rho0 1.5", "rho0 2.5"), "x.table: the reference state, rho0 = 2.5 and energy 0, is not in the table"),
-    (("bilinear", "bicubic"), "x.table: 3 densities and 2 energies are too few, bicubic needs 4"),
-    ((TABLE, ""), "x.table: no pressure"),
-])
-def test_wrong_tables(lmp, tmp_path, change, says):
-    assert TABLE.count(change[0]) == 1
-    (tmp_path / "x.table").write_text(TABLE.replace(*change))
-    assert says in refused(lmp, "eos table x.table")
-
-
 def test_the_table_above_is_right(lmp, tmp_path):
     (tmp_path / "x.table").write_text(TABLE)
     assert state(lmp(text("eos table x.table", rho=1.75, e=1.0)))[0] == pytest.approx((0 + 1.5 + 1 + 3) / 4)

@@ -115,29 +115,6 @@ def refused(lmp, name, units="si", nranks=1, **how):
     return " ".join(result.error.split())
 
 
-@pytest.mark.parametrize("change, says", [
-    (("UNITS: si", "UNITS: metal"), "Material file x.hvi:1: unknown UNITS: metal; known are si, cgs, micro, lj"),
-    (("UNITS: si", ""), "x.hvi:2: no UNITS: in the comments before the first section"),
-    (("eos gruneisen", "eos grueneisen"), "x.hvi:2: unknown law eos grueneisen; known are linear, tait"),
-    (("eos gruneisen", "strength mts\neos gruneisen"), "x.hvi:2: unknown law strength mts"),
-    (("  C 5240", "  c 5240"), "x.hvi:4: eos gruneisen: unknown key c; known are rho0 C S1 g0 a cp S2 S3 T0"),
-    (("  C 5240", "  C 5240\n  C 5240"), "x.hvi:5: eos gruneisen: key C given twice, first in line 4"),
-    (("  C 5240\n", ""), "x.hvi:2: eos gruneisen: missing key C"),
-    (("C 5240", "C"), "x.hvi:4: eos gruneisen: key C has no value"),
-    (("C 5240", "C 5240 m/s"), "x.hvi:4: eos gruneisen: C: unexpected text m/s after the value"),
-    (("C 5240", "C fast"), "x.hvi:4: eos gruneisen: C: fast is not a number"),
-    (("C 5240", "C nan"), "x.hvi:4: eos gruneisen: C: nan is not a number"),
-    (("C 5240", "C -5240"), "x.hvi:4: eos gruneisen: C = -5240 must be > 0"),
-    (("C 5240", "C 1e999"), "x.hvi:4: eos gruneisen: C = inf is not a finite number"),
-    ((GOOD, "# UNITS: si\n"), "x.hvi: no section eos"),
-    ((GOOD, ""), "x.hvi: no section eos"),
-])
-def test_wrong_files(lmp, tmp_path, change, says):
-    assert change[0] in GOOD
-    (tmp_path / "x.hvi").write_text(GOOD.replace(*change))
-    assert says in refused(lmp, "x.hvi")
-
-
 def test_wrong_file_on_two_ranks(lmp, tmp_path):
     (tmp_path / "x.hvi").write_text(GOOD.replace("C 5240", "C fast"))
     assert "x.hvi:4: eos gruneisen: C: fast is not a number" in refused(lmp, "x.hvi", nranks=2)
@@ -147,11 +124,6 @@ def test_wrong_file_on_two_ranks(lmp, tmp_path):
 def test_missing_file(lmp, tmp_path, nranks):
     says = "Cannot find material file unobtainium.hvi, neither here nor in LAMMPS_POTENTIALS"
     assert says in refused(lmp, "unobtainium.hvi", nranks=nranks, env={"LAMMPS_POTENTIALS": str(tmp_path)})
-
-
-def test_a_folder_is_no_file(lmp, tmp_path):
-    (tmp_path / "x.hvi").mkdir()
-    assert "material file x.hvi" in refused(lmp, "x.hvi")
 
 
 @pytest.mark.parametrize("file_units, units", [("si", "lj"), ("lj", "si")])

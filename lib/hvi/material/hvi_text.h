@@ -57,7 +57,10 @@ struct Header {
 
 class Lines {
  public:
-  Lines(const std::string &text, const std::string &filename) : text(text), filename(filename) {}
+  Lines(const std::string &text, const std::string &filename) : text(text), filename(filename)
+  {
+    if (text.compare(0, 3, "\xef\xbb\xbf") == 0) from = 3;    // a byte order mark, as of Windows
+  }
 
   std::string comment;               // what stands behind #
   std::vector<std::string> words;    // what stands before it

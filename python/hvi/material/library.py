@@ -11,7 +11,8 @@ import pathlib
 import re
 from typing import Optional
 
-from ..errors import HVIError, reading
+from .. import texts
+from ..errors import HVIError
 from ..version import ROOT
 
 # keys of each law as its table in src/USER-HVI has them: (key, quantity, range, value if it is not given, None: it must be);
@@ -273,8 +274,7 @@ class _Reader:
 def read(name):
     """The Material of a file, or an HVIError that names file and line."""
     path = find(name)
-    with reading(path):
-        text = path.read_bytes().decode("utf-8", errors="replace")
+    text = texts.data_of(path).decode("utf-8-sig", errors="replace")
     reader = _Reader(path)
     for reader.line, line in enumerate(text.split("\n"), 1):
         body, _, comment = line.partition("#")
