@@ -13,6 +13,8 @@ from .version import version
 DESCRIPTION = """Asks whether a shield holds, runs studies, and looks at what LAMMPS has written of an impact: debris clouds, fragments,
 velocity maps, side views."""
 
+MOST = 2000  # characters of a message
+
 COMMANDS = {
     "shield": "does the wall hold? A case at several spacings and shifts of the lattice, one verdict; exit status 0 holds, 3 fails, 4 undecided",
     "judge": "the verdict on a folder of hvi shield --write that was run by hand; exit status as that of shield",
@@ -79,6 +81,12 @@ def parse(words):
     return options(next((word for word in words if not word.startswith("-")), None)).parse_args(join_negative(words))
 
 
+def shown(text):
+    """of a message that repeats what a file says: no more than can be read, nothing that a terminal would obey"""
+    text = text if len(text) < MOST else f"{text[:MOST]} ..."
+    return "".join(c if c.isprintable() or c == "\n" else repr(c)[1:-1] for c in text)
+
+
 def main(arguments=None):
     """Runs a command; returns the exit status: 0; 1 for wrong input, with one line on stderr; 130 when interrupted."""
     with warnings.catch_warnings():
@@ -90,11 +98,11 @@ def main(arguments=None):
             sys.stdout.flush()
             return status
         except HVIError as error:
-            print(f"hvi: {error}", file=sys.stderr)
+            print(f"hvi: {shown(str(error))}", file=sys.stderr)
         except ImportError as error:
             print(f"hvi: {error}: see Howto_python for what is needed", file=sys.stderr)
         except MemoryError:
-            print("hvi: not enough memory for this frame", file=sys.stderr)
+            print("hvi: not enough memory: take fewer bins, particles or frames, or another machine", file=sys.stderr)
         except BrokenPipeError:  # as in  python3 -m hvi ... | head: nobody reads the rest
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         except OSError as error:

@@ -79,6 +79,8 @@ def measure(source, spacing, types, axis="z", center=(0.0, 0.0), toward=-1):
     x = np.column_stack([x[:, others] - np.asarray(center), toward * x[:, along]])  # outward is up
     tree = cKDTree(x)
     radius = np.quantile(np.hypot(x[:, 0], x[:, 1]), 0.99)
+    if not 1e-4 * radius < spacing < 1e4 * radius:
+        raise HVIError(f"{frame.where}: a spacing of {spacing:g} is not that of a target with a radius of {radius:g}")
     deep, high = np.quantile(x[:, 2], 0.01) + 3 * spacing, x[:, 2].max() + 3 * spacing
     turn = 2 * math.pi * (np.arange(AZIMUTHS) + 0.5) / AZIMUTHS
     ring = np.column_stack([np.cos(turn), np.sin(turn)])

@@ -10,6 +10,8 @@ from ..errors import HVIError
 from ..io.frame import axis_number, whole
 from .cloud import beyond
 
+MOST = 10_000  # bins each way
+
 
 @dataclasses.dataclass
 class Map:
@@ -27,8 +29,8 @@ def _cloud(source, axis, plane, bins):
         frame = frame.select(beyond(frame, axis, plane))
     if not len(frame):
         raise HVIError(f"{frame.where}: no particles" + ("" if plane is None else f" beyond {axis} = {plane:g}"))
-    if not (min(bins) >= 1):
-        raise HVIError(f"a map needs at least one bin each way, not {bins[0]} x {bins[1]}")
+    if not (min(bins) >= 1 and max(bins) <= MOST):
+        raise HVIError(f"a map needs at least one bin each way, {MOST} at most, not {bins[0]} x {bins[1]}")
     return frame, axis_number(axis)
 
 
@@ -96,8 +98,8 @@ def impacts(source, axis, plane, bins=80, after=None, reach=None):
     if after is not None:
         coming &= frame.x[:, along] > after
     frame = frame.select(coming)
-    if not len(frame) or bins < 1:
-        raise HVIError(f"{frame.where}: nothing is on the way to {axis} = {plane:g}" if bins >= 1 else f"a map needs bins, not {bins}")
+    if not len(frame) or not 1 <= bins <= MOST:
+        raise HVIError(f"{frame.where}: nothing is on the way to {axis} = {plane:g}" if 1 <= bins <= MOST else f"a map needs bins, {MOST} each way at most, not {bins}")
     m, v = frame.m, frame.v
     flight = (plane - frame.x[:, along]) / v[:, along]
     x = frame.x[:, across] + flight[:, None] * v[:, across]

@@ -6,7 +6,7 @@ import numpy as np
 from .. import progress, tables
 from ..analysis import cloud
 from . import dumps
-from .shared import add_output, draw
+from .shared import add_output, draw, whole
 
 EXAMPLES = """  python3 -m hvi cloud debris.dump --data debris.data --axis z --plane 4.05e-3
   python3 -m hvi cloud debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 --interval 3e-6 \\
@@ -17,7 +17,7 @@ def add_arguments(parser):
     dumps.add_files(parser)
     dumps.add_cloud(parser, needed=True)
     dumps.add_quantile(parser)
-    parser.add_argument("--frame", type=int, action="append", metavar="K", help="only this frame; repeat (default: all)")
+    parser.add_argument("--frame", type=whole, action="append", metavar="K", help="only this frame; repeat (default: all)")
     dumps.add_reading(parser)
     add_output(parser, "the measures over time")
 

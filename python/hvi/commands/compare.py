@@ -7,6 +7,7 @@ from ..analysis import fragments as pieces
 from ..errors import HVIError
 from ..jobs import compare
 from . import dumps
+from .shared import real
 
 EXAMPLES = """  python3 -m hvi compare run1/result.yaml run2/result.yaml
   python3 -m hvi compare run1 run2 --rtol 0.05 --keys length_ratio fragmentation
@@ -18,7 +19,7 @@ def add_arguments(parser):
     for name in "AB":
         parser.add_argument(name.lower(), metavar=name, help="result.yaml, folder with one, or dump")
     parser.add_argument("--keys", nargs="+", metavar="KEY", help="only these (default: all)")
-    parser.add_argument("--rtol", type=float, metavar="T", help="exit status 1 if a relative difference is larger than T")
+    parser.add_argument("--rtol", type=real, metavar="T", help="exit status 1 if a relative difference is larger than T")
     parser.add_argument("--out", metavar="FILE.csv", help="write the table with all digits")
     dumps.add_frame(parser)
     dumps.add_cloud(parser, needed=False)

@@ -3,7 +3,7 @@
 
 from .. import tables
 from . import dumps
-from .shared import add_output, draw, positive, show
+from .shared import add_output, draw, positive, real, show
 
 EXAMPLES = """  python3 -m hvi crater crater.dump --spacing 0.6e-3 --type 2
   python3 -m hvi crater frame.*.dump --spacing 0.6e-3 --type 2 --all --out growth.csv"""
@@ -13,7 +13,7 @@ def add_arguments(parser):
     parser.add_argument("files", nargs="+", metavar="FILE", help="dump file, or several of one run (plain or .gz)")
     parser.add_argument("--spacing", type=positive, required=True, metavar="A", help="of the lattice that the target was made of")
     parser.add_argument("--axis", choices="xyz", default="z", help="direction of the impact (default: z)")
-    parser.add_argument("--center", type=float, nargs=2, default=(0.0, 0.0), metavar=("X", "Y"), help="where the axis of the crater is, across it (default: 0 0)")
+    parser.add_argument("--center", type=real, nargs=2, default=(0.0, 0.0), metavar=("X", "Y"), help="where the axis of the crater is, across it (default: 0 0)")
     parser.add_argument("--from-above", action="store_true", help="the projectile came from the upper side of the axis")
     dumps.add_types(parser, ": the target")
     parser.add_argument("--all", action="store_true", help="a row for every frame instead of the values of one")

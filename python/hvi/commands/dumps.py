@@ -16,7 +16,7 @@ from ..io import bonds as bond_sources
 from ..io.dump import Dump
 from ..io.scan import open_binary
 from ..units import MVV2E
-from .shared import positive, show
+from .shared import LARGEST, MANY, positive, real, show, whole
 
 
 # ---------------------------------------------------------------------- options
@@ -27,7 +27,7 @@ def by_type(text, what="MASS", like="1=2.5e-7"):
         kind, value = int(kind), float(value)
     except ValueError:
         value = 0.0
-    if not 0.0 < value < float("inf"):
+    if not (0.0 < value < LARGEST and 0 < kind <= MANY):
         raise argparse.ArgumentTypeError(f"{text} is not TYPE={what}, like {like}")
     return kind, value
 
@@ -37,11 +37,11 @@ def add_files(parser):
 
 
 def add_frame(parser):
-    parser.add_argument("--frame", type=int, default=-1, metavar="K", help="which frame, from 0; negative from the end (default: -1)")
+    parser.add_argument("--frame", type=whole, default=-1, metavar="K", help="which frame, from 0; negative from the end (default: -1)")
 
 
 def add_types(parser, text):
-    parser.add_argument("--type", type=int, nargs="+", metavar="TYPE", help=f"only particles of these types{text} (default: all)")
+    parser.add_argument("--type", type=whole, nargs="+", metavar="TYPE", help=f"only particles of these types{text} (default: all)")
 
 
 def add_reading(parser, several=False):
@@ -60,11 +60,11 @@ def add_reading(parser, several=False):
 def add_cloud(parser, needed):
     group = parser.add_argument_group("the cloud: all particles beyond a plane")
     group.add_argument("--axis", choices="xyz", required=needed, default=None if needed else "z", help="direction of the impact" + ("" if needed else " (default: z)"))
-    group.add_argument("--plane", type=float, metavar="X", required=needed, help="coordinate of the plane" + ("" if needed else " (default: all particles)"))
+    group.add_argument("--plane", type=real, metavar="X", required=needed, help="coordinate of the plane" + ("" if needed else " (default: all particles)"))
 
 
 def add_quantile(parser):
-    parser.add_argument("--quantile", type=float, default=0.99, metavar="Q", help="share of the mass inside an edge (default: 0.99)")
+    parser.add_argument("--quantile", type=real, default=0.99, metavar="Q", help="share of the mass inside an edge (default: 0.99)")
 
 
 def add_rules(parser, several=False):

@@ -5,7 +5,7 @@ import os
 
 from ..material import library
 from ..model import bodies
-from .shared import positive, show
+from .shared import natural, positive, show
 
 
 def add_density(parser):
@@ -16,7 +16,7 @@ def add_density(parser):
 
 def add_filling(parser, default, text):
     parser.add_argument("--fill", choices=("glass", "lattice"), default=default, help=f"{text} (default: {default})")
-    parser.add_argument("--seed", type=int, default=1, metavar="N", help="of glass: another one, another glass (default: 1)")
+    parser.add_argument("--seed", type=natural, default=1, metavar="N", help="of glass: another one, another glass (default: 1)")
     add_density(parser)
 
 

@@ -9,7 +9,7 @@ from ..analysis import debris as below
 from ..analysis import fragments as pieces
 from ..errors import HVIError
 from . import dumps
-from .shared import add_output, draw, positive
+from .shared import add_output, draw, positive, whole
 
 EXAMPLES = """  python3 -m hvi fragments debris.dump --data debris.data --bonds bonds.dump --axis z --plane 4.05e-3 \\
       --fit both --figure masses --out fragments.csv
@@ -28,7 +28,7 @@ def add_arguments(parser):
     dumps.add_cloud(parser, needed=False)
     dumps.add_types(parser, " count and connect")
     parser.add_argument("--all", action="store_true", help="the summary of every frame instead of the table of one")
-    parser.add_argument("--top", type=int, default=10, metavar="N", help="rows to print (default: 10)")
+    parser.add_argument("--top", type=whole, default=10, metavar="N", help="rows to print (default: 10)")
     parser.add_argument("--fit", choices=("power", "exponential", "both"), help="fit N(>m): A m^-b, N0 exp(-m/mu)")
     parser.add_argument("--mmin", type=positive, metavar="M", help="fit from this mass on (default: where the law fits best)")
     parser.add_argument("--mmax", type=positive, default=float("inf"), metavar="M", help="and up to this one")

@@ -6,7 +6,7 @@ from ..errors import HVIError
 from ..io import mirror
 from ..io.data import DataFile
 from . import dumps
-from .shared import add_output, draw, positive, show
+from .shared import add_output, draw, positive, real, show, whole
 
 EXAMPLES = """  python3 -m hvi hole frame.10.dump --plane 0.5e-3 --type 2 --figure hole
   python3 -m hvi hole shield.dump --center 2.5e-3 0 --plane 31.4e-3 --type 3 --distance 0.4e-3 --thickness 1
@@ -17,17 +17,17 @@ EXAMPLES = """  python3 -m hvi hole frame.10.dump --plane 0.5e-3 --type 2 --figu
 def add_arguments(parser):
     parser.add_argument("files", nargs="+", metavar="FILE", help="dump file, or several of one run (plain or .gz); or one data file (write_data)")
     parser.add_argument("--axis", choices="xyz", default="z", help="direction in which the plate is looked at (default: z)")
-    parser.add_argument("--center", type=float, nargs=2, default=(0.0, 0.0), metavar=("X", "Y"),
+    parser.add_argument("--center", type=real, nargs=2, default=(0.0, 0.0), metavar=("X", "Y"),
                         help="a point in the plate across the axis, at best in the middle of the hole (default: 0 0)")
-    parser.add_argument("--plane", type=float, required=True, metavar="Z", help="coordinate of the plate's middle plane along the axis")
+    parser.add_argument("--plane", type=real, required=True, metavar="Z", help="coordinate of the plate's middle plane along the axis")
     dumps.add_types(parser, ": the plate")
     parser.add_argument("--distance", type=positive, metavar="R", help="only the largest piece of these, of particles closer than R: what drifts in the hole is "
                         "no plate (default: all)")
     parser.add_argument("--thickness", type=positive, metavar="H", help="of the layer around the plane that is looked at (default: it is measured)")
     parser.add_argument("--dr", type=positive, metavar="D", help="spacing of the map (default: it is measured)")
-    parser.add_argument("--fill", type=float, default=0.5, metavar="F", help="share of the intact plate's mass per area that makes plate (default: 0.5)")
+    parser.add_argument("--fill", type=real, default=0.5, metavar="F", help="share of the intact plate's mass per area that makes plate (default: 0.5)")
     parser.add_argument("--reference", type=positive, metavar="M", help="mass per area of the intact plate (default: it is measured)")
-    parser.add_argument("--sectors", type=int, default=36, metavar="N", help="for the smallest and largest diameter (default: 36)")
+    parser.add_argument("--sectors", type=whole, default=36, metavar="N", help="for the smallest and largest diameter (default: 36)")
     parser.add_argument("--all", action="store_true", help="a row for every frame instead of the values of one")
     dumps.add_frame(parser)
     dumps.add_reading(parser)

@@ -5,7 +5,7 @@ from ..analysis import maps
 from ..analysis import debris as below
 from ..analysis import fragments as pieces
 from . import dumps
-from .shared import add_output, draw, positive, show
+from .shared import add_output, draw, positive, real, show, whole
 
 EXAMPLES = """  python3 -m hvi impacts cloud1.dump --axis z --plane 60.8e-3 --figure witness
   python3 -m hvi impacts old.dump --axis z --plane 60.8e-3 --quarter --after 0 --bins 60 --figure witness.png
@@ -17,8 +17,8 @@ def add_arguments(parser):
     dumps.add_files(parser)
     dumps.add_frame(parser)
     dumps.add_cloud(parser, needed=True)
-    parser.add_argument("--after", type=float, metavar="X", help="only particles beyond this coordinate (default: all before the wall)")
-    parser.add_argument("--bins", type=int, default=80, metavar="N", help="bins across the map (default: 80)")
+    parser.add_argument("--after", type=real, metavar="X", help="only particles beyond this coordinate (default: all before the wall)")
+    parser.add_argument("--bins", type=whole, default=80, metavar="N", help="bins across the map (default: 80)")
     parser.add_argument("--reach", type=positive, metavar="R", help="half width of the map (default: where 99 %% of the energy is)")
     dumps.add_rules(parser)
     dumps.add_debris(parser)

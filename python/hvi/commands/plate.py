@@ -7,7 +7,7 @@ from .. import tables
 from ..errors import HVIError
 from ..model import bodies, plates
 from . import filling
-from .shared import positive
+from .shared import positive, real, whole
 
 EXAMPLES = """  python3 -m hvi plate wall.data --radius 20e-3 --thickness 0.8e-3 --spacing 0.2e-3 --layers 8 --angles 0 45 \\
       --material potentials/Al2024-T3.hvi
@@ -20,8 +20,8 @@ def add_arguments(parser):
     parser.add_argument("file", metavar="FILE", help="data file to write (atom_style sph; read_data FILE add append)")
     for name, text in (("radius", "of the plate"), ("thickness", "of the plate"), ("spacing", "of particles in the plane")):
         parser.add_argument("--" + name, type=positive, required=True, metavar=name[0].upper(), help=text)
-    parser.add_argument("--layers", type=int, metavar="N", help="particles through the thickness (default: as wide as in the plane)")
-    parser.add_argument("--angles", type=float, nargs="+", default=[0.0], metavar="DEG",
+    parser.add_argument("--layers", type=whole, metavar="N", help="particles through the thickness (default: as wide as in the plane)")
+    parser.add_argument("--angles", type=real, nargs="+", default=[0.0], metavar="DEG",
                         help="one for all layers, one per layer, or a set that is stacked symmetric and balanced (default: 0)")
     parser.add_argument("--zones", type=positive, nargs="+", default=[], metavar="R", help="beyond each of these radii the spacing doubles and the type is the next")
     parser.add_argument("--quarter", action="store_true", help="only x > 0, y > 0, for mirrors")

@@ -11,6 +11,8 @@ from ..jobs import engine
 from ..shield import case as cases
 from .shared import count, positive
 
+MOST = 1000  # speeds
+
 
 def add_runs(parser):
     group = parser.add_argument_group("how LAMMPS is run; call again to go on where it stopped")
@@ -54,6 +56,8 @@ def speeds(text):
         raise argparse.ArgumentTypeError(f"{text} is not FIRST:LAST:NUMBER, like 1:15:15") from None
     if first >= last:
         raise argparse.ArgumentTypeError(f"{text}: the first speed must be below the last")
+    if number > MOST or len({f"{speed:g}" for speed in evenly(first, last, number)}) < number:
+        raise argparse.ArgumentTypeError(f"{text}: {MOST} speeds at most, which differ in six digits")
     return first, last, number
 
 

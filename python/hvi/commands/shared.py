@@ -19,8 +19,12 @@ def number(kind, holds, what):
     return read
 
 
-positive = number(float, lambda value: 0.0 < value < float("inf"), "a number > 0")
-count = number(int, lambda value: value >= 1, "a whole number from 1 on")
+LARGEST, MANY = 1e60, 2**31 - 1  # the third powers of numbers can be taken, and arrays count so far
+positive = number(float, lambda value: 1 / LARGEST < value < LARGEST, "a number > 0")
+real = number(float, lambda value: abs(value) < LARGEST, "a number")
+count = number(int, lambda value: 1 <= value <= MANY, "a whole number from 1 on")
+natural = number(int, lambda value: 0 <= value <= MANY, "a whole number from 0 on")
+whole = number(int, lambda value: abs(value) <= MANY, "a whole number")
 
 
 def add_output(parser, figure, required=False, out=True):

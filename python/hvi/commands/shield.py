@@ -83,8 +83,6 @@ def refuse_too_large(case, plans, folder, jobs):
     free, most = free_memory(), max(plans, key=lambda plan: plan["memory_MB"])
     dx = most["dx_mm"]
     what = f"spacings_mm: {dx:g} mm makes some {most['particles']:.3g} particles"
-    if most["particles"] > 2**31 - 1:
-        raise HVIError(f"{case.name}: {what}, more than LAMMPS can number: are lengths in mm?")
     if free is not None and most["memory_MB"] * jobs > free:
         fit = math.ceil(100 * dx * (most["memory_MB"] * jobs / free) ** (1 / 3)) / 100
         raise HVIError(f"{case.name}: {what}, {most['memory_MB']:.3g} MB of memory{f' in each of {jobs} runs at a time' if jobs > 1 else ''}, and {free:.0f} are free: "

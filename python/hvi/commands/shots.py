@@ -59,9 +59,10 @@ def main(args):
     for alloy in sorted(used & set(study.stand_ins)):
         print(f"stand-in: {alloy} is computed as {study.stand_ins[alloy]}")
     folder = args.runs.resolve() / study.name
-    folder.mkdir(parents=True, exist_ok=True)
     every = [Outcome(shot, study.case(shot), folder) for shot in study.shots]
     outcomes = [outcome for outcome in every if outcome.shot in shots]
+    if not args.equations:
+        folder.mkdir(parents=True, exist_ok=True)
     if args.dry_run:
         return plan(outcomes, folder)
     ratios = {outcome.shot.name: ratios_of(outcome) for outcome in every}

@@ -12,6 +12,8 @@ from . import glass
 
 SMOOTH = 0.15  # depth of the outermost particle of a glass, spacings, at least; half is usual
 HEAVIEST = 10.0  # of images of what is near the middle of small round bodies
+MOST = 1e8  # particles, and sites of which they are chosen
+
 
 def _images(z, low, high, least, most, periodic=False):
     """[(way, rows)]: images way[0] z + way[1] of z between mirrors at low and high, between least and most; of images, too, where the mirrors are near"""
@@ -240,6 +242,12 @@ def box(size, quarter=False, periodic=()):
     return _shape(parts, np.prod(size), half, 0.0, quarter)
 
 
+def refuse_many(count, what="particles"):
+    """more than fits into a machine, before they are made"""
+    if count > MOST:
+        raise HVIError(f"{count:.3g} {what} are more than this can make, {MOST:.0e}: is the spacing in the units of the body?")
+
+
 def make(shape, spacing, fill="glass", seed=1):
     """A Body of as many particles as volumes of spacing^3 fit in, of equal masses.
 
@@ -255,8 +263,7 @@ def make(shape, spacing, fill="glass", seed=1):
             raise HVIError(f"a periodic box must be 3 spacings wide, {3 * spacing:g}, in {'xyz'[k]}, not {shape.high[k] - shape.low[k]:g}")
     if shape.volume < 8 * spacing**3:
         raise HVIError(f"the body has room for {shape.volume / spacing**3:.3g} particles, fewer than 8, of spacing {spacing:g}")
-    if shape.volume > 1e8 * spacing**3:
-        raise HVIError(f"{shape.volume / spacing**3:.3g} particles are more than this can make: is the spacing in the units of the body?")
+    refuse_many(shape.volume / spacing**3)
     x, step = _lattice(shape, spacing) if fill == "lattice" else (glass.relax(shape, round(shape.volume / spacing**3), seed), None)
     if len(x) == 0:
         raise HVIError(f"no site of a lattice of spacing {spacing:g} is in the body: give a smaller one, or glass")
@@ -282,8 +289,10 @@ def _lattice(shape, spacing):
             step[k] = thick / n
         else:
             n = 2 * int(np.ceil(shape.high[k] / spacing))
+            refuse_many(float(n) ** 2, "sites of the lattice")
             low = -0.5 * n * spacing
         lines.append(low + (np.arange(n) + 0.5) * step[k])
+    refuse_many(np.prod([float(len(line)) for line in lines]), "sites of the lattice")
     x = np.stack(np.meshgrid(*lines, indexing="ij"), -1).reshape(-1, 3)
     return x[shape.inside(x)], step
 

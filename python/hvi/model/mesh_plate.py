@@ -4,7 +4,7 @@
 import numpy as np
 
 from ..errors import HVIError
-from . import mesh
+from . import bodies, mesh
 
 
 def graded(length, first, growth, largest):
@@ -180,7 +180,7 @@ def plate(thickness, element, side=None, radius=None, n=2, core=0.0, hold=np.inf
         raise HVIError("a plate is square (side) or round (radius)")
     width = radius if half is None else half.min()
     if layers is None:
-        layers = max(1, int(thickness / element + 0.5))
+        layers = max(1, int(min(thickness / element, bodies.MOST) + 0.5))
     if not (thickness > 0.0 and 0.0 < element <= width and layers >= 1):
         raise HVIError(f"a plate needs a thickness > 0, elements that fit in it and at least one layer, not {thickness:g}, {element:g}, {layers}")
     if not 1.0 <= growth <= 2.0 or largest < element:
@@ -189,6 +189,11 @@ def plate(thickness, element, side=None, radius=None, n=2, core=0.0, hold=np.inf
         raise HVIError(f"particles per edge of an element must be {'1 or more with a core of free particles' if core > 0.0 else '0 or more'}, not {n}")
     if growth > 1.0 and not hold < width:
         raise HVIError("elements grow beyond the radius up to which they hold particles: say which, below that of the plate")
+    wide = radius if half is None else half.max()
+    fine = min(hold, wide)
+    across = (fine + (wide - fine) * (1.0 if growth == 1.0 else element / min(largest, wide))) / element  # elements, about
+    bodies.refuse_many(4 * min(across, bodies.MOST) ** 2 * layers, "elements")
+    bodies.refuse_many(4 * min(fine / element, bodies.MOST) ** 2 * layers * float(n) ** 3)
     around = core + (1.5 if n > 1 else 2.5) * element  # two layers of particles or more also where the core is ragged
     if core < 0.0 or (core > 0.0 and min(hold, width) < around):
         raise HVIError(f"free particles up to {core:g} need elements with particles around them: at least up to {around:g}, "

@@ -55,12 +55,15 @@ def make(radius, thickness, spacing, layers=None, angles=(0.0,), zones=(), quart
     missing where zones meet. The edge is that of the cells.
     """
     if layers is None:
-        layers = max(1, int(np.ceil(thickness / spacing - 0.01)))
+        layers = max(1, int(np.ceil(min(thickness / spacing, bodies.MOST) - 0.01)))
     if layers < 1:
         raise HVIError(f"a plate has at least one layer, not {layers}")
     if not (0.0 < thickness and 0.0 < spacing <= radius):
         raise HVIError(f"a plate needs a thickness > 0 and a spacing that fits its radius, not {thickness:g}, {spacing:g}, {radius:g}")
+    bodies.refuse_many(np.pi * (radius / spacing) ** 2 * layers if radius / spacing < bodies.MOST else np.inf)  # without zones
     zones = np.asarray(zones, dtype=float)
+    if not np.isfinite(np.asarray(angles, dtype=float)).all():
+        raise HVIError(f"angles must be numbers of degrees, not {' '.join(f'{a:g}' for a in np.atleast_1d(angles))}")
     if len(zones) and not (zones[0] > 0.0 and (np.diff(zones) > 0.0).all() and zones[-1] < radius):
         raise HVIError(f"the radii of zones must rise and be below that of the plate, {radius:g}: {' '.join(f'{r:g}' for r in zones)}")
     turns = stack(angles, layers)
