@@ -1,6 +1,6 @@
 #!/bin/bash
 # Makes sure that the Debian packages of the named groups are installed: deps.sh build [test] [check] [doc] [browser] [fuzz]
-# Installs only what is missing; changes nothing when all is there. DEPS=no skips the check.
+# Installs only what is missing, and says the command before; changes nothing when all is there. DEPS=no skips it all.
 set -uo pipefail
 [ "${DEPS:-}" = no ] && exit 0
 command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || exit 0 # not Debian: cmake names what is missing
@@ -31,13 +31,16 @@ else
   echo "lammps-hvi: Debian packages are missing; as root run: $hint   (or DEPS=no if you have them from elsewhere)" >&2
   exit 1
 fi
-echo "lammps-hvi: installing $need" >&2
+as=root
+[ ${#run[@]} = 0 ] || as="root by sudo"
+echo "lammps-hvi: as $as: $hint   (DEPS=no: nothing is installed)" >&2
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 apt() { "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3 "$@" >>"$log" 2>&1 </dev/null; }
 for try in 1 2 3; do
   apt update # one broken foreign source must not stop us: what counts is the installation
   apt install --no-install-recommends -y $need && break
+  echo "lammps-hvi: as $as: dpkg --configure -a, and again" >&2
   "${run[@]}" dpkg --configure -a >>"$log" 2>&1 </dev/null # after an interrupted run
   [ $try = 3 ] || sleep $((5 * try))
 done

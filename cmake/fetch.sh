@@ -93,7 +93,7 @@ bad=
 if [ -z "$got" ]; then
   tried=
   for m in $(mirrors | expand); do
-    say "fetching LAMMPS $name ($size) from $m"
+    say "fetching LAMMPS $name ($size) from $m into $cache   (LAMMPS_SOURCE_DIR=DIR: nothing is fetched)"
     tried="$tried $m"
     download "$m/pool/main/l/lammps/$pool" || continue
     have=$(checksum "$store/$file")
@@ -109,7 +109,7 @@ if [ -n "$got" ]; then
 else
   # not in the Debian archive any more, or no Debian mirror: the same release from its authors, by its tag and without a checksum
   url=${HVI_LAMMPS_GIT:-https://github.com/lammps/lammps.git}
-  say "fetching LAMMPS $name (tag $tag) from $url"
+  say "fetching LAMMPS $name (tag $tag) from $url into $cache, without a checksum   (LAMMPS_SOURCE_DIR=DIR: nothing is fetched)"
   rm -rf "$work/git"
   if command -v git >/dev/null &&
     GIT_TERMINAL_PROMPT=0 git -c advice.detachedHead=false clone -q --depth 1 --branch "$tag" "$url" "$work/git" >"$work/log" 2>&1; then

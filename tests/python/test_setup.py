@@ -160,6 +160,38 @@ def test_missing_libraries(root, tmp_path):
     assert len(lines) == 1 and lines[0].endswith("libpng-dev)")
 
 
+def fake_debian(tmp_path, **programs):
+    """deps.sh build with these programs, others in place of those that change a machine; what apt-get was called with is in calls"""
+    fake = tmp_path / "bin"
+    fake.mkdir()
+    calls = tmp_path / "calls"
+    for name, text in {"id": "echo 0", "sudo": "exit 1", "dpkg-query": f"[ -e {calls}.done ] && for p in \"$@\"; do echo installed $p; done; true",
+                       "apt-get": f"echo \"$@\" >>{calls}; case \"$*\" in *install*) touch {calls}.done;; esac", **programs}.items():
+        (fake / name).write_text(f"#!/bin/sh\n{text}\n")
+        (fake / name).chmod(0o755)
+    return calls, {**os.environ, "PATH": f"{fake}:{os.environ['PATH']}", "DEPS": "yes"}
+
+
+def test_root_is_told_what_is_done_before(root, tmp_path):
+    """the whole command, and how to refuse it; with DEPS=no nothing is called"""
+    calls, env = fake_debian(tmp_path)
+    r = subprocess.run([root / "cmake" / "deps.sh", "build"], text=True, capture_output=True, env={**env, "DEPS": "no"})
+    assert (r.returncode, r.stderr, calls.exists()) == (0, "", False)
+    r = subprocess.run([root / "cmake" / "deps.sh", "build"], text=True, capture_output=True, env=env)
+    assert r.returncode == 0, r.stderr
+    said, = r.stderr.splitlines()
+    assert said.startswith("lammps-hvi: as root: apt-get update && apt-get install ") and said.endswith("(DEPS=no: nothing is installed)")
+    did = [line.partition("install ")[2].split() for line in calls.read_text().splitlines() if " install " in line]
+    assert did == [said.partition(" install ")[2].partition("   (")[0].split()] and "g++" in did[0]
+
+
+def test_it_is_said_before_it_is_done(root, tmp_path):
+    """an apt-get that stops at once has been announced"""
+    calls, env = fake_debian(tmp_path, **{"apt-get": "kill -9 $PPID"})
+    r = subprocess.run([root / "cmake" / "deps.sh", "build"], text=True, capture_output=True, env=env)
+    assert r.stderr.startswith("lammps-hvi: as root: apt-get update && ") and not calls.exists()
+
+
 def test_missing_packages_without_root(root, tmp_path):
     """an ordinary user without sudo is told the one command"""
     fake = tmp_path / "bin"
