@@ -5,6 +5,7 @@ import argparse
 import importlib
 import os
 import sys
+import unicodedata
 import warnings
 
 from .errors import HVIError, HVIWarning
@@ -84,7 +85,7 @@ def parse(words):
 def shown(text):
     """of a message that repeats what a file says: no more than can be read, nothing that a terminal would obey"""
     text = text if len(text) < MOST else f"{text[:MOST]} ..."
-    return "".join(c if c.isprintable() or c == "\n" else repr(c)[1:-1] for c in text)
+    return "".join(repr(c)[1:-1] if unicodedata.category(c) in ("Cc", "Cf", "Zl", "Zp") and c != "\n" else c for c in text)
 
 
 def main(arguments=None):

@@ -2,12 +2,11 @@
 """Tables as text for the eye and as CSV for programs."""
 
 import csv
-import pathlib
 
 import numpy as np
 
 from . import units as unit_systems
-from .errors import HVIError, reading, writing
+from .errors import writing
 
 
 def number(value):
@@ -28,22 +27,6 @@ def text(names, rows, quantities=None, units=None, left=False):
     widths = [max(len(line[k]) for line in lines) for k in range(len(names))]
     aligned = str.ljust if left else str.rjust
     return "\n".join("  ".join(aligned(word, w) for word, w in zip(line, widths)).rstrip() for line in lines)
-
-
-def read_csv(path):
-    """[(number of the line, cells), ...] of a CSV file; empty lines and those that begin with # are remarks. HVIError if there is no line."""
-    with reading(path):
-        lines = pathlib.Path(path).read_text().splitlines()
-    found = []
-    for number, line in enumerate(lines, 1):
-        if line.strip() and not line.startswith("#"):
-            try:
-                found.append((number, next(csv.reader([line], strict=True))))
-            except csv.Error as problem:
-                raise HVIError(f"{path}, line {number}: {problem}") from None
-    if not found:
-        raise HVIError(f"{path}: no lines")
-    return found
 
 
 def write_csv(path, names, rows):

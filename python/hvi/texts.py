@@ -94,8 +94,8 @@ def load(path, text=None):
         return yaml.SafeLoader("").construct_document(root)
     except yaml.MarkedYAMLError as problem:
         raise HVIError(f"{path}, line {problem.problem_mark.line + 1}: not YAML of plain values: {problem.problem}") from None
-    except ValueError as problem:  # such as a date that is none
-        raise HVIError(f"{path}: not YAML of plain values: {problem}") from None
+    except Exception as problem:  # of many kinds, such as a date that is none: constructors do not check what they take
+        raise HVIError(f"{path}: not YAML of plain values: {' '.join(str(problem).split())}") from None
 
 
 def _refuse_twice(node, path):

@@ -45,7 +45,7 @@ def make_run(folder, dx, shift=0.0, verdict="fails", material="Al6061-T6.hvi", f
                                                                   ("front_mm", front), ("thickness_mm", 1.0), ("spacing_mm", dx))})
     settings = {"quarter": "yes", "solid": "damage no spall voids", "tstop": 9.0}
     (folder / "plan.yaml").write_text(yaml.safe_dump({**plan, "materials": ["Al2017-T4.hvi", material, "Al6061-T6.hvi"], "settings": settings}))
-    walls = [{"thickness_mm": 1.0, "material": material}, {"thickness_mm": 1.0, "material": "Al6061-T6.hvi", "gap_mm": 6}]
+    walls = [{"thickness_mm": 1.0, "material": "Al6061-T6.hvi"}, {"thickness_mm": 1.0, "material": "Al6061-T6.hvi", "gap_mm": 6}]
     case = {"projectile": {"diameter_mm": 4, "material": "Al2017-T4"}, "speed_km_s": 6, "walls": walls, "spacings_mm": [dx], "shifts": [shift], "settings": {"tstop": 9.0}}
     (folder / "case.yaml").write_text(yaml.safe_dump({**case, **({"not_modelled": [outside]} if outside else {})}))
     result = {"verdict": verdict, "reasons": [reason], "decided_by": "wall2", "margins": {"hole_mm": 3.0, "layers": 3}, "walls": 2, "walls_reached": 2,

@@ -184,7 +184,7 @@ def test_full_size_and_dry_run(sweep, folder):
 
 
 @pytest.mark.parametrize("study, message", [
-    ("grid: [", "tiny.yaml: not YAML: "),
+    ("grid: [", "tiny.yaml, line 1: not YAML: "),
     ("- grid", "not a mapping of"),
     ({**STUDY, "input": "in.missing"}, "input in.missing is not there"),
     ({**STUDY, "restart": "tiny.restart.*"}, "restart (files to go on from) and continue (the input that does) are given together"),

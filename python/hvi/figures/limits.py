@@ -21,7 +21,7 @@ def _equations(ax, speeds, curves):
 
 
 def _said(ax, title, what):
-    ax.set_title(title, fontsize=STYLE["size"])
+    ax.set_title(title, fontsize=STYLE["size"], parse_math=False)  # names may have $
     label_axes(ax, "speed (km/s)", what)
     legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=4, columnspacing=1.2)
 

@@ -39,7 +39,7 @@ def draw(material):
     speed = " (km/s)" if si else " (lj)"
     figure, axes = new_figure(9.2, columns=2, rows=4)
     shock, pressure, density, heat, strain, fast, hot, spall = axes.flat
-    figure.suptitle(material.name + (f": {material.title}" if material.title else ""), fontsize=STYLE["size"] + 1, wrap=True)
+    figure.suptitle(material.name + (f": {material.title}" if material.title else ""), fontsize=STYLE["size"] + 1, wrap=True, parse_math=False)
 
     label_axes(shock, f"particle velocity u{speed}", f"shock velocity{speed}")
     label_axes(pressure, f"particle velocity u{speed}", f"pressure{unit}")

@@ -59,7 +59,7 @@ def draw(case, plan):
                   textcoords="offset points", ha="center", va="top", fontsize=7)
     axes.set(aspect="equal", xlim=(left, stop), ylim=(low - 0.14 * (high - low), high + 0.16 * (high - low)), xlabel="z (mm)", ylabel="x (mm)")
     axes.spines[["top", "right"]].set_visible(False)
-    axes.set_title(f"{case.name}, to scale", fontsize=9)
+    axes.set_title(f"{case.name}, to scale", fontsize=9, parse_math=False)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2 if case.method() else 4, fontsize=7, frameon=False)
     return figure
 

@@ -4,7 +4,8 @@
 import math
 import os
 
-from ..errors import HVIError, reading
+from .. import texts
+from ..errors import HVIError
 
 MISSING = "-"
 WIDE = 40  # characters of a text in a table
@@ -17,9 +18,8 @@ def read_result(path):
     """
     if os.path.isdir(path):
         path = os.path.join(path, "result.yaml")
-    with reading(path), open(path, encoding="utf-8") as stream:
-        lines = stream.read().splitlines()
-    result, parent = {}, None
+    lines = texts.read(path).splitlines()
+    result, parent, given = {}, None, {}
     for number, raw in enumerate(lines, 1):
         line = raw.split(" #")[0].strip()
         if not line or line.startswith("#") or line == "---":
@@ -33,7 +33,9 @@ def read_result(path):
         if not found:
             raise HVIError(f"{path}, line {number}: not key: value")
         if not inside:
-            parent = None if value else key
+            if key in given:
+                raise HVIError(f"{path}, line {number}: {key} is there twice, first in line {given[key]}")
+            given[key], parent = number, None if value else key
         if value:
             result[f"{parent}.{key}" if inside else key] = _value(value)
     if not result:

@@ -9,6 +9,7 @@ what runs; what another process is still at (after kill -9 of the first) is wait
 import contextlib
 import fcntl
 import hashlib
+import math
 import os
 import pathlib
 import re
@@ -20,8 +21,8 @@ import time
 
 import yaml
 
-from .. import progress, tables
-from ..errors import HVIError, reading, writing
+from .. import progress, tables, texts
+from ..errors import HVIError, writing
 from ..material.library import potentials
 from ..version import ROOT
 
@@ -34,18 +35,10 @@ END = b"LammpS RestartT\0"  # of a restart file
 def read_yaml(path):
     """the mapping in a YAML file; None if there is none"""
     try:
-        data = loaded(path.read_text(), path)
-    except (OSError, UnicodeDecodeError, HVIError):
+        data = texts.load(path)
+    except HVIError:
         return None
     return data if isinstance(data, dict) else None
-
-
-def loaded(text, where):
-    """What a text in YAML says; HVIError that begins with where"""
-    try:
-        return yaml.safe_load(text)
-    except Exception as problem:  # YAMLError, and of many kinds: its constructors do not check what they take
-        raise HVIError(f"{where}: not YAML: {' '.join(str(problem).split())}") from None
 
 
 def yaml_of(mapping):
@@ -104,9 +97,12 @@ class Input:
             self.known = {name: name in optional or self.known.get(name, True) for name in named}
 
     def _read(self, name):
-        with reading(f"the input {self.path.parent / name}"):
-            self.texts[name] = text = (self.path.parent / name).read_text()
+        self.texts[name] = text = texts.read(self.path.parent / name)
         for other in re.findall(r"^\s*include\s+([\w./-]+)\s*(?:#.*)?$", text, re.M):  # names without variables
+            if os.path.isabs(other):
+                continue  # is there for all runs
+            if not inside(other):
+                raise HVIError(f"{self.path.parent / name}: include {other}: a run has copies of what it includes, in its own folder: put the file beside the input, or give its whole path")
             if other not in self.texts:
                 self._read(other)
 
@@ -118,6 +114,8 @@ class Input:
         for name, value in variables.items():
             if name not in self.known:
                 raise HVIError(f"{where}: {self.name} has no variable '{name}'")
+            if odd := [word for word in words(value) if word.startswith("-") and not number(word) or "\n" in word or not word]:
+                raise HVIError(f"{where}: variable '{name}' of {self.name}: {odd[0]!r} is no value: LAMMPS would take it for an option, or for nothing")
             if isinstance(value, list) and not self.known[name]:
                 raise HVIError(f"{where}: variable '{name}' of {self.name} is one value, not a list")
 
@@ -125,6 +123,18 @@ class Input:
         for name, text in self.texts.items():  # LAMMPS reads on while it runs
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_text(text)
+
+
+def inside(name):
+    """is this the name, or a pattern of names, of files in a folder or below it?"""
+    return not os.path.isabs(name) and ".." not in pathlib.PurePath(name).parts
+
+
+def number(word):
+    try:
+        return math.isfinite(float(word))
+    except ValueError:
+        return False
 
 
 def digest(data):

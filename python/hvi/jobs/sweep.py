@@ -5,11 +5,12 @@ import itertools
 import math
 import os
 
-from ..errors import HVIError, reading
+from .. import texts
+from ..errors import HVIError
 from . import engine, measures
 
+MOST = 10_000  # jobs of a study
 KEYS = {"input", "variables", "grid", "ranks", "timeout", "restart", "continue", "remove", "full"}
-MOST = 10_000  # jobs
 
 
 class Job(engine.Job):
@@ -30,8 +31,7 @@ class Study:
     def __init__(self, path, full=False):
         if not path.is_file():
             raise HVIError(f"{path}: no such file")
-        with reading(path):
-            study = engine.loaded(path.read_text(), path)
+        study = texts.load(path)
         if not isinstance(study, dict):
             raise HVIError(f"{path}: not a mapping of {', '.join(sorted(KEYS))}")
         self.path = path
@@ -43,9 +43,19 @@ class Study:
         unknown = set(study) - KEYS
         if unknown:
             raise HVIError(f"{path}: unknown key {', '.join(sorted(map(str, unknown)))}; known: {', '.join(sorted(KEYS))}")
-        self.name = path.stem + ("-full" if full else "")
+        self.name = texts.name_of(path) + ("-full" if full else "")
         self.ranks, self.timeout = study.get("ranks"), study.get("timeout")
         self.restart, self.remove = study.get("restart"), study.get("remove") or []
+        if self.restart is not None and not isinstance(self.restart, str):
+            raise HVIError(f"{path}: restart must be a pattern of file names, not {type(self.restart).__name__}")
+        if not isinstance(self.remove, list):
+            raise HVIError(f"{path}: remove must be a list of patterns of file names")
+        for pattern in [*self.remove, *([self.restart] if self.restart else [])]:
+            if not isinstance(pattern, str) or not pattern or not engine.inside(pattern):
+                raise HVIError(f"{path}: {pattern!r}: restart and remove are of files in the folder of a run: no .., no whole paths")
+        for key, kind, what in (("ranks", int, "a whole number from 1 on"), ("timeout", (int, float), "a number of seconds above 0")):
+            if (value := study.get(key)) is not None and (isinstance(value, bool) or not isinstance(value, kind) or not 0 < value < math.inf):
+                raise HVIError(f"{path}: {key} must be {what}, not {value!r}")
         if (self.restart is None) != ("continue" not in study):
             raise HVIError(f"{path}: restart (files to go on from) and continue (the input that does) are given together, or neither")
         self.input = self._input(study, "input")
@@ -55,7 +65,7 @@ class Study:
         for case in self.cases:
             self.input.check({**self.fixed, **case}, path)
             if self.goes_on:
-                self.goes_on.check({**self.fixed, **case, "from": ""}, path)
+                self.goes_on.check({**self.fixed, **case, "from": "file"}, path)
 
     def _input(self, study, key):
         file = self.path.parent / str(study.get(key))
@@ -80,10 +90,10 @@ class Study:
             if not isinstance(values, list) or not values:
                 raise HVIError(f"{self.path}: grid: {name} must be a list of values")
             axes.append([value if isinstance(value, dict) else {name: value} for value in values])
+        if math.prod(map(len, axes)) > MOST:
+            raise HVIError(f"{self.path}: the grid has {math.prod(map(len, axes)):,} points, {MOST:,} at most are run")
         if not axes:
             raise HVIError(f"{self.path}: no grid: nothing to vary")
-        if math.prod(map(len, axes)) > MOST:
-            raise HVIError(f"{self.path}: a grid of {math.prod(map(len, axes))} jobs; {MOST} at most are run")
         found = [{n: v for part in point for n, v in part.items()} for point in itertools.product(*axes)]
         names = [engine.job_name(c) for c in found]
         twice = {n for n in names if names.count(n) > 1}

@@ -14,7 +14,7 @@ SOLID = "damage yes spall voids"  # words of fix hvi/johnson-cook that shields t
 def strengths(path):
     """laws of strength in a material file"""
     with reading(path):
-        return re.findall(r"^[ \t]*strength[ \t]+([\w-]+)", path.read_text(), re.M)
+        return re.findall(r"^[ \t]*strength[ \t]+([\w-]+)", path.read_text(errors="replace"), re.M)
 
 
 def find(reader, node, key):
@@ -24,6 +24,8 @@ def find(reader, node, key):
     solid = sorted(stem for stem, path in known.items() if strengths(path))
     own = next((path for path in (reader.path.parent / name, reader.path.parent / f"{name}.hvi") if os.path.isfile(path)), None)  # is_file() raises for a long name
     path = own or known.get(name.removesuffix(".hvi"))
+    if own and not re.fullmatch(r"[\w.+-]+\.hvi", own.name, re.A):
+        reader.wrong(key, f"the file is named {own.name!r}, which goes into a LAMMPS input: letters, digits and . _ + - only, and .hvi at the end", node)
     if path is None:
         reader.wrong(key, f"no material {name}{meant(name, solid)} (known: {', '.join(solid)})", node)
     if not strengths(path):

@@ -8,8 +8,9 @@ by bisection over a geometric grid about the measured one, by runs as those of h
 import dataclasses
 import math
 import pathlib
+import re
 
-from .. import tables
+from .. import texts
 from ..errors import HVIError
 from . import ble, decision, shots
 from .limit import Search
@@ -51,7 +52,7 @@ class Bracket:
 
 def read_list(path):
     """The brackets of a CSV file: mm, km/s, ksi; a dash is no shot on that side; lines that begin with # are remarks."""
-    (_, head), *rows = tables.read_csv(path)
+    head, rows = texts.table(path)
     if missing := [name for name in COLUMNS if name not in head]:
         raise HVIError(f"{path}: no column {', '.join(missing)}")
     found = []
@@ -70,6 +71,8 @@ def read_list(path):
 
 
 def _bracket(cells, wrong):
+    if not cells["name"].strip(".") or re.search(r"[^\w.+-]", cells["name"]):
+        wrong(f"name {cells['name']!r} is one of folders, too: letters, digits and . _ + - only")
     if cells["on"] not in ON:
         wrong(f"on must be {' or '.join(ON)}, not {cells['on']!r}")
     varies = {"wall": "tw_mm", "diameter": "D_mm"}[cells["on"]]
@@ -82,8 +85,10 @@ def _bracket(cells, wrong):
             value[name] = float(cells[name])
         except ValueError:
             value[name] = math.nan
-        if not (math.isfinite(value[name]) and value[name] > 0):
+        if not 0 < value[name] < math.inf:
             wrong(f"{name} must be a number above 0, not {cells[name]!r}")
+        if not shots.SMALLEST <= value[name] < shots.LARGEST:
+            wrong(f"{name} must be {shots.SMALLEST:g} to {shots.LARGEST:g}, not {cells[name]}: lengths are in mm, speeds in km/s, stresses in ksi")
     if value["low"] >= value["high"]:
         wrong(f"low {value['low']:g} must be below high {value['high']:g}")
     shot = shots.Shot(cells["name"], cells["source"], cells["proj_mat"], value["D_mm"], 0.0, value["km_s"], cells["bumper"], value["tb_mm"], value["gap_mm"],
@@ -97,15 +102,15 @@ class Study:
     def __init__(self, path):
         self.path = path = pathlib.Path(path)
         reader = Reader(path)
-        whole, table = reader.number(above=0), shots.material_table(reader)
+        whole, table = reader.number(above=0, sane=(1e-3, 1e3)), shots.material_table(reader)
         data = reader.mapping(reader.root, "", {
             "list": (reader.text, REQUIRED), "brackets": (reader.several(reader.text, distinct=True), None),
-            "across": (reader.several(reader.number(above=0), distinct=True), REQUIRED),
+            "across": (reader.several(whole, distinct=True), REQUIRED),
             "spacing": (lambda node, key: reader.mapping(node, key, {**{name: (whole, REQUIRED) for name in ("bumper_layers", "wall_layers", "ratio")}, "core": (whole, None)}), REQUIRED),
             "shifts": (reader.several(reader.number(least=0, below=1), distinct=True), (0.0,)), "fill": (choice(*FILLS)(reader), FILLS[0]),
-            "step": (reader.number(above=0, below=0.5), 0.05), "range": (reader.number(above=1, below=10), 2.0),
+            "step": (reader.number(above=0, below=0.5, sane=(1e-3, 1)), 0.05), "range": (reader.number(above=1, below=10), 2.0),
             "settings": (lambda node, key: shots.cases.read_settings(reader, node, key), {}), "materials": (table, REQUIRED), "stand_ins": (table, {})})
-        self.name, self.across, self.rule, self.shifts, self.settings = path.stem, data["across"], data["spacing"], data["shifts"], data["settings"]
+        self.name, self.across, self.rule, self.shifts, self.settings = texts.name_of(path), data["across"], data["spacing"], data["shifts"], data["settings"]
         if data["fill"] != FILLS[0]:
             self.rule = {**self.rule, "fill": data["fill"]}
         self.materials, self.stand_ins = {**data["materials"], **data["stand_ins"]}, data["stand_ins"]

@@ -12,8 +12,8 @@ import math
 import pathlib
 import re
 
-from .. import tables
-from ..errors import HVIError, reading
+from .. import texts
+from ..errors import HVIError
 from ..jobs import engine
 from ..material import library
 from . import brackets, shots
@@ -24,7 +24,8 @@ MARGINS = {"rear_plastic_strain": "a plastic strain of {:.2g} at its rear", "bul
 APART = "apart_over_projectile"  # of one that fails
 ALIKE = 0.02  # lengths and speeds of one shield in two lists
 COARSER = 1.1  # than the records' are spacings of a case that they may judge, at most: that of hvi limit stays while the diameter varies
-HEAD = ("command", "date", "rows", "shields", "spacing", "settings", "model", "materials", "margin", "scores", "scores_by_other_reports", "limits_in_the_band_of_the_others")  # what a file must say
+HEAD = {**dict.fromkeys(("command", "date", "margin", "limits_in_the_band_of_the_others"), str), **dict.fromkeys(("rows", "shields"), int),
+        **dict.fromkeys(("spacing", "settings", "model", "materials", "scores", "scores_by_other_reports"), dict)}  # what a file must say
 MODEL = ("kernel", "eta", "pair", "solid", "C", "edge", "layers")  # settings that change what a run computes
 
 
@@ -267,16 +268,16 @@ class Records:
 def read(path=None):
     """The Records of a file: those of the package, or another's. Lines that begin with # are a mapping that says what it is of."""
     path = pathlib.Path(path or FILE)
-    with reading(path):
-        lines = path.read_text().splitlines()
     try:
-        head = engine.loaded("\n".join(line[1:].removeprefix(" ") for line in lines if line.startswith("#")), path)
+        head = texts.load(path, "\n".join(line[1:].removeprefix(" ") for line in texts.read(path).splitlines() if line.startswith("#"))) or {}
     except HVIError:
+        if not path.is_file():
+            raise
         head = {}
-    if missing := [key for key in HEAD if not isinstance(head, dict) or key not in head]:
+    if missing := [key for key, kind in HEAD.items() if not isinstance(head, dict) or not isinstance(head.get(key), kind)]:
         raise HVIError(f"{path}: the lines that begin with # must say {', '.join(missing)}: make it with python3 -m hvi calibrate")
-    (_, columns), *rows = tables.read_csv(path)
-    if tuple(columns) != COLUMNS:
+    names, rows = texts.table(path)
+    if tuple(names) != COLUMNS:
         raise HVIError(f"{path}: the columns must be {','.join(COLUMNS)}")
     runs = []
     for number, row in rows:
@@ -289,7 +290,9 @@ def read(path=None):
                 raise HVIError(f"{path}, line {number}: {name} must be {', '.join(WORDS[name])}, not {text!r}")
             if field.type is float:
                 try:
-                    cells[name] = float(text or "nan")
+                    cells[name] = float(text) if text else math.nan
+                    if text and not math.isfinite(cells[name]):
+                        raise ValueError
                 except ValueError:
                     raise HVIError(f"{path}, line {number}: {name} must be a number, not {text!r}") from None
         runs.append(Run(**cells))

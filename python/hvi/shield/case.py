@@ -12,11 +12,12 @@ from typing import Any
 
 import yaml
 
+from .. import texts
 from ..errors import HVIError, HVIWarning
 from ..material import laws
 from . import elements, geometry, projectile
 from .projectile import material
-from .reader import REQUIRED, Key, Reader, choice, fields, number, several, word
+from .reader import REQUIRED, Key, Reader, choice, fields, lammps_words, number, several, word
 
 SLOWEST, FASTEST = 0.1, 100  # km/s
 RATIO = 1.2  # of spacings that may be said to differ
@@ -37,24 +38,24 @@ WALL = {
     "method": Key(choice(*METHODS, hint=MODEL), None, "default: that of the case"),
     "core_mm": Key(number(least=0), None, "of elements: free particles instead up to there, default what the shot needs; of particles: half the side of the square that has spacings_mm, beyond they are twice as far apart, default: nowhere"),
     "hold_mm": Key(number(above=0), None, "and elements that hold particles up to there"),
-    "yield_ksi": Key(number(above=0), None, "for ballistic-limit equations only"),
+    "yield_ksi": Key(number(above=0, sane=(1e-3, 1e4)), None, "for ballistic-limit equations only"),
 }
 
 SETTINGS = {
     "quarter": Key(choice("auto", "yes", "no"), "auto", "model x > 0, y > 0 only; auto: if nothing speaks against it"),
-    "tstop": Key(number(least=0), 0, "us: the run ends here at the latest; 0: when the event is over, see Howto_shield"),
-    "kernel": Key(word, "cubic", "of pair_style hvi/sph"),
-    "eta": Key(number(above=0), 1.2, "smoothing length in spacings"),
-    "pair": Key(word, "dissipation riemann", "further words of pair_style hvi/sph"),
-    "solid": Key(word, laws.SOLID, "words of fix hvi/johnson-cook"),
-    "fem": Key(word, "strain 0.3", "words of fix hvi/fem"),
-    "C": Key(number(above=0), 0.6, "of fix hvi/dt"),
-    "skin": Key(number(above=0), None, "of the neighbor lists, in spacings; default 0.7, of pair_coeff spacing"),
-    "back": Key(number(least=0), 0, "mm that are modelled in front of wall 1; 0: half of the way to the last wall, at least 20"),
+    "tstop": Key(number(least=0, sane=(0, 1e6)), 0, "us: the run ends here at the latest; 0: when the event is over, see Howto_shield"),
+    "kernel": Key(lammps_words, "cubic", "of pair_style hvi/sph"),
+    "eta": Key(number(above=0, sane=(0.1, 10)), 1.2, "smoothing length in spacings"),
+    "pair": Key(lammps_words, "dissipation riemann", "further words of pair_style hvi/sph"),
+    "solid": Key(lammps_words, laws.SOLID, "words of fix hvi/johnson-cook"),
+    "fem": Key(lammps_words, "strain 0.3", "words of fix hvi/fem"),
+    "C": Key(number(above=0, sane=(1e-3, 10)), 0.6, "of fix hvi/dt"),
+    "skin": Key(number(above=0, sane=(1e-6, 100)), None, "of the neighbor lists, in spacings; default 0.7, of pair_coeff spacing"),
+    "back": Key(number(least=0, sane=(0, 1e7)), 0, "mm that are modelled in front of wall 1; 0: half of the way to the last wall, at least 20"),
     "edge": Key(choice("free", "clamp", "absorb"), "free", "outermost rim of the walls"),
-    "rim": Key(number(above=0), 5, "its width, mm"),
-    "film": Key(number(), 0, "us between frames for pictures and movies; 0: 20 frames, or as many as 300 MB hold; below 0: none"),
-    "layers": Key(several(number(whole=True)), None, "of particles through each wall, a value for each"),
+    "rim": Key(number(above=0, sane=(1e-6, 1e7)), 5, "its width, mm"),
+    "film": Key(number(sane=(1e-6, 1e6)), 0, "us between frames for pictures and movies; 0: 20 frames, or as many as 300 MB hold; below 0: none"),
+    "layers": Key(several(number(whole=True, sane=(1, 1e6))), None, "of particles through each wall, a value for each"),
 }
 
 KEYS = {
@@ -288,7 +289,7 @@ def read(path, model=True):
             reader.wrong(f"wall {k}: spacings_mm", f"must be {len(order)} values, one for each of spacings_mm of the case")
         walls.append(dataclasses.replace(wall, method=wall.method or method, spacings_mm=wall.spacings_mm and tuple(wall.spacings_mm[i] for i in order)))
     data.update(walls=tuple(walls), spacings_mm=tuple(data["spacings_mm"][i] for i in order))
-    case = Case(name=reader.path.stem, **data)
+    case = Case(name=texts.name_of(reader.path), **data)
     if not model:
         case.check_shot(reader.wrong)
         return case

@@ -22,6 +22,7 @@ from . import case as cases
 CHAIN = "chain.yaml"
 LEG = 4e8  # particle-steps between restart files: some minutes of a core
 LEGS = 50  # at most
+MOST = 2**31 - 1  # particles
 FRAMES, BUDGET = 20, 3e8  # frames of a film, and bytes that they may have all together
 ROW = 150  # bytes of a particle in a dump,
 RECORD = 600  # in a restart file,
@@ -45,6 +46,8 @@ class Written:
 def shield_of(case, which, shift):
     """the script.Shield of a run, with all its settings"""
     found = script.Shield(case, which, shift, {name: case.setting(name) for name in cases.SETTINGS})
+    if found.particles() > MOST:
+        raise HVIError(f"{case.name}: spacings_mm: {case.spacings_mm[which]:g} mm makes some {found.particles():.3g} particles, more than LAMMPS can number: are lengths in mm?")
     film = found.settings["film"]
     if film == 0:
         frames = max(4, min(FRAMES, int(BUDGET / (ROW * found.particles()))))
@@ -78,7 +81,7 @@ class Job(engine.Job):
     def is_as_written(self, state):
         """whether there is the restart file of a leg, and no byte of it has changed"""
         path = self.folder / str(state.get("file"))
-        if not path.is_file():
+        if not engine.inside(str(state.get("file"))) or not path.is_file():
             return False
         return state.get("checksum") in (None, self.checksum(path))
 

@@ -13,6 +13,9 @@ from ..errors import HVIError
 from . import ble, decision
 
 
+MOST = 1000  # steps
+
+
 class Search:
     """Bisection over places 0 ... n, where one side holds and the other fails.
 
@@ -90,10 +93,14 @@ class Limit:
         low, high, step = low or 0.5 * middle, high or 2 * middle, step or 0.05 * middle
         if low >= high or step > high - low:
             raise HVIError(f"--from {low:g} --to {high:g} --step {step:g}: there is nothing between")
-        n = max(1, round((high - low) / step))
+        for option, value in (("--from", low), ("--to", high)):
+            self.at(float(f"{value:.6g}")).check(self._wrong(f"{option} {value:g} {self.unit}"))
+        n = max(1, round(min((high - low) / step, 10 * MOST)))
+        if n > MOST:
+            raise HVIError(f"--step {step:g}: more than {MOST} values from {low:g} to {high:g}, steps of {(high - low) / MOST:.2g} are the least")
         self.values = [float(f"{low + (high - low) * k / n:.6g}") for k in range(n + 1)]
-        for option, value in (("--from", self.values[0]), ("--to", self.values[-1])):
-            self.at(value).check(self._wrong(f"{option} {value:g} {self.unit}"))
+        if len(set(self.values)) <= n:
+            raise HVIError(f"--from {low:.9g} --to {high:.9g} --step {step:g}: values have six digits, and some of these are the same")
         for value in self.values:  # elements do not fit any thickness
             self.at(value).check_elements(self._wrong(f"{on} {value:g} {self.unit}"))
         self.searches, self.jobs = {}, {}

@@ -5,6 +5,7 @@ import dataclasses
 import functools
 import math
 import pathlib
+import re
 from typing import Optional
 
 import numpy as np
@@ -20,6 +21,7 @@ from .reader import REQUIRED, Key, choice, fields, number
 SHAPES = {"sphere": (("diameter_mm",), ()), "cylinder": (("diameter_mm", "length_mm"), ("pitch_deg",)), "cube": (("side_mm",), ("pitch_deg",)),
           "hollow sphere": (("diameter_mm", "thickness_mm"), ()), "file": (("file",), ())}
 FILLS = ("lattice", "glass")
+OURS = r"(in|log)\..*|wall\d+\.data|.*\.(yaml|dat|hvi|dump|txt)"  # files that folders of runs have
 LEAST = 8  # particles of a body of a file
 LENGTHS = ("diameter_mm", "length_mm", "side_mm", "thickness_mm")
 
@@ -172,6 +174,9 @@ def read(reader, node, key):
         reader.wrong(f"{key}: fill", "a file has its own particles, or is filled by a lattice")
     if shape == "hollow sphere" and 2 * found["thickness_mm"] >= found["diameter_mm"]:
         reader.wrong(f"{key}: thickness_mm", f"must be below the radius, {0.5 * found['diameter_mm']:g} mm")
+    for name in names:
+        if re.fullmatch(OURS, pathlib.Path(name).name) or not re.fullmatch(r"[\w.+-]+", pathlib.Path(name).name, re.A):
+            reader.wrong(f"{key}: file", f"{name!r} is copied into folders of runs, so its name has letters, digits and . _ + - only, and is none of theirs, such as *.dat and in.*: rename it")
     files = tuple(str((reader.path.parent / name).resolve()) for name in names)
     try:
         density = library.density_of(found["material"], si=True)[0] if files else None
@@ -239,6 +244,7 @@ def from_file(source, spacing, shift, density):
         half = np.abs(triangles).max(axis=(0, 1))
         # a site on an edge of the surface would be a matter of rounding
         lines = [spacing * (np.arange(math.floor(-h / spacing), math.ceil(h / spacing) + 1) + 0.5 + 1e-7 + (shift if k == 2 else 0.0)) for k, h in enumerate(half)]
+        bodies.refuse_many(math.prod(map(len, lines)), "sites of the lattice")
         sites = stl.inside(triangles, *lines)
         x = np.concatenate([np.column_stack([np.full(len(k), lines[0][i]), np.full(len(k), lines[1][j]), lines[2][k]]) for i, j, k in sites]) if sites else np.zeros((0, 3))
     if len(x) < LEAST:

@@ -5,14 +5,16 @@ import difflib
 import math
 import operator
 import pathlib
+import re
 from typing import Any, Callable, NamedTuple
 
 import yaml
 
+from .. import texts
 from ..errors import HVIError
 
 REQUIRED = object()
-SIZES = 1e-9, 1e9  # of numbers beside 0: what is beyond is a slip, and products of it no number
+SANE = 1e-6, 1e7  # mm
 UNITS = {"_mm": " mm", "_km_s": " km/s", "_deg": " degrees", "_ksi": " ksi"}
 
 
@@ -21,21 +23,13 @@ class Reader:
 
     def __init__(self, path):
         self.path, self.at = pathlib.Path(path), {}  # at: nodes of what was read, by key
-        try:
-            self.root = yaml.compose(self.path.read_text())
-        except OSError as problem:
-            raise HVIError(f"cannot read {path}: {problem.strerror}") from None
-        except yaml.MarkedYAMLError as problem:
-            mark = problem.problem_mark or problem.context_mark
-            raise HVIError(f"{path}, line {mark.line + 1}: not YAML: {problem.problem or problem.context}") from None
-        except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as problem:
-            raise HVIError(f"{path}: not YAML: {' '.join(str(problem).split())}") from None
+        self.root = texts.compose(self.path)
         if self.root is None:
             raise HVIError(f"{path} is empty")
 
     def wrong(self, key, text, node=None):
         node = node or self.at.get(key) or self.root
-        raise HVIError(f"{self.path}, line {node.start_mark.line + 1}: {key}: {text}")
+        raise HVIError(f"{self.path}, line {node.start_mark.line + 1}: {' '.join(f'{key}: {text}'.split())}")
 
     def mapping(self, node, key, fields):
         """{name: value} of fields {name: (function of node and key, default)}"""
@@ -44,9 +38,7 @@ class Reader:
             self.wrong(key or "the case", f"must be 'name: value' lines with {', '.join(fields)}", node)
         found = {}
         for name_node, value in node.value:
-            if not isinstance(name_node, yaml.ScalarNode):  # as text a few aliases of aliases are gigabytes
-                self.wrong(key or "the case", "a name must be a word", name_node)
-            name = name_node.value
+            name = name_node.value if isinstance(name_node, yaml.ScalarNode) else "a list or mapping"
             if name not in fields:
                 near = difflib.get_close_matches(name, fields, 1, 0.5)
                 self.wrong(inside + name, "no such key" + (f"; did you mean {near[0]}?" if near else "") + f" (known: {', '.join(fields)})", name_node)
@@ -60,7 +52,8 @@ class Reader:
             found.setdefault(name, default)
         return found
 
-    def number(self, above=-math.inf, least=-math.inf, below=math.inf, whole=False):
+    def number(self, above=-math.inf, least=-math.inf, below=math.inf, whole=False, sane=None):
+        """sane: (least, most) of what is no mistake; of lengths in mm SANE"""
         def read(node, key):
             try:
                 value = float(node.value)
@@ -70,13 +63,14 @@ class Reader:
             if not math.isfinite(value):
                 said = f", not {node.value!r}" if isinstance(node, yaml.ScalarNode) else ", not a list"
                 self.wrong(key, f"must be a number of{unit}, without the unit{said}" if unit else f"must be a number{said}", node)
-            if value and not SIZES[0] <= abs(value) <= SIZES[1]:
-                self.wrong(key, f"must be {SIZES[0]:g} to {SIZES[1]:g} in size, or 0, not {node.value}", node)
             if whole and (value < 1 or value != int(value)):
                 self.wrong(key, f"must be a whole number from 1 on, not {node.value}", node)
             if not (value > above and value >= least and value < below):
                 bounds = [f"{word} {bound:g}" for word, bound in (("above", above), ("at least", least), ("below", below)) if math.isfinite(bound)]
                 self.wrong(key, f"must be {' and '.join(bounds)}{unit}, not {node.value}", node)
+            low, high = sane or (SANE if unit == " mm" else (0, math.inf))
+            if value and not low <= abs(value) <= high:
+                self.wrong(key, f"{node.value}{unit} is out of all reason, {low:g} to {high:g} is possible: is it in the right units?", node)
             return int(value) if whole else value
         return read
 
@@ -91,9 +85,18 @@ class Reader:
         return read
 
     def text(self, node, key):
-        if not isinstance(node, yaml.ScalarNode) or not node.value:
+        if not isinstance(node, yaml.ScalarNode) or not node.value or node.tag.endswith(":null"):
             self.wrong(key, "must be a word", node)
+        if not node.value.isprintable():
+            self.wrong(key, f"must be words in one line, without control characters, not {node.value!r}", node)
         return node.value
+
+    def words(self, node, key):
+        """words that go into a LAMMPS input: with quotes, $, # or & they could be more than that"""
+        value = self.text(node, key)
+        if odd := re.search(r"[^\w .:+*/-]", value, re.A):
+            self.wrong(key, f"{odd[0]!r} cannot be in words of a LAMMPS input: letters, digits, blanks and _ . : + - * / can", node)
+        return value
 
     def choice(self, known, hint=""):
         def read(node, key):
@@ -127,6 +130,7 @@ def several(item, distinct=False):
 
 
 word = operator.attrgetter("text")
+lammps_words = operator.attrgetter("words")
 
 
 def fields(reader, table):

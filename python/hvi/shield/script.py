@@ -9,6 +9,7 @@ import functools
 import itertools
 import math
 import pathlib
+import re
 import shutil
 
 import yaml
@@ -155,7 +156,8 @@ class Shield:
     # ------------------------------------------------------------------ parts of the input
     def head(self, text, new):
         case, walls = self.case, self.case.walls
-        text.lines += [f"# {case.name}: a {case.projectile} at {case.speed_km_s:g} km/s on {len(walls)} wall{'s' * (len(walls) > 1)}, "
+        name = re.sub(r"[^\w.+ -]", "-", case.name, flags=re.A)
+        text.lines += [f"# {name}: a {case.projectile} at {case.speed_km_s:g} km/s on {len(walls)} wall{'s' * (len(walls) > 1)}, "
                        f"{1e3 * self.geometry.a:g} mm between particles; written by python3 -m hvi shield",
                        f"#   mpirun -np 2 lmp -in {BEGIN if new else CONTINUE}    then: python3 -m hvi judge .", ""]
         text("variable", f"until index {number(self.latest_us)}", "us: end of the run, if the event is not over before")
@@ -406,5 +408,5 @@ class Shield:
     def texts(self):
         """{file: text}: the inputs, the material files, so that LAMMPS alone can run the folder, and the case of this run, for judge"""
         names = dict.fromkeys((self.case.material, *(wall.material for wall in self.case.walls)))
-        return {BEGIN: self.text(), CONTINUE: self.text(new=False), **{pathlib.Path(name).name: library.find(name).read_text() for name in names},
+        return {BEGIN: self.text(), CONTINUE: self.text(new=False), **{pathlib.Path(name).name: library.find(name).read_text(errors="replace") for name in names},
                 CASE: yaml.safe_dump(self.case.one(self.which, self.shift).mapping(), sort_keys=False)}

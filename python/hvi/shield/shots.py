@@ -10,7 +10,7 @@ import math
 import pathlib
 import re
 
-from .. import tables
+from .. import texts
 from ..errors import HVIError
 from ..material import laws
 from ..version import ROOT
@@ -21,6 +21,8 @@ from .reader import REQUIRED, Reader
 
 SETTINGS = ROOT / "examples" / "whipple-shield" / "shots" / "all.yaml"  # of a list that comes without a study
 CM = 10.0  # mm
+SMALLEST, LARGEST = 1e-6, 1e5  # of the numbers of a list
+FINEST = 1e-4  # mm, to which spacings are rounded
 SAID = ("fails", "undecided", "holds")
 OBSERVED = {"P": "fails", "NP": "holds"}
 WORDS = ("shotID", "proj_mat", "bumper_mat", "wall_mat", "result")
@@ -54,8 +56,8 @@ class Shot:
 
 def read_list(path):
     """The shots of a CSV file: lengths in cm, degrees, km/s, ksi, P or NP; lines that begin with # are remarks."""
-    (_, head), *rows = tables.read_csv(path)
-    head = [name.strip() for name in head]
+    names, rows = texts.table(path)
+    head = [name.strip() for name in names]
     if missing := [name for name in COLUMNS if name not in head]:
         raise HVIError(f"{path}: no column {', '.join(missing)}")
     found = {}
@@ -85,12 +87,16 @@ def _shot(cells, wrong):
             value[name] = float(cells[name])
         except ValueError:
             value[name] = math.nan
-        if not (math.isfinite(value[name]) and value[name] >= 0 and (value[name] > 0 or name == "angle")):
+        if not (0 <= value[name] < math.inf and (value[name] > 0 or name == "angle")):
             wrong(f"{name} must be a number above 0{' or 0' if name == 'angle' else ''}, not {cells[name]!r}")
+        if not (value[name] == 0 or SMALLEST <= value[name] < LARGEST):
+            wrong(f"{name} must be {SMALLEST:g} to {LARGEST:g}, not {cells[name]}: lengths are in cm, speeds in km/s, stresses in ksi")
     if value["angle"] >= 90:
         wrong(f"angle must be below 90 degrees, not {cells['angle']}")
     if cells["result"] not in OBSERVED:
         wrong(f"result must be P or NP, not {cells['result']!r}")
+    if not cells["shotID"].strip("."):
+        wrong(f"shotID {cells['shotID']} can be no name of a folder")
     mm = {name: round(CM * value[name], 9) for name in LENGTHS}
     return Shot(cells["shotID"], cells.get("source", ""), cells["proj_mat"], mm["proj_diam"], value["angle"], value["velocity"],
                 cells["bumper_mat"], mm["bumper_thick"], mm["standoff"], cells["wall_mat"], value["wall_yield"], mm["wall_thick"], cells["result"])
@@ -103,7 +109,7 @@ class Study:
         path = pathlib.Path(path)
         alone = path.suffix.lower() == ".csv"  # a list without a study has the settings of all.yaml
         reader = Reader(SETTINGS if alone else path)
-        whole = reader.number(above=0)
+        whole = reader.number(above=0, sane=(1e-3, 1e3))
         names = reader.several(reader.text, distinct=True)
         data = reader.mapping(reader.root, "", {
             "list": (reader.text, REQUIRED), "shots": (names, None),
@@ -113,7 +119,7 @@ class Study:
                 "factor": (reader.number(above=0, below=1), REQUIRED), "shots": (names, REQUIRED)}), None),
             "shifts": (reader.several(reader.number(least=0, below=1), distinct=True), (0.0,)),
             "settings": (lambda node, key: cases.read_settings(reader, node, key), {}), "materials": (material_table(reader), REQUIRED), "stand_ins": (material_table(reader), {})})
-        self.path, self.name, self.rule, self.shifts, self.settings = path, path.stem, data["spacing"], data["shifts"], data["settings"]
+        self.path, self.name, self.rule, self.shifts, self.settings = path, texts.name_of(path), data["spacing"], data["shifts"], data["settings"]
         self.materials, self.stand_ins = {**data["materials"], **data["stand_ins"]}, data["stand_ins"]
         if both := sorted(set(data["materials"]) & set(self.stand_ins)):
             reader.wrong("stand_ins", f"{both[0]} is among materials, too")
@@ -156,6 +162,8 @@ def case_of(shot, rule, materials, shifts, settings, where, factors=(1.0,)):
     """
     near, far = spacings(rule, shot.diameter_mm, shot.bumper_mm, shot.wall_mm)
     first, last = (tuple(round(dx * factor, 4) for factor in factors) for dx in (near, far))
+    if min(first + last) < FINEST:
+        raise HVIError(f"{where}: the rule of spacings makes {min(near, far):.3g} mm, and {FINEST:g} mm are the least: are lengths in their units?")
     ball, bumper, wall = (materials[alloy] for alloy in shot.alloys())
     case = cases.Case(name=shot.folder, projectile=Projectile(ball, diameter_mm=shot.diameter_mm, fill=rule.get("fill", FILLS[0])), speed_km_s=shot.speed_km_s, angle_deg=shot.angle_deg,
                       walls=(cases.Wall(shot.bumper_mm, bumper, spacings_mm=first, method="sph"),
