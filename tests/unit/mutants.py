@@ -186,7 +186,7 @@ class Build:
             return "timeout", r.stdout
         return (re.findall(r"\[  FAILED  \] (\w[\w/.]*)", r.stdout) or re.findall(r"\[ RUN      \] (\S+)", r.stdout) or ["start"])[-1], r.stdout
 
-    def compile_mutants(self, mutants, made):
+    def compile_mutants(self, mutants, made, only=None):
         """Compiles all that includes one of them and is not made. Returns those that stand where the compiler says that something is wrong."""
         touched = {}
         for k, f, text, offset, old, new, lines, switch in sorted(mutants, key=lambda m: -m[3]):
@@ -214,13 +214,13 @@ class Build:
                     or {m[0] for m in mutants if str(self.src / m[1]) in self.deps[source.stem]})
 
         paths = {str(self.src / f) for f in touched}
-        wrong = set().union(*self.pool.map(one, [s for s in self.sources if s.stem not in made and self.deps[s.stem] & paths]))
+        wrong = set().union(*self.pool.map(one, [s for s in self.sources if s.stem not in made and s.stem in (only or self.deps) and self.deps[s.stem] & paths]))
         for f in touched:
             shutil.copyfile(ROOT / f, self.src / f)
         return wrong
 
-    def judge(self, mutant, made, programs):
-        """Outcome of a mutant, and by which test."""
+    def judge(self, mutant, made, programs, alone):
+        """Outcome of a mutant, and by which test. Alone it is compiled as far as that takes."""
         number, f, lines = mutant[0], str(self.src / mutant[1]), mutant[6]
         users = [t for t in self.tests if any(f in self.deps[p] for p in self.parts[t])]
         counts = lambda t, more: [self.lines[t]["lines"].get(f, {}).get(str(n)) for n in range(lines[0] - more, lines[1] + more + 1)]
@@ -228,12 +228,16 @@ class Build:
         runs = [t for t in users if any(counts(t, 0))] or [t for t in users if not data or any(counts(t, 2))]    # gcov may count in the next line
         stem = pathlib.Path(f).stem[4:]
         for t in sorted(runs, key=lambda t: (t[5:] not in stem and stem not in t, self.lines[t]["seconds"])):
+            if alone and self.compile_mutants([mutant], made, self.parts[t]):
+                return "does not compile", ""
             if t not in programs:
                 programs[t] = self.out / "mutant" / t
                 subprocess.run([*self.link[0], *(made.get(p, self.out / f"{p}.o") for p in self.parts[t]), *self.link[1], "-o", programs[t]], check=True)
             failed, _ = self.run(programs[t], 10 + 10 * self.lines[t]["seconds"], number)
             if failed:
                 return ("timeout", t) if failed == "timeout" else ("killed", failed)
+        if not runs and alone and self.compile_mutants([mutant], made, {next(s for s in self.deps if f in self.deps[s])}):
+            return "does not compile", ""
         return "survived", " ".join(sorted(t[5:] for t in runs)) or "none runs it"
 
 
@@ -315,9 +319,8 @@ def main():
             for k in [batch[m[0]] for m in mutants] + alone:
                 if k in alone:
                     mutants, programs, made = [(0, *found[k])], {}, {}
-                    wrong = build.compile_mutants(mutants, made)
                 m = next(m for m in mutants if m[1:] == found[k])
-                outcome, test = ("does not compile", "") if k in alone and wrong else build.judge(m, made, programs)
+                outcome, test = build.judge(m, made, programs, k in alone)
                 r = recorded.setdefault(k, dict(zip(FIELDS, [*k, "", "", ""])))
                 if r not in rows:
                     rows.append(r)

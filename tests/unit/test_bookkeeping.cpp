@@ -190,7 +190,7 @@ TEST(Memory, IsThatOfPointsCellsAndRows)
   const double bytes =
       N * (7 * sizeof(int) + sizeof(int *) + 1 + 6 * sizeof(double) + 3 * sizeof(double));
   EXPECT_GE(rows.bytes(), bytes);
-  EXPECT_LE(rows.bytes(), 1.1 * bytes);
+  EXPECT_LE(rows.bytes(), 1.01 * bytes);
   for (int c = 0; c < N; c++) {
     EXPECT_TRUE(rows.is_lonely(c));
     EXPECT_EQ(rows.make(c), -1);

@@ -81,6 +81,35 @@ TEST(Edges, DamageOfOneKindIsNotTakenForTheOther)
   }
 }
 
+// whoever asks for a pressure need look at a state where it has voids, and nowhere else with these laws
+
+TEST(Edges, OpenAreThoseThatHaveVoids)
+{
+  Material material;
+  std::string why;
+  ASSERT_EQ(parse_material("# UNITS: si\neos linear\nrho0 2700\nK 76e9\nstrength perfect\nG "
+                           "26e9\nY 0.3e9\nspall limit\nsigma_p 1e9\n"
+                           "spall voids\nsigma 1.2e9\nrate 1e5\nm 0.2\nphi_c 0.05\n",
+                           "x.hvi", "si", material),
+            "");
+  SolidOptions options;
+  options.strength = "perfect";
+  options.thermal = options.damage = false;
+  for (const Spall spall : {Spall::PRINCIPAL, Spall::PRESSURE, Spall::VOIDS}) {
+    options.spall = spall;
+    const auto model = SolidModel::make(material, options, why);
+    ASSERT_TRUE(model) << why;
+    EXPECT_FALSE(model->own_limit());    // all have the same
+    SolidState s = SolidModel::blank();
+    EXPECT_FALSE(model->open(s) || model->looks(s));
+    s.voids.phi = 0.01;
+    EXPECT_EQ(model->open(s), spall == Spall::VOIDS);
+    EXPECT_EQ(model->looks(s), spall == Spall::VOIDS);
+    s.spalled = 1.0;
+    EXPECT_FALSE(model->open(s) || model->looks(s));
+  }
+}
+
 // close to the pole of the Hugoniot, dtau/deta = g tau - p0/(rho0 cp), by many small steps
 
 TEST(Edges, TemperatureNearThePole)

@@ -268,6 +268,37 @@ TEST(PlateHole, APieceWithMuchOfTheFarMassIsPlate)
   expect_area(p, square_hole(4) + 4 * (1.0 - CORNER - SIDE));
 }
 
+// a piece counts from 0.05 of the mass of the outer part on, taken here as it is found
+
+TEST(PlateHole, PiecesBelowATwentiethAreFragments)
+{
+  int kept = 0, gone = 0;
+  for (int k = 0; k < 400; k++) {
+    const double each = 0.6 + 0.01 * k;    // mass per area of a piece in a corner
+    Plate p = plate(14, [=](int x, int y) {
+      if (x >= 10 && y >= 10) return each;
+      return (most(x, y) <= 4 || (x >= 9 && y >= 9)) ? 0.0 : 1.0;
+    });
+    p.find_intact();
+    double total = 0.0, piece = 0.0;
+    for (int x = -14; x <= 14; x++)
+      for (int y = -14; y <= 14; y++) {
+        const double mass = p.areal[p.index(x + 17, y + 17)];
+        if (mass < 0.5 * p.intact || std::hypot(x, y) < p.far) continue;
+        total += mass;
+        if (x >= 10 && y >= 10) piece += mass;
+      }
+    if (piece == 0.0) continue;
+    p.find_hole(0.5, false);
+    EXPECT_EQ(p.areal[p.index(30, 30)] > 0.0, piece >= 0.05 * total)
+        << each << " " << piece / total;
+    gone += piece > 0.045 * total && piece < 0.05 * total;
+    kept += piece < 0.055 * total && piece > 0.05 * total;
+  }
+  EXPECT_GT(kept, 0);
+  EXPECT_GT(gone, 0);
+}
+
 TEST(PlateHole, DiametersOfAnEllipse)
 {
   // no spreading here, but measure() takes out that of particles
