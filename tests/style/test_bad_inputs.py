@@ -12,7 +12,7 @@ import yaml
 
 INPUTS = pathlib.Path(__file__).resolve().parents[1] / "inputs"
 LIMIT = 120  # s; most end in 0.2
-EVERY = 16  # one row of so many runs on two ranks in the short form
+SHORT, PAIRS = 3, 24  # one row of so many runs on one rank in the short form, on two ranks
 NUMBER = re.compile(r"[-+\d.e]*\d")
 SCENES = sorted(path.name[3:] for path in INPUTS.glob("in.*"))
 
@@ -144,11 +144,17 @@ def test_scene(start, scene):
 
 @pytest.mark.parametrize("group", GROUPS)
 def test_on_one_rank(start, plain, group):
-    check(GROUPS[group], start, plain, 1)
+    check(GROUPS[group][::SHORT], start, plain, 1)
 
 
 def test_some_on_two_ranks(start, plain):
-    check(ROWS[::EVERY], start, plain, 2)
+    check(ROWS[::PAIRS], start, plain, 2)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("group", GROUPS)
+def test_all_on_one_rank(start, plain, group):
+    check(GROUPS[group], start, plain, 1)
 
 
 @pytest.mark.long

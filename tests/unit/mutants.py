@@ -265,10 +265,13 @@ def report(rows, seed):
     compiled = [r for r in rows if r["outcome"] != "does not compile"]
     count = lambda rows, *what: sum(r["outcome"] in what for r in rows)
     reasons = collections.Counter(r["explanation"].split(":")[0] for r in compiled if r["outcome"] == "survived")
+    meant = {"equivalent": "no input tells them from the source", "boundary": "only a number that is met exactly does, and to either side both are right",
+             "same root": "an iteration takes another path to it", "rounding": "below the last digit", "resources": "no result shows it",
+             "style": "more than one rank is needed; the test that is named fails with each of them"}
     text = ["# Mutants of the library", "", "Written by `python3 tests/unit/mutants.py` (`make mutate`) from mutants.csv, which has each mutant.", "",
             f"Seed {seed}: {len(rows)} mutants, {len(rows) - len(compiled)} of them do not compile. Of the {len(compiled)} others the unit tests kill "
             f"{count(compiled, 'killed', 'timeout')} ({count(compiled, 'timeout')} by running without end); {count(compiled, 'survived')} survive:", "",
-            *(f"- {n}: {why or 'not explained'}" for why, n in reasons.most_common()), "", "| room | compile | killed | survive |", "|---|---|---|---|"]
+            *(f"- {n} {why or 'not explained'}{': ' + meant[why] if why in meant else ''}" for why, n in reasons.most_common()), "", "| room | compile | killed | survive |", "|---|---|---|---|"]
     for room in ROOMS:
         part = [r for r in compiled if r["file"].startswith(f"lib/hvi/{room}/")]
         text.append(f"| {room} | {len(part)} | {count(part, 'killed', 'timeout')} | {count(part, 'survived')} |")
