@@ -6,10 +6,10 @@ import numpy as np
 
 
 class Frame(dict):
-    """{column: array}; step, time (None if the dump does not say it), table: all columns as one array, rows in the order of the file, or by ID"""
+    """{column: array}, id and type whole numbers; step, time (None if the dump does not say it), table: all columns as one array, rows in the order of the file, or by ID"""
 
     def __init__(self, names, table, step, time):
-        super().__init__(zip(names, table.T))
+        super().__init__((name, column.astype(int) if name in ("id", "type") else column) for name, column in zip(names, table.T))
         self.table, self.step, self.time = table, step, time
 
 
