@@ -835,11 +835,11 @@ void FixHVIFEM::find_probes()
         size = MAX(size, std::hypot(corner[0] - c[0], corner[1] - c[1], corner[2] - c[2]));
     }
     MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_DOUBLE, MPI_MAX, world);
-    if (std::sqrt(nearest.distance) > 2.0 * size)
-      error->all(
+    if (std::sqrt(nearest.distance) > 2.0 * size && comm->me == 0)
+      error->warning(
           FLERR,
-          "Fix hvi/fem: probe {} {} {} is in no element, the nearest is {:.6g} away: is it in "
-          "other units?",
+          "Fix hvi/fem: probe {} {} {} is in no element, the nearest is {:.6g} away and is read: "
+          "is it in other units?",
           probe.x[0], probe.x[1], probe.x[2], std::sqrt(nearest.distance));
   }
 }

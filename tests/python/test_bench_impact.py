@@ -123,4 +123,4 @@ def test_wrong(lmp_exe, tmp_path):
     with pytest.raises(Cannot, match="in no book"):
         run(lmp_exe, tmp_path / "5", "debris-step", {"method": "stock bpm/spring", "C": 0.1})
     r = run(lmp_exe, tmp_path / "6", "ceg3", {"method": "riemann", "dx": 0})
-    assert "lattice" in r["failed"]
+    assert "dx must be a number above 0" in r["failed"]

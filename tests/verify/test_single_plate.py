@@ -148,7 +148,7 @@ def test_bodies_of_glass(lmp, root, tmp_path, quarter):
 
 @pytest.mark.parametrize("variables,message", [
     (dict(material_p="Unobtainium.hvi"), "Unobtainium.hvi"), (dict(damage="maybe"), "maybe"), (dict(spall="often"), "often"), (dict(tstopp=3), "did you mean tstop?"),
-    (dict(dx=0), "lattice"), (dict(D=-1), "region"), (dict(out="no/such/folder"), "Cannot open dump file")], ids=str)
+    (dict(dx=0), "dx must be a number above 0"), (dict(D=-1), "D must be a number above 0"), (dict(out="no/such/folder"), "Cannot open dump file")], ids=str)
 def test_wrong_input(lmp, root, tmp_path, variables, message):
     """LAMMPS's errors, before the first step"""
     r = plate(lmp, root, tmp_path, fails=True, **{"out": ".", **variables})

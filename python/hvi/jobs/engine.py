@@ -35,8 +35,8 @@ END = b"LammpS RestartT\0"  # of a restart file
 def read_yaml(path):
     """the mapping in a YAML file; None if there is none"""
     try:
-        data = texts.load(path)
-    except HVIError:
+        data = yaml.safe_load(texts.read(path))
+    except Exception:  # of many kinds: constructors do not check what they take
         return None
     return data if isinstance(data, dict) else None
 
