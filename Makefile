@@ -8,7 +8,6 @@
 #   make fuzz    fuzzers of all readers and of LAMMPS inputs, MINUTES=10 of each: see tests/fuzz/README.md
 #   make bench   speed against error, the short form (bench-full: all of it): build/bench/speed-error.html
 #   make mutate  mutants of the library against its unit tests, on from tests/unit/mutants.csv (MUTATE_ARGS)
-
 #   make check                     static checks: warnings of two compilers, clang-tidy, cppcheck, flake8, mypy, LAMMPS's coding standard
 #   make force-styles              LAMMPS's own testers of forces and fixes, with our styles: tests/force-styles
 #   make doc | sanitize | clean

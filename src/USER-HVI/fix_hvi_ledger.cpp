@@ -31,9 +31,10 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr int RESTART_FORMAT = 1000;    // and the number of entries
 using namespace FixConst;
 using MathExtra::dot3;
+
+static constexpr int RESTART_FORMAT = 1000;    // and the number of entries
 
 static constexpr char LEDGER_ID[] = "HVI_LEDGER";
 

@@ -40,7 +40,7 @@ static constexpr double FAR_AWAY = 1.0e100;
 static constexpr int LOOK_AHEAD = 5;     // steps
 static constexpr double MARGIN = 1.5;    // for velocities that change in these steps
 
-static constexpr double LEAST_BOX = 0.005;     // over the reach, or LAMMPS makes no bins
+static constexpr double LEAST_BOX = 0.01;      // bins, or LAMMPS makes none
 static constexpr double MOST_BINS = 1.0e18;    // of that size: no debris flies so far
 
 static bool making = false;    // else it stands in an input, or goes for good
@@ -126,34 +126,42 @@ bool FixHVILists::may_keep_rows(double cut) const
 
 void FixHVILists::init()
 {
-  set_bins(0.0);
+  set_bins(0.0, 0.0);
   if (force->pair && neighbor->style == Neighbor::BIN)
     check_box(domain->prd, force->pair->cutforce + neighbor->skin);
-  if (update->whichflag) widen_bins(false);    // LAMMPS makes bins for sorting before it asks fixes
+  if (update->whichflag)
+    set_bins(0.0, least_bins(false));    // LAMMPS makes those for sorting before it asks fixes
 }
 
 void FixHVILists::setup_pre_exchange()
 {
-  widen_bins(true);
+  const double least = least_bins(true);
+  set_bins(least, least);
 }
 
 void FixHVILists::pre_exchange()
 {
-  if (domain->box_change) widen_bins(false);
+  if (!domain->box_change) return;
+  const double least = least_bins(false);
+  set_bins(least, least);
 }
 
 // of a box that is about to be another, both count; not where it begins to follow the particles
 
-void FixHVILists::widen_bins(bool shrinks)
+double FixHVILists::least_bins(bool shrinks) const
 {
   static constexpr double MANY = 4.0e6, PER_PARTICLE = 16.0, FLAT = 99.0;
-  double ends[6], length[3], size = 1.0, shortest = FAR_AWAY;    // ends: less the highest
-  for (int k = 0; k < 3; k++) {
-    const bool follows[2] = {shrinks && atom->natoms > 0 && domain->boundary[k][0] == 2,
-                             shrinks && atom->natoms > 0 && domain->boundary[k][1] == 2};
-    ends[k] = follows[0] ? FAR_AWAY : domain->boxlo[k];
-    ends[3 + k] = follows[1] ? FAR_AWAY : -domain->boxhi[k];
-  }
+  double ends[6], length[3] = {}, size = 1.0, shortest = FAR_AWAY;    // ends: less the highest
+  const double least_box[2][3] = {{domain->minxlo, domain->minylo, domain->minzlo},
+                                  {domain->minxhi, domain->minyhi, domain->minzhi}};
+  for (int k = 0; k < 3; k++)
+    for (int side = 0; side < 2; side++) {
+      const int face = domain->boundary[k][side], sign = side ? -1 : 1;
+      double &end = ends[3 * side + k];
+      end = sign * (side ? domain->boxhi : domain->boxlo)[k];
+      if (shrinks && atom->natoms > 0 && face == 2) end = FAR_AWAY;
+      if (shrinks && face == 3) end = sign * least_box[side][k];
+    }
   for (int i = 0; i < atom->nlocal && domain->nonperiodic == 2; i++)
     for (int k = 0; k < 3; k++) {    // NaN is less than nothing
       const double x = atom->x[i][k];
@@ -163,31 +171,31 @@ void FixHVILists::widen_bins(bool shrinks)
   MPI_Allreduce(MPI_IN_PLACE, ends, 6, MPI_DOUBLE, MPI_MIN, world);
   for (int k = 0; k < domain->dimension; k++) {
     length[k] = MAX(-(ends[k] + ends[3 + k]), 0.0);
-    if (!(length[k] < FAR_AWAY)) return;    // no particle has a place: LAMMPS says so
+    if (!(length[k] < FAR_AWAY)) return 0.0;    // no particle has a place: LAMMPS says so
     if (length[k] > 0.0) shortest = MIN(shortest, length[k]);
     size *= length[k];
   }
   if (force->pair && neighbor->style == Neighbor::BIN && domain->nonperiodic == 2)
     check_box(length, force->pair->cutforce + neighbor->skin);
   const double least = pow(size / (MANY + PER_PARTICLE * atom->natoms), 1.0 / domain->dimension);
-  set_bins(MIN(least, FLAT * shortest));
+  return MIN(least, FLAT * shortest);
 }
 
 /* ----------------------------------------------------------------------
    0: those of neigh_modify and atom_modify sort again.  What stands there is theirs, unless it was put there here.
 ------------------------------------------------------------------------- */
 
-void FixHVILists::set_bins(double least)
+void FixHVILists::set_bins(double least, double least_sort)
 {
   if (neighbor->binsizeflag != put.wide || neighbor->binsize_user != put.bin)
     given = {neighbor->binsizeflag, neighbor->binsize_user, given.sort_bin};
   if (atom->userbinsize != put.sort_bin) given.sort_bin = atom->userbinsize;
 
   const double half = force->pair ? 0.5 * (force->pair->cutforce + neighbor->skin) : 0.0;
-  if (half == 0.0) least = 0.0;    // LAMMPS has no bins then
+  if (half == 0.0) least = least_sort = 0.0;    // LAMMPS has no bins then
   const bool wider = least > (given.wide ? given.bin : half);
-  const bool sorts = least > (given.sort_bin > 0.0 ? given.sort_bin : half);
-  put = {wider ? 1 : given.wide, wider ? least : given.bin, sorts ? least : given.sort_bin};
+  const bool sorts = least_sort > (given.sort_bin > 0.0 ? given.sort_bin : half);
+  put = {wider ? 1 : given.wide, wider ? least : given.bin, sorts ? least_sort : given.sort_bin};
   neighbor->binsizeflag = put.wide;
   neighbor->binsize_user = put.bin;
   atom->userbinsize = put.sort_bin;
@@ -290,7 +298,7 @@ void FixHVILists::setup(int /*vflag*/)
 
 void FixHVILists::post_run()
 {
-  set_bins(0.0);
+  set_bins(0.0, 0.0);
   if (neighbor->delay == NEVER) neighbor->delay = delay;
 }
 

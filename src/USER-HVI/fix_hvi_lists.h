@@ -85,10 +85,10 @@ class FixHVILists : public Fix {
   Bins put, given;    // last set here; of neigh_modify and atom_modify sort
 
   void check_box(const double *length, double cut) const;
-  void widen_bins(bool shrinks);
+  double least_bins(bool shrinks) const;
   void give_back_sorting();
   void measure();
-  void set_bins(double least);
+  void set_bins(double least, double least_sort);
   bool exceeded(double time);
 };
 

@@ -185,7 +185,7 @@ void PairHVIContact::work_off(const Touching &touch, int ntouch)
 }
 
 /* ----------------------------------------------------------------------
-   once: no impact presses so many particles that far into each other, but sigma in other units does
+   said once: no impact presses so many particles that far into each other, but sigma in other units does
 ------------------------------------------------------------------------- */
 
 void PairHVIContact::setup()

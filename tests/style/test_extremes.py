@@ -1,5 +1,7 @@
 """The very few and the very many: one particle, ranks without any, a box that grows without end, all leaving at once, tilted boxes, balancing all the time."""
 
+import struct
+
 import numpy as np
 import pytest
 from fem_scenes import STATE, read_state, start, strike_plate
@@ -62,14 +64,20 @@ def test_a_box_that_grows_for_a_million_steps(lmp, tmp_path, name):
     assert memory[-1] < memory[0] + 60_000 and memory[-1] < memory[4] + 2_000 and ratio == pytest.approx(1.0, abs=1e-2), memory
 
 
-def test_bins_are_given_back(lmp):
-    """what neigh_modify and atom_modify have set is set again after a run"""
+def test_bins_are_given_back(lmp, tmp_path):
+    """what neigh_modify and atom_modify have set is set again after a run, what they set between runs stays, and restart files that are written in a run have it"""
     text = FAR.format(steps=200, every=100, v=500.0, **STYLES["dem"]).replace(' every 100 "shell sh memory.sh"', "") + "change_box all x final -5 5 y final -5 5 z final -5 5 units box\n"
-    text = text.replace("boundary s s s", "boundary m m m")
-    r = lmp(text + "delete_atoms group all\ncreate_atoms 1 single 0 0 0\nrun 0\n")
+    text = text.replace("boundary s s s", "boundary m m m").replace("thermo 100\n", "thermo 100\natom_modify sort 777 0.25\nrestart 100 r.1 r.2\n")
+    other = "pair_style zero 2.0\npair_coeff * *\nrun 0\n"  # lists are described where they are not those of the run before
+    again = f"{other}{PAIR}run 0\nneigh_modify binsize 3.0\n{other}{PAIR}run 0\nneigh_modify binsize 0.0\n{other}{PAIR}run 0\n"
+    r = lmp(text + "restart 0\ndelete_atoms group all\ncreate_atoms 1 single 0 0 0\n" + again)
     half = 0.5 * float(r.log.split("master list distance cutoff = ")[-1].split()[0])
     sizes = [float(line.split("binsize = ")[1].split(",")[0]) for line in r.log.splitlines() if "binsize = " in line]
-    assert sizes[-1] == pytest.approx(half, rel=1e-4) and sizes[0] == pytest.approx(half, rel=1e-4)
+    assert sizes == pytest.approx([half, 1.15, half, 3.0, 3.0, 1.15, half], rel=1e-4)
+    for name in ("r.1", "r.2"):  # LAMMPS writes how often it sorts, a flag, and the size of bins
+        data = (tmp_path / name).read_bytes()
+        at = data.index(struct.pack("i", 777))
+        assert struct.unpack("d", data[at + 8:at + 16]) == (0.25,), name
 
 
 @pytest.mark.parametrize("nranks", [1, 3])

@@ -81,7 +81,7 @@ TEST(Edges, DamageOfOneKindIsNotTakenForTheOther)
   }
 }
 
-// whoever asks for a pressure need look at a state where it has voids, and nowhere else with these laws
+// with these laws a pressure is asked for again only where a state has voids
 
 TEST(Edges, OpenAreThoseThatHaveVoids)
 {
