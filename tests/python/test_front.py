@@ -26,6 +26,7 @@ from hvi.figures import sketch
 from hvi.io.data import DataFile
 from hvi.jobs import engine
 from hvi.material import laws
+from hvi.model import bodies
 from hvi.shield import ble, chain, decision, projectile, record
 from hvi.shield import case as cases
 
@@ -248,6 +249,25 @@ def test_one_spacing_is_no_verdict(folder, capsys):
     (folder / "emi.yaml").write_text(change("[0.2, 0.4]", "[0.4]"))
     assert front("shield") == 4
     assert "verdict: undecided\n  - one spacing only: nothing says how much it matters" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("ball", ["fill: glass\n  diameter_mm: 5", "shape: file\n  file: ball.data"])
+def test_particles_in_files(folder, ball):
+    """The front door runs what is not on a lattice, and what is done is not run again; particles of a file that has changed are another projectile"""
+    (folder / "emi.yaml").write_text(change("diameter_mm: 5", ball).replace("[0.2, 0.4]", "[0.5]"))
+    made = bodies.make(bodies.sphere(2.5e-3), 5e-4, "glass", 1)
+
+    def write(density):
+        bodies.write_data(folder / "ball.data", made.x, 1, [density * made.volume] * len(made.x), density, made.x.min(axis=0) - 5e-4, made.x.max(axis=0) + 5e-4, (), "ball")
+
+    write(2785)
+    assert front("shield") == 4
+    first = begun(folder)
+    assert len(first) == 2 and len(list(folder.glob("runs/emi/*/ball.data"))) == 2
+    assert front("shield") == 4 and begun(folder) == first
+    write(2700)
+    assert front("shield") == 4
+    assert all((begun(folder)[name] == first[name]) == ("glass" in ball) for name in first)
 
 
 def test_goes_on(folder, capsys, monkeypatch):

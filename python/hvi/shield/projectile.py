@@ -3,6 +3,7 @@
 
 import dataclasses
 import functools
+import hashlib
 import math
 import pathlib
 import re
@@ -132,6 +133,12 @@ class Projectile:
         return {**found, **({"file": [pathlib.Path(path).name for path in self.files]} if self.files else {})}
 
     # ------------------------------------------------------------------ in the input
+    def plain(self, file=None):
+        """words of write() of what its particles follow from, as the record of a run keeps them; file: of particles or an STL file, which is copied beside them"""
+        if file:
+            return {"shape": self.shape, "file": pathlib.Path(file).name, "checksum": hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest()[:16]}
+        return {name: value for name in ("shape", *LENGTHS, "pitch_deg") if (value := getattr(self, name))}
+
     def body(self, quarter):
         """bodies.Shape, in m, its axis along z"""
         size = {name: 1e-3 * value for name in LENGTHS if (value := getattr(self, name)) is not None}
@@ -214,19 +221,20 @@ def particles(path):
     return frame.x, float(frame.m.sum())
 
 
-def write(path, of, spacing, shift, density, quarter):
-    """A data file of the Projectile `of`, its middle at 0 0 0: particles of its file; of an STL file the sites of the lattice that are inside, which share its
-    mass; of a shape particles like in a glass
+def write(path, spacing, shift, density, quarter, file=None, checksum=None, **of):
+    """A data file, its middle at 0 0 0: particles of a file; of an STL file the sites of the lattice that are inside, which share its mass; of a shape particles
+    like in a glass
 
-    spacing: m; shift: of the lattice along z, in spacings, or another glass for each; density: kg/m^3; quarter: x > 0, y > 0 alone, of a glass
+    spacing: m; shift: of the lattice along z, in spacings, or another glass for each; density: kg/m^3; quarter: x > 0, y > 0 alone, of a glass; file, checksum, of: Projectile.plain()
     """
-    if of.files:
-        x, mass, title, planes = *from_file(of.files[0], spacing, shift, density), pathlib.Path(of.files[0]).name, ()
+    body = Projectile("", **of)
+    if file:
+        x, mass, title, planes = *from_file(str(pathlib.Path(path).with_name(file)), spacing, shift, density), file, ()
     else:
-        made = bodies.make(of.body(quarter), spacing, "glass", 1 + round(1e4 * shift))
-        c, s = math.cos(math.radians(of.pitch_deg)), math.sin(math.radians(of.pitch_deg))
+        made = bodies.make(body.body(quarter), spacing, "glass", 1 + round(1e4 * shift))
+        c, s = math.cos(math.radians(body.pitch_deg)), math.sin(math.radians(body.pitch_deg))
         x, mass = made.x @ np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]]), density * made.volume * len(made.x)
-        title, planes = f"{of}, glass", (0, 1) if quarter else ()
+        title, planes = f"{body}, glass", (0, 1) if quarter else ()
     low = x.min(axis=0) - spacing
     low[list(planes)] = 0.0
     bodies.write_data(path, x, 1, [mass / len(x)], density, low, x.max(axis=0) + spacing, planes, title)

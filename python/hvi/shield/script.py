@@ -4,7 +4,6 @@
 Both end a run by LAMMPS's fix halt: at the time `until`, or when the event is over, and write the restart file `to`.
 """
 
-import dataclasses
 import functools
 import itertools
 import math
@@ -148,9 +147,7 @@ class Shield:
         found = elements.of_case(self.case, self.which)
         body = self.case.projectile
         if body.in_data:
-            files = (self.case.file(self.which),) if body.files else ()
-            found[BALL] = {"of": dataclasses.replace(body, files=files), "spacing": self.geometry.a, "shift": self.shift, "density": self.rho[0],
-                           "quarter": self.geometry.quarter}
+            found[BALL] = {**body.plain(self.case.file(self.which) if body.files else None), "spacing": self.geometry.a, "shift": self.shift, "density": self.rho[0], "quarter": self.geometry.quarter}
         return found
 
     # ------------------------------------------------------------------ parts of the input
