@@ -523,6 +523,39 @@ int64_t ComputeHVIWall::piece_of(const std::vector<int64_t> &piece, int64_t tag)
   return found;
 }
 
+/* ----------------------------------------------------------------------
+   Of the body of a wall.  What lies in the crater of a wall that has bulged by more than its thickness is
+   beyond the plane where its rear was, but has not come through.
+------------------------------------------------------------------------- */
+
+void ComputeHVIWall::find_rear_face(const Wall &w, int64_t body)
+{
+  static constexpr double WIDE = 2.0;    // spacings: a layer that is stretched has no gaps
+  double box[5] = {BIG, BIG, BIG, BIG,
+                   0.0};    // least, and less the most, to both sides; volume of a particle
+  const auto is_body = [&](int i) {
+    return body && sound[i] == body && w.owns(atom->type[i]);
+  };
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_body(i)) continue;
+    for (int k = 0; k < 2; k++) {
+      box[k] = MIN(box[k], atom->x[i][across[k]]);
+      box[2 + k] = MIN(box[2 + k], -atom->x[i][across[k]]);
+    }
+    const HVI::Material *const material = store->materials.of(atom->type[i]);
+    const double rho0 = material ? material->eos->rho0() : 0.0;
+    const double rho = rho0 > 0.0 ? rho0 : atom->rho[i];
+    if (rho > 0.0) box[4] = MIN(box[4], -mass_of(i) / rho);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, box, 5, MPI_DOUBLE, MPI_MIN, world);
+  const double hi[2] = {-box[2], -box[3]};
+  rear_face.start(box, hi, WIDE * std::cbrt(-box[4]));
+  for (int i = 0; i < atom->nlocal; i++)
+    if (is_body(i)) rear_face.add(atom->x[i][across[0]], atom->x[i][across[1]], atom->x[i][axis]);
+  std::vector<double> &columns = rear_face.columns();
+  MPI_Allreduce(MPI_IN_PLACE, columns.data(), columns.size(), MPI_DOUBLE, MPI_MAX, world);
+}
+
 /* ---------------------------------------------------------------------- */
 
 void ComputeHVIWall::measure(Wall &w, double *row)
@@ -543,6 +576,8 @@ void ComputeHVIWall::measure(Wall &w, double *row)
   const int64_t body = piece_of(sound, kernel);
   const int64_t hull = piece_of(together, kernel);
 
+  find_rear_face(w, body);
+
   // what has passed it, and what of that is apart
 
   enum { APART, SPALL, NUMBER, BODY, NSUM };
@@ -551,13 +586,14 @@ void ComputeHVIWall::measure(Wall &w, double *row)
   chosen.assign(nlocal, 0);
   for (int i = 0; i < nlocal; i++) {
     if (!is_matter(i)) continue;
-    const double s = atom->x[i][axis];
+    const double *const x = atom->x[i], s = x[axis];
     const bool mine_here = w.owns(type[i]);
     if (sound[i] == body && body) {
       if (mine_here) height = MAX(height, s + layer - w.rear);
     }
     if (mine_here && together[i] == hull && hull) mine[BODY] += mass_of(i);
     if (!(s > w.rear) || !(atom->v[i][axis] > 0.0) || sound[i] == body) continue;
+    if (rear_face.hides(x[across[0]], x[across[1]], s)) continue;
     if (!mine_here && is_missed(w, i)) continue;
     chosen[i] = 1;
     if (together[i] == hull) continue;

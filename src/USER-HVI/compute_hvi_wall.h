@@ -19,6 +19,7 @@ ComputeStyle(hvi/wall,ComputeHVIWall);
 #include "compute_hvi_fragment.h"
 #include "compute_hvi_hole.h"
 #include "compute_hvi_matter.h"
+#include "hvi_rear_face.h"
 
 #include <cstdint>
 #include <memory>
@@ -90,6 +91,7 @@ class ComputeHVIWall : public ComputeHVIMatter {
   class FixHVIJohnsonCook *strength;
 
   std::vector<char> chosen;
+  HVI::RearFace rear_face;                      // of the wall that is measured
   std::vector<int> moved;                       // by wall: something of it moves, or has energy
   std::vector<int64_t> sound, together, own;    // lowest ID of the piece of a particle
 
@@ -102,6 +104,7 @@ class ComputeHVIWall : public ComputeHVIMatter {
   void find_first();
   void sum_up();
   void find_pieces();
+  void find_rear_face(const Wall &, int64_t body);
   void measure(Wall &, double *row);
   int64_t piece_of(const std::vector<int64_t> &, int64_t id) const;
   void find_hole(Wall &, double *row);
