@@ -807,6 +807,23 @@ void FixHVISPH::keep_places()
       for (int k = 0; k < 3; k++) extra[i].x_before[k] = atom->x[i][k];
 }
 
+void FixHVISPH::share(int i, int n, double lost)
+{
+  Extra &e = extra[i];
+  e.rates_esph = (e.rates_esph - lost) / n;
+  e.de /= n;
+  e.old_de /= n;
+}
+
+void FixHVISPH::hasten(int i, const double *v)
+{
+  for (int k = 0; k < 3; k++) {
+    atom->v[i][k] += v[k];
+    atom->vest[i][k] += v[k];
+    extra[i].v_work[k] += v[k];
+  }
+}
+
 /* ----------------------------------------------------------------------
    what has crossed a mirror plane is where its image was
 ------------------------------------------------------------------------- */

@@ -97,6 +97,13 @@ class FixHVISPH :
   void set_work_velocity(int i, const double *v);
   void let_go(int i, double de);
 
+  // for fix hvi/debris, in the middle of a step: one of n equal parts of a particle that has lost energy, all of it
+  // given; a part that moves away by v; what is beyond mirror planes goes where its image is
+
+  void share(int i, int n, double lost);
+  void hasten(int i, const double *v);
+  void reflect();
+
   // Keyword bad: a particle that no equation of state answers for takes no part from now on: its density is 0, its
   // momentum and energy stay.  False: that is an error.
 
@@ -164,7 +171,6 @@ class FixHVISPH :
   void check_restart() const;
   void check_left_out() const;
   void check_step() const;
-  void reflect();
   bool remembers(int) const;
   void give_density(int);
   void keep_places();

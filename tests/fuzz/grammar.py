@@ -60,6 +60,7 @@ RULES = {
     "fix_hvi_johnson_cook": {
         "strength": pick("johnson-cook", "steinberg-guinan", "cowper-symonds", "zerilli-armstrong", "perfect", "none"), "damage": pick("yes", "no", "johnson-cook"),
         "spall": SPALL, "temperature": pick("energy", "work"), "thermal": YES, "weibull": each(between(0.5, 20), pick("1", "4711")), "weibull_size": pick("0", "1")},
+    "fix_hvi_debris": {"every": pick("1", "5", "20"), "most": pick("2", "3", "8")},
     "fix_hvi_dt": {"min": pick("0", "1e-12"), "max": pick("0.1", "1e-6"), "floor": pick("0", "0.1"), "every": pick("1", "2", "7")},
     "fix_hvi_fem": {
         "probe": each(between(-2, 2), between(-2, 2), between(-1, 1)), "local": pick("1", "5"), "viscosity": each(between(0, 2), between(0, 1)),
@@ -147,6 +148,10 @@ class Writer:
         state += [f"velocity one set {v:g} 0 0 units box", self.maybe(f"velocity all create {1e-3 if not si else 300} 4711 loop geom", 0.2)]
         fixes = [f"fix move {rng.choice(['all', 'all', 'all', 'one'])} hvi/sph {self.some('fix_hvi_sph', 2)}",
                  solid and f"fix solid {GROUP(rng) if rng.random() < 0.3 and not self.sane else 'all'} {solid}"]
+        if rng.random() < (0.3 if solid and dim == 3 else 0.02):  # pieces have masses of their own
+            create.insert(create.index("create_box 2 box") + 1, "fix masses all property/atom rmass ghost yes")
+            state.append(f"set group all mass {m:g}")
+            fixes.append(f"fix debris {GROUP(rng)} hvi/debris {self.some('fix_hvi_debris', 2)}")
         return head, create, [pair, *coeff, *state, f"neighbor {rng.choice([0.1, 0.3, 1.0]) * a:g} {rng.choice(['bin', 'bin', 'nsq'])}",
                               f"neigh_modify every {rng.choice([1, 5])} delay 0 check yes"], fixes
 
