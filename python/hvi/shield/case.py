@@ -48,6 +48,7 @@ SETTINGS = {
     "eta": Key(number(above=0, sane=(0.1, 10)), 1.2, "smoothing length in spacings"),
     "pair": Key(lammps_words, "dissipation riemann", "further words of pair_style hvi/sph"),
     "solid": Key(lammps_words, laws.SOLID, "words of fix hvi/johnson-cook"),
+    "debris": Key(choice("no", "yes"), "no", "yes: particles that fail into smaller fragments fly on as these (fix hvi/debris), but for those of the last wall"),
     "fem": Key(lammps_words, "strain 0.3", "words of fix hvi/fem"),
     "C": Key(number(above=0, sane=(1e-3, 10)), 0.6, "of fix hvi/dt"),
     "skin": Key(number(above=0, sane=(1e-6, 100)), None, "of the neighbor lists, in spacings; default 0.7, of pair_coeff spacing"),

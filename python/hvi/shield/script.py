@@ -98,6 +98,7 @@ class Shield:
         self.n = len(self.walls)
         self.images = 4 if self.geometry.quarter else 1
         self.elements = [k for k, wall in enumerate(case.walls, 1) if wall.method != "sph"]
+        self.own_masses = bool(self.elements) or settings["debris"] == "yes"  # of each particle: nodes, and pieces of particles, have less
         self.outers = [k for k, wall in enumerate(self.walls, 1) if wall.core]  # walls with an outer part of coarser particles
         self.seldom = OFTEN * max(1, min(MOST // OFTEN, round(self.steps() / LOOKS / OFTEN)))
 
@@ -192,7 +193,8 @@ class Shield:
         text("group", "ball type 1")
         if self.elements:
             text("group", f"matter type {self.matter}", "without nodes")
-            text("fix", "masses all property/atom rmass ghost yes", "nodes have masses of their own")
+        if self.own_masses:
+            text("fix", "masses all property/atom rmass ghost yes", f"{'nodes' if self.elements else 'pieces of particles'} have masses of their own")
         mirrors = " mirror x 0 lo mirror y 0 lo" if g.quarter else ""
         text("pair_style", f"hvi/sph {s['kernel']} {s['pair']}{mirrors}")
         rows = [(1, f"{pathlib.Path(self.case.material).name} {self.lengths(g.a, g.a)}")]
@@ -253,7 +255,7 @@ class Shield:
     def masses(self, text):
         """the particles of the projectile share its mass; those of walls have that of their cells from pair_coeff, unless each has its own beside elements"""
         share = f"$({number(self.mass())}/{self.images}/count(ball))" if self.images > 1 else f"$({number(self.mass())}/count(ball))"
-        if not self.elements:
+        if not self.own_masses:
             text("mass", f"1 {share}", "the mass of the projectile over its particles")
             return
         text("set", f"type 1 mass {share}", "the mass of the projectile over its particles")
@@ -280,6 +282,10 @@ class Shield:
                 for kinds, rho in alike(rows):
                     text("set", f"type {types(kinds)} sph/rho {rho}")
                 text("group", f"matter type {self.matter}")
+        if s["debris"] == "yes":
+            flies = [1, *(1 + k for k in range(1, self.n)), *(self.outer_type(k) for k in self.outers if k < self.n)]
+            text("group", f"flies type {' '.join(map(str, flies))}")
+            text("fix", "debris flies hvi/debris", "what fails into fragments smaller than particles flies on as these")
         text("fix", f"step all hvi/dt {s['C']}", "time step; f_step[2] is the time")
         if s["skin"]:
             skin = float(s["skin"]) * g.widest
@@ -380,7 +386,7 @@ class Shield:
         else:
             text("processors", "* * 1")
             text("read_restart", "${from}")
-            if self.elements:
+            if self.own_masses:
                 text("fix", "masses all property/atom rmass ghost yes")
             text.lines.append("")
         self.model(text, new)
