@@ -10,6 +10,7 @@
 #   make mutate  mutants of the library against its unit tests, on from tests/unit/mutants.csv (MUTATE_ARGS)
 #   make check                     static checks: warnings of two compilers, clang-tidy, cppcheck, flake8, mypy, LAMMPS's coding standard
 #   make force-styles              LAMMPS's own testers of forces and fixes, with our styles: tests/force-styles
+#   make numbers                   tables of pages from doc/records, and which of these are old; RUN="NAME [ROW]" runs a record again: doc/numbers.py
 #   make doc | sanitize | clean
 #
 # LAMMPS_VERSION=20250204|20260704   which pinned LAMMPS          LAMMPS_SOURCE_DIR=DIR   your own LAMMPS source tree
@@ -36,7 +37,7 @@ TOP := $(CURDIR)
 OUT = $(abspath $(BUILD))
 export CMAKE_BUILD_PARALLEL_LEVEL = $(JOBS)
 
-.PHONY: all build demo demo-dem test verify doc bench bench-full mutate sanitize clean fuzz check force-styles
+.PHONY: all build demo demo-dem test verify doc numbers bench bench-full mutate sanitize clean fuzz check force-styles
 all: build
 
 # configures quietly; what went wrong is told in one line
@@ -122,6 +123,9 @@ doc:
 	@cmake/deps.sh doc
 	@python=$$(cmake/find-python.sh sphinx) && $$python -m sphinx -q -W --keep-going -b html -d $(OUT)/doc/doctrees doc/src $(OUT)/doc/html
 	@echo "documentation: $(OUT)/doc/html/index.html"
+
+numbers:
+	@python=$$(cmake/find-python.sh yaml) && $$python doc/numbers.py $(if $(RUN),--run $(RUN) --build $(OUT)) && $$python doc/numbers.py --stale
 
 # speed against error: a part of the runs, or hours of them; goes on where it stopped. Times count from idle cores only
 bench bench-full:

@@ -130,6 +130,11 @@ class Others:
         return (there[1] - self.began[1] - (self.ours() - self.own)) / max(there[0] - self.began[0], 1e-9)
 
 
+def is_idle(load, wall, starts=1):
+    """whether times count: a program of MPI that is started alone starts a daemon, which is no child of ours: 0.04 s; runs of several parts start several"""
+    return load is not None and load < BUSY + DAEMON * starts / max(wall, 0.01)
+
+
 class Memory(threading.Thread):
     """largest resident size of a process of LAMMPS below this one, in MB, looked at 25 times a second; 0 where /proc is not"""
 
@@ -174,10 +179,8 @@ def measured(pipe, case, settings, folder, lmp, ranks, timeout):
     memory.join()
     load = others.used()
     spent = resource.getrusage(resource.RUSAGE_CHILDREN)
-    # a program of MPI that is started alone starts a daemon, which is no child of ours: 0.04 s; runs of several parts start several
-    daemons = DAEMON * record.pop("starts", 1)
     record.update(core_s=round(spent.ru_utime + spent.ru_stime, 3), memory_MB=round(memory.most, 1), load=None if load is None else round(load, 3),
-                  idle=load is not None and load < BUSY + daemons / max(record["wall_s"], 0.01))
+                  idle=is_idle(load, record["wall_s"], record.pop("starts", 1)))
     pipe.send(record)
 
 
