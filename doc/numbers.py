@@ -89,17 +89,18 @@ class Record:
         self.path.write_text("".join(written(line) + "\n" for line in (self.head, *self.rows)))
 
     def several(self, key):
-        return len({row[key] for row in self.rows}) > 1
+        """whether rows that were run differ in it; a row without a command is what others have measured"""
+        return len({row[key] for row in self.rows if row["command"]}) > 1
 
     def table(self):
         """heads and cells; what differs between rows of commit, machine and load has a column"""
         more = [key for key in ("commit", "machine", "load") if self.several(key)]
-        cells = [[*(row["row"].get(name) for name in self.columns), *(row[key] for key in more)] for row in self.rows]
+        cells = [[*(row["row"].get(name) for name in self.columns), *(row[key] or None for key in more)] for row in self.rows]
         return [*self.columns, *more], cells
 
     def origin(self):
         """the line below the table"""
-        first = self.rows[0]
+        first = next((row for row in self.rows if row["command"]), self.rows[0])
         same = [f"commit {first['commit']}" if first["commit"] and not self.several("commit") else "",
                 *(first[key] for key in ("machine", "load") if not self.several(key))]
         text = ", ".join(filter(None, same))
