@@ -2,8 +2,7 @@
 """Records of plate impacts, and what the runs of run.sh gave.
 
     python3 plot.py FOLDER...   one or more runs after hvi measure (result.yaml, surface.dat, profile.dat): draws FOLDER/record.png
-    python3 plot.py             the runs of run.sh under runs/: the figures and tables of README.md
-    python3 plot.py --readme    the same, and puts the tables into README.md
+    python3 plot.py             the runs of run.sh under runs/: the figures of README.md, its tables on the screen, and found.csv, all columns of all shots
     python3 plot.py --raised    writes runs/raised/FILE.hvi: sigma so large that matter stretched at the file's rate bears the file's sigma, for run.sh
 
 The strength of matter that is stretched at a constant rate (tests/reference/voids.py) is drawn beside what records give.
@@ -45,17 +44,14 @@ def read(name):
         return yaml.safe_load(f), np.loadtxt(os.path.join(folder, "surface.dat")).T
 
 
-def table(rows):
-    """prints it; with --readme it takes the place of the table of README.md whose first line is the same"""
+def table(rows, file=None):
+    """prints it, and writes it as CSV"""
     lines = ["| " + " | ".join(row) + " |" for row in rows]
     lines.insert(1, "|" + "---|" * len(rows[0]))
     print("\n".join(lines) + "\n")
-    if "--readme" in sys.argv:
-        page = pathlib.Path(here, "README.md")
-        text = page.read_text().split("\n")
-        start = text.index(lines[0])
-        end = next(k for k in range(start, len(text)) if not text[k].startswith("|"))
-        page.write_text("\n".join(text[:start] + lines + text[end:]))
+    if file:
+        with open(os.path.join(here, file), "w", newline="") as f:
+            csv.writer(f, lineterminator="\n").writerows([cell.replace("\\*", "*") for cell in row] for row in rows)
 
 
 def rate_without_fracture(name, sigma):
@@ -230,7 +226,7 @@ def measured(shots):
         for axis in (a.xaxis, a.yaxis) if a is ax[0] else (a.yaxis,):
             plain(axis, (0.4, 0.6, 0.8, 1, 1.5, 2, 3, 4))
     fig.savefig("shots.png", dpi=110)
-    table(rows)
+    table(rows, "found.csv")
     summary = [["metal", "shots", "with a pull-back", "parted", "of the measured: mean", "least", "most", "scatter about the mean", "measured: most of the least", "phi_c", "sigma raised by", "parted then", "of the measured then"]]
     for name, values in found.items():
         sigma, got, parted, _, more = np.array(values).T
@@ -245,7 +241,7 @@ def measured(shots):
 if __name__ == "__main__":
     if sys.argv[1:] == ["--raised"]:
         write_raised()
-    elif sys.argv[1:] not in ([], ["--readme"]):
+    elif sys.argv[1:]:
         for folder in sys.argv[1:]:
             record(folder)
     else:
