@@ -232,7 +232,7 @@ def stale(root):
             sure = commit.removesuffix("-dirty")
             later = git(root, "rev-list", "--count", f"{sure}..HEAD", "--", *paths) if sure else None
             said[commit] = ("no commit is said" if not commit else f"commit {commit} is unknown here" if later is None else
-                            f"{later} commits of what it depends on since {commit}" if int(later) or sure != commit else "")
+                            f"{later} commit{'s' if later != '1' else ''} of what it depends on since {commit}" if int(later) or sure != commit else "")
         if text := "; ".join(filter(None, said.values())):
             lines.append(f"{name}: {text}")
     return lines
@@ -343,7 +343,7 @@ def run(root, name, number, build):
                     except (OSError, KeyError, IndexError, TypeError, ValueError) as problem:
                         raise Wrong(f"{name}: {column}: nothing at {where} ({type(problem).__name__}: {problem})") from None
                 row.update(commit=(git(root, "rev-parse", "--short=7", "HEAD") or "") + ("-dirty" if dirty else ""),
-                           machine=f"{box['cores']} cores of {box['cpu']}", load="idle" if bench.is_idle(load, wall) else "busy")
+                           machine=f"{box['cores']} cores of a{'n' if box['cpu'][0] in 'AEIOaeio' else ''} {box['cpu']}", load="idle" if bench.is_idle(load, wall) else "busy")
         record.save()
 
 
