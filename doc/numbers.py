@@ -306,6 +306,14 @@ def place_of(row):
     return folder, command
 
 
+def environment(root, folder, scratch):
+    """of a command; its python3 is one that has the modules of the examples"""
+    found = subprocess.run([str(ROOT / "cmake" / "find-python.sh"), "numpy", "scipy", "matplotlib", "yaml"], capture_output=True, text=True).stdout.strip()
+    (scratch / "bin").mkdir()
+    (scratch / "bin" / "python3").symlink_to(found or sys.executable)
+    return {**os.environ, "PATH": f"{scratch / 'bin'}:{os.environ['PATH']}", "PYTHONPATH": str(root / "python"), "LAMMPS_POTENTIALS": f"{root / 'potentials'}:{folder}"}
+
+
 def run(root, name, number, build):
     """runs commands of a record again, each once, and rewrites the rows"""
     sys.path.insert(0, str(ROOT / "bench"))
@@ -325,9 +333,9 @@ def run(root, name, number, build):
         tasks.setdefault(place_of(row), []).append(row)
     for (folder, command), rows in tasks.items():
         print(f"{folder}: {command}", flush=True)
-        with tempfile.TemporaryDirectory() as scratch:
+        with tempfile.TemporaryDirectory() as scratch, tempfile.TemporaryDirectory() as programs:
             there = shadow(root, folder, pathlib.Path(scratch), build)
-            env = {**os.environ, "PYTHONPATH": str(root / "python"), "LAMMPS_POTENTIALS": f"{root / 'potentials'}:{there}"}
+            env = environment(root, there, pathlib.Path(programs))
             others, start, spent = bench.Others(), time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
             done = subprocess.run([str(ROOT / "cmake" / "env.sh"), "bash", "-c", command], cwd=there, env=env, capture_output=True, text=True)
             wall, load, after = time.monotonic() - start, others.used(), resource.getrusage(resource.RUSAGE_CHILDREN)

@@ -21,7 +21,7 @@ PAGES = {"page.md": "# Title\n\n<!-- numbers holes -->\n<!-- /numbers -->\n\nend
 @pytest.fixture
 def tree(tmp_path):
     """a repository with two records, two pages and a run"""
-    for name, text in {**PAGES, "doc/records/holes.jsonl": HEAD + ROW % ("abc1234", "idle"), "case/run.sh": "echo 'holes: [1, 0.0192345]' > result.yaml; ls ../potentials ../build\n",
+    for name, text in {**PAGES, "doc/records/holes.jsonl": HEAD + ROW % ("abc1234", "idle"), "case/run.sh": "python3 -c 'import yaml; print(yaml.dump(dict(holes=[1, 0.0192345])))' > result.yaml; ls ../potentials ../build\n",
                        "doc/records/speeds.jsonl": HEAD + ROW % ("abc1234", "idle") + ROW.replace(', "hole mm": 18.90', "").replace(' "keys": {"hole mm"', ' "keys": {"dx mm"') % ("def5678", "busy"),
                        "potentials/x": "", "build/lmp": "", "src/a.cpp": "1\n", "in/b.txt": "1\n", "other": "1\n"}.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
