@@ -3,7 +3,7 @@
 #   make demo    dependencies, LAMMPS, the package; then the verdict on a shield with its report
 #   make demo-dem                  likewise, a debris cloud of discrete elements
 #   make test    the same; then all tests
-#   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so
+#   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so, build/hvi (the command line)
 #   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures), of solids and of hard cases; long tests
 #   make fuzz    fuzzers of all readers and of LAMMPS inputs, MINUTES=10 of each: see tests/fuzz/README.md
 #   make bench   speed against error, the short form (bench-full: all of it): build/bench/speed-error.html
@@ -58,10 +58,10 @@ DEMO = examples/whipple-shield
 demo:
 	@cmake/deps.sh build demo
 	@$(MAKE) build
-	@python=$$(cmake/find-python.sh numpy scipy matplotlib yaml tqdm) && export PYTHONPATH=$(TOP)/python && \
-	  { cmake/env.sh $$python -m hvi shield $(DEMO)/cases/quick.yaml --lmp $(OUT)/lmp --runs $(OUT)/demo --jobs $(RANKS) --ranks 1; code=$$?; \
+	@HVI_PYTHON=$$(cmake/find-python.sh numpy scipy matplotlib yaml tqdm) && export HVI_PYTHON && \
+	  { $(OUT)/hvi shield $(DEMO)/cases/quick.yaml --lmp $(OUT)/lmp --runs $(OUT)/demo --jobs $(RANKS) --ranks 1; code=$$?; \
 	    [ $$code = 0 ] || [ $$code = 3 ] || [ $$code = 4 ] || exit $$code; } && \
-	  $$python -m hvi report $(OUT)/demo/quick
+	  $(OUT)/hvi report $(OUT)/demo/quick
 
 # a debris cloud of discrete elements
 demo-dem:

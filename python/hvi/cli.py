@@ -8,13 +8,15 @@ import sys
 import unicodedata
 import warnings
 
-from .errors import HVIError, HVIWarning
+from .errors import HVIError, HVIWarning, missing
+from .places import program
 from .version import version
 
 DESCRIPTION = """Asks whether a shield holds, runs studies, and looks at what LAMMPS has written of an impact: debris clouds, fragments,
 velocity maps, side views."""
 
 MOST = 2000  # characters of a message
+OLDEST = (3, 9)  # Python, as pyproject.toml has it
 
 COMMANDS = {
     "shield": "does the wall hold? A case at several spacings and shifts of the lattice, one verdict; exit status 0 holds, 3 fails, 4 undecided",
@@ -43,19 +45,20 @@ COMMANDS = {
     "material": "checks material files, says what they have, lack and assume, and for which use; of one file the curves, too",
     "measure": "what a run of an example has recorded, such as the free surface of in.spall, is measured and put into its result.yaml",
     "compare": "two runs side by side: result.yaml (or its folder), or the same measures of two dumps",
+    "doctor": "is all there that hvi needs? LAMMPS with USER-HVI, MPI, Python's packages, materials, room; exit status 0 yes, 1 no",
 }
 
 
 def options(name=None):
     """The parser of the command line; of the commands it knows the options of this one, and no other is imported"""
-    parser = argparse.ArgumentParser(prog="python3 -m hvi", description=DESCRIPTION, epilog="python3 -m hvi COMMAND --help says more, with examples.")
+    parser = argparse.ArgumentParser(prog=program(), description=DESCRIPTION, epilog=f"{program()} COMMAND --help says more, with examples.")
     parser.add_argument("--version", action="version", version=f"lammps-hvi {version()}")
     several = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for command, text in COMMANDS.items():
         sub = several.add_parser(command, help=text)
         if command == name:
             module = importlib.import_module(f".commands.{name}", __package__)
-            sub.description, sub.epilog = text[0].upper() + text[1:] + ".", "examples:\n" + module.EXAMPLES
+            sub.description, sub.epilog = text[0].upper() + text[1:] + ".", "examples:\n" + module.EXAMPLES.replace("python3 -m hvi", program())
             sub.formatter_class = argparse.RawDescriptionHelpFormatter
             sub.set_defaults(run=module.main)
             module.add_arguments(sub)
@@ -90,6 +93,9 @@ def shown(text):
 
 def main(arguments=None):
     """Runs a command; returns the exit status: 0; 1 for wrong input, with one line on stderr; 130 when interrupted."""
+    if sys.version_info < OLDEST:
+        print(f"hvi: {sys.executable} is Python {sys.version.split()[0]}, {'.'.join(map(str, OLDEST))} or later is needed", file=sys.stderr)
+        return 1
     with warnings.catch_warnings():
         warnings.showwarning = lambda message, kind, *_: (
             print(f"hvi: warning: {message}", file=sys.stderr) if issubclass(kind, HVIWarning) else None)
@@ -101,7 +107,7 @@ def main(arguments=None):
         except HVIError as error:
             print(f"hvi: {shown(str(error))}", file=sys.stderr)
         except ImportError as error:
-            print(f"hvi: {error}: see Howto_python for what is needed", file=sys.stderr)
+            print(f"hvi: {missing(error)}", file=sys.stderr)
         except MemoryError:
             print("hvi: not enough memory: take fewer bins, particles or frames, or another machine", file=sys.stderr)
         except BrokenPipeError:  # as in  python3 -m hvi ... | head: nobody reads the rest

@@ -3,6 +3,7 @@
 
 import contextlib
 import importlib
+import sys
 
 
 class HVIError(Exception):
@@ -30,10 +31,27 @@ def writing(path):
     return _said(f"write {path}", OSError)
 
 
+NAMES = {"PIL": ("Pillow", "pil"), "yaml": ("PyYAML", "yaml"), "MDAnalysis": ("MDAnalysis", "mdanalysis")}  # of libraries whose module has another name: (library, Debian's)
+
+
+def remedy(module):
+    """how to get the library of a module"""
+    name, debian = NAMES.get(module, (module, module))
+    return f"Debian's python3-{debian}, or pip install {name}"
+
+
 def needed(module, what):
     """A module of a library that not everybody has; what needs it"""
     try:
         return importlib.import_module(module)
     except ImportError:
-        name, debian = {"PIL": ("Pillow", "pil")}.get(module.partition(".")[0], (module, module))
-        raise HVIError(f"{what} {name}: Debian's python3-{debian}, or pip install {name.lower()}") from None
+        top = module.partition(".")[0]
+        raise HVIError(f"{what} {NAMES.get(top, (top,))[0]}: {remedy(top)}") from None
+
+
+def missing(error):
+    """what an ImportError of the command line says: this Python, and how to get the library"""
+    module = (error.name or "").partition(".")[0]
+    if isinstance(error, ModuleNotFoundError) and module:
+        return f"{sys.executable} has no {NAMES.get(module, (module,))[0]}: {remedy(module)}; HVI_PYTHON names another Python for the launcher hvi; hvi doctor says what else is missing"
+    return f"{sys.executable} cannot import {module or 'a module'}: {' '.join(str(error).split())}; hvi doctor says more"

@@ -1,10 +1,10 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""Where the source tree is; the version of the package, which is written in src/USER-HVI/hvi_version.h and nowhere else."""
+"""The version of the package, which is written in src/USER-HVI/hvi_version.h and nowhere else."""
 
-import pathlib
 import re
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]  # of the source tree, if this file is in one
+from .places import ROOT
+
 HEADER = ROOT / "src" / "USER-HVI" / "hvi_version.h"
 
 

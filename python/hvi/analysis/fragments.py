@@ -5,7 +5,7 @@ import dataclasses
 
 import numpy as np
 
-from ..errors import HVIError
+from ..errors import HVIError, needed
 from ..io import bonds as bond_sources
 from ..io import mirror as mirrors
 from ..io.frame import as_frame
@@ -61,8 +61,7 @@ class Fragments:
 
     def dataframe(self):
         """The table as a pandas.DataFrame, indexed by fragment ID."""
-        import pandas
-
+        pandas = needed("pandas", "dataframe() needs")
         return pandas.DataFrame(self.table).set_index("id")
 
 

@@ -1,6 +1,7 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """python3 -m hvi export: dumps as VTU files for ParaView, a PVD file of all with their times; units are in the names."""
 
+import base64
 import pathlib
 from xml.sax.saxutils import quoteattr
 
@@ -8,7 +9,7 @@ import numpy as np
 
 from .. import progress
 from .. import units as unit_systems
-from ..errors import HVIError, needed
+from ..errors import HVIError
 from ..shield.run import runs_of
 from . import dumps
 
@@ -17,6 +18,7 @@ EXAMPLES = """  python3 -m hvi export runs/emi/dx-0.2_shift-0.0
 
 PRESSURES, SPECIFIC = {"p", "vm"}, {"e"}  # columns of compute hvi/atom in in.shield, as in SI
 LEFT_OUT = {"x", "y", "z", "xu", "yu", "zu", "xs", "ys", "zs", "xsu", "ysu", "zsu", "ix", "iy", "iz", "vx", "vy", "vz"}
+KINDS = {"f": ("Float64", "<f8"), "i": ("Int64", "<i8"), "u": ("UInt8", "u1"), "b": ("UInt8", "u1")}
 QUANTITY = {"mass": "mass", "fragsize": "distance", "h": "distance"}
 
 
@@ -49,12 +51,23 @@ def fields(frame):
     return found
 
 
+def array(values, name=""):
+    """a DataArray of VTK's XML: in binary, which is text in base 64, after its length in bytes"""
+    kind, form = KINDS[values.dtype.kind]
+    data = np.ascontiguousarray(values, dtype=form).tobytes()
+    several = f' NumberOfComponents="{values.shape[1]}"' if values.ndim > 1 else ""
+    title = f" Name={quoteattr(name)}" if name else ""
+    return f'<DataArray type="{kind}"{title}{several} format="binary">{base64.b64encode(len(data).to_bytes(8, "little") + data).decode()}</DataArray>'
+
+
 def write(path, frame):
-    """A frame as points of a VTU file"""
-    meshio = needed("meshio", "VTU files need")
-    data = {name: np.ascontiguousarray(values) for name, values in fields(frame).items()}
-    cells = [("vertex", np.arange(len(frame))[:, None])]
-    meshio.Mesh(np.ascontiguousarray(frame.x), cells, point_data=data).write(path, file_format="vtu")
+    """A frame as points of a VTU file, each a vertex"""
+    n = len(frame)
+    lines = ['<?xml version="1.0"?>', '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">', "<UnstructuredGrid>",
+             f'<Piece NumberOfPoints="{n}" NumberOfCells="{n}">', "<Points>", array(frame.x), "</Points>", "<Cells>", array(np.arange(n), "connectivity"),
+             array(np.arange(1, n + 1), "offsets"), array(np.ones(n, dtype=np.uint8), "types"), "</Cells>", "<PointData>",
+             *(array(values, name) for name, values in fields(frame).items()), "</PointData>", "</Piece>", "</UnstructuredGrid>", "</VTKFile>", ""]
+    pathlib.Path(path).write_text("\n".join(lines), encoding="utf-8")
 
 
 def sources(args):

@@ -1,14 +1,15 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """python3 -m hvi shield: does the wall hold?  One case at several spacings and shifts of the lattice, one verdict."""
 
+import contextlib
 import math
 import pathlib
 import shlex
-import shutil
 
 from .. import tables
 from ..errors import HVIError
-from ..jobs import engine
+from ..jobs import engine, lammps, machine
+from ..places import program, typed
 from ..shield import ble, calibration, chain, script
 from ..shield import case as cases
 from ..shield.decision import STATUS, decide, finer, job, lines, member_name, members, said_of_finer, shown, verdict
@@ -28,13 +29,13 @@ def add_arguments(parser):
 def command(args, ranks):
     """what was asked for, as it is typed"""
     given = (("--runs", args.runs), ("--jobs", args.jobs), ("--ranks", ranks), ("--lmp", args.lmp))
-    return shlex.join(["python3", "-m", "hvi", "shield", str(args.case), *(str(word) for option, value in given if value for word in (option, value))])
+    return shlex.join([*program().split(), "shield", str(args.case), *(str(word) for option, value in given if value for word in (option, value))])
 
 
 def main(args):
     case = cases.read(args.case)
     if args.write:
-        return write(case, args.write)
+        return write(case, args.write, args.lmp)
     folder = args.runs.resolve() / case.name
     if args.dry_run:
         return plan(case, folder, args.jobs, args.ranks or 2)
@@ -69,26 +70,16 @@ def main(args):
     return STATUS[said]
 
 
-def free_memory():
-    """MB that processes can still have, None where nothing says so"""
-    try:
-        lines = pathlib.Path("/proc/meminfo").read_text().splitlines()
-        return next(int(line.split()[1]) / 1e3 for line in lines if line.startswith("MemAvailable"))
-    except (OSError, StopIteration, ValueError):
-        return None
-
-
 def refuse_too_large(case, plans, folder, jobs):
     """before anything is made: runs that the machine has no room for; plans: [plan, ...] of the spacings, jobs: runs at a time"""
-    free, most = free_memory(), max(plans, key=lambda plan: plan["memory_MB"])
+    free, most = machine.free_memory(), max(plans, key=lambda plan: plan["memory_MB"])
     dx = most["dx_mm"]
     what = f"spacings_mm: {dx:g} mm makes some {most['particles']:.3g} particles"
     if free is not None and most["memory_MB"] * jobs > free:
         fit = math.ceil(100 * dx * (most["memory_MB"] * jobs / free) ** (1 / 3)) / 100
         raise HVIError(f"{case.name}: {what}, {most['memory_MB']:.3g} MB of memory{f' in each of {jobs} runs at a time' if jobs > 1 else ''}, and {free:.0f} are free: "
                        f"take {fit:g} mm or more{', or fewer jobs at a time' if jobs > 1 else ''}; --write makes the input for another machine")
-    existing = next(path for path in (folder, *folder.parents) if path.exists())
-    disk = shutil.disk_usage(existing).free / 1e6
+    disk, existing = machine.free_disk(folder)
     if (needed := sum(plan["disk_MB"] for plan in plans) * len(case.shifts)) > disk:
         raise HVIError(f"{case.name}: some {needed:.3g} MB would be written, and {disk:.0f} are free in {existing}: take a larger settings: film, or another --runs DIR")
 
@@ -118,10 +109,14 @@ def plan(case, folder, jobs, ranks):
     return 0
 
 
-def write(case, folder):
+def write(case, folder, given=None):
     """inputs of all runs, and how to run them"""
+    run = ["mpirun", "-np", "2", "lmp", "-in", script.BEGIN]
+    if program() == "hvi":  # whose user has set no paths
+        with contextlib.suppress(HVIError):  # runs may be for another machine
+            run = [*lammps.environment(), *run[:3], str(lammps.find(given)), *run[4:]]
     for member in members(case):
         where = folder / member_name(case, member)
         chain.write_run(case, *member, where)
-        print(f"cd {shlex.quote(str(where))} && mpirun -np 2 lmp -in {script.BEGIN} && python3 -m hvi judge .")
+        print(f"cd {shlex.quote(str(where))} && {shlex.join(run)} && {shlex.join([*typed(), 'judge', '.'])}")
     return 0

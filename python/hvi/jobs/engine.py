@@ -24,10 +24,11 @@ import yaml
 from .. import progress, tables, texts
 from ..errors import HVIError, writing
 from ..material.library import potentials
-from ..version import ROOT
+from . import lammps
 
 RESULT, LAST = "result.yaml", "package_version"  # what a run is for, and the last key in it: it is there if the file is complete
 PATIENCE = 10  # seconds that mpirun has to end its ranks
+DAY = 86400  # seconds
 FULL = 100_000  # bytes: less is a full disk
 END = b"LammpS RestartT\0"  # of a restart file
 
@@ -240,7 +241,7 @@ class Job:
 
     def launch(self, command, more=False):
         """more: what it prints is added to what there is"""
-        environment = {"LAMMPS_POTENTIALS": os.pathsep.join(map(str, potentials())), **os.environ}
+        environment = {**os.environ, "LAMMPS_POTENTIALS": os.pathsep.join(map(str, potentials()))}
         with open(self.folder / "output.txt", "a" if more else "w") as out:
             self.process = subprocess.Popen(command(self), cwd=self.folder, stdin=subprocess.DEVNULL, stdout=out, env=environment,
                                             stderr=subprocess.STDOUT, start_new_session=True, pass_fds=[self.lock])
@@ -271,6 +272,8 @@ class Job:
                            "it has saved nothing new, another call would come no farther: take a longer --timeout")
         elif status != 0:
             self.problem = said_of(status)
+            if any(re.search(r"ERROR: (Unrecognized|Unknown) \w+ style 'hvi/", line) for line in self.last_lines()):
+                self.advice = "this LAMMPS has no USER-HVI, or an older one: hvi doctor says more"
         elif self.result() is None:
             self.problem = f"no complete {RESULT}"
         if not self.problem:
@@ -352,14 +355,8 @@ class Runner:
     def __init__(self, args, ranks=None, timeout=None):
         self.jobs, self.ranks = args.jobs, args.ranks or ranks or 2
         self.timeout, self.mpirun = args.timeout or timeout, args.mpirun
-        self.lmp = pathlib.Path(args.lmp or os.environ.get("HVI_LMP") or ROOT / "build" / "lmp")
-        if not self.lmp.is_file():
-            raise HVIError(f"{self.lmp} does not exist: run make first, or give --lmp FILE")
-        if not os.access(self.lmp, os.X_OK):
-            raise HVIError(f"{self.lmp} cannot be executed: run make first, or give --lmp FILE")
-        self.lmp = self.lmp.resolve()
-        if not shutil.which(self.mpirun):
-            raise HVIError(f"{self.mpirun} is not there: install MPI, or give --mpirun FILE")
+        self.lmp = lammps.find(args.lmp)
+        lammps.check_mpirun(self.mpirun)
         if os.sep in self.mpirun:
             self.mpirun = os.path.abspath(self.mpirun)  # runs have folders of their own
         for ends in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C; nohup still works
@@ -367,9 +364,7 @@ class Runner:
                 signal.signal(ends, signal.default_int_handler)
 
     def command(self, job):
-        command = [self.mpirun, "-np", str(self.ranks), str(self.lmp), *job.words()]
-        env = ROOT / "cmake" / "env.sh"  # lets mpirun run as root, in containers, with more ranks than cores
-        return [str(env), *command] if env.is_file() else command
+        return [*lammps.environment(), self.mpirun, "-np", str(self.ranks), str(self.lmp), *job.words()]
 
     def show(self, jobs):
         """what would be run"""
@@ -440,7 +435,11 @@ def said_of(status):
 
 
 def duration(seconds):
-    return f"{seconds:.0f} s" if seconds < 90 else f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+    """in the unit of which there are some"""
+    for unit, size, most in (("s", 1, 90), ("min", 60, 5400), ("h", 3600, 48 * 3600), ("days", DAY, 730 * DAY)):
+        if seconds < most:
+            return f"{seconds / size:.{int(unit == 'h')}f} {unit}"
+    return f"{seconds / (365.25 * DAY):,.0f} years"
 
 
 def cell(value):

@@ -13,7 +13,7 @@ from typing import Optional
 
 from .. import texts
 from ..errors import HVIError
-from ..version import ROOT
+from ..places import POTENTIALS
 
 # keys of each law as its table in src/USER-HVI has them: (key, quantity, range, value if it is not given, None: it must be);
 # tests/python/test_material.py holds them to the headers
@@ -120,8 +120,9 @@ class Material:
 
 
 def potentials():
-    """folders in which LAMMPS finds material files; those of the source tree if the environment names none"""
-    return [pathlib.Path(p) for p in os.environ.get("LAMMPS_POTENTIALS", str(ROOT / "potentials")).split(os.pathsep)]
+    """folders in which material files are looked for: those that the environment names, and that of this package"""
+    given = [pathlib.Path(p) for p in os.environ.get("LAMMPS_POTENTIALS", "").split(os.pathsep) if p]
+    return given if POTENTIALS in given else [*given, POTENTIALS]
 
 
 def path_of(name):
@@ -129,11 +130,17 @@ def path_of(name):
     return next((path for path in (pathlib.Path(name), *(folder / name for folder in potentials())) if os.path.isfile(path)), None)  # is_file() raises for a long name
 
 
-def find(name):
+def nowhere():
+    """the folders that were looked in, for messages"""
+    given = os.environ.get("LAMMPS_POTENTIALS")
+    return f"LAMMPS_POTENTIALS ({given or 'not set'}) or {POTENTIALS}"
+
+
+def find(name, what="material"):
     """the same, which must be there"""
     path = path_of(name)
     if path is None:
-        raise HVIError(f"cannot find material file {name}, neither here nor in LAMMPS_POTENTIALS")
+        raise HVIError(f"cannot find {what} file {name}, neither here nor in {nowhere()}")
     return path
 
 
@@ -249,9 +256,9 @@ class _Reader:
                 self.wrong("missing key file")
             if material.table:
                 try:
-                    find(material.table)
-                except HVIError:
-                    self.wrong(f"cannot find table file {material.table}, neither here nor in LAMMPS_POTENTIALS", self.given[self.now]["file"])
+                    find(material.table, "table")
+                except HVIError as problem:
+                    self.wrong(str(problem), self.given[self.now]["file"])
             law = self.now[1]
             if law == "tillotson" and not values["Ecv"] > values["Eiv"]:
                 self.wrong(f"Ecv = {values['Ecv']:g} must be > Eiv = {values['Eiv']:g}")

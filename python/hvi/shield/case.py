@@ -167,8 +167,8 @@ class Case:
     def check_shot(self, wrong):
         """What a shot needs, whatever it is asked for; wrong(key, text) raises the error."""
         if not SLOWEST <= self.speed_km_s < FASTEST:
-            wrong("speed_km_s", f"must be at least {SLOWEST:g} and below {FASTEST:g} km/s, not {self.speed_km_s:g}; "
-                  f"is it in {'k' if self.speed_km_s < SLOWEST else ''}m/s?")
+            wrong("speed_km_s", f"must be at least {SLOWEST:g} and below {FASTEST:g} km/s, not {self.speed_km_s:g}"
+                  + (f"; is it in {'k' if self.speed_km_s < SLOWEST else ''}m/s?" if self.speed_km_s > 0 else ""))
         if len(self.walls) > MOST:
             wrong("walls", f"{len(self.walls)} walls, {MOST} at most are modelled")
 

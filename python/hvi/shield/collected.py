@@ -9,7 +9,7 @@ import pathlib
 from .. import tables
 from ..errors import HVIError, writing
 from ..jobs import engine
-from ..version import ROOT
+from ..places import ROOT
 from . import brackets, calibration, shots
 
 

@@ -64,7 +64,7 @@ def decide(case, said):
         return "undecided", reasons + told, []
     (verdict,) = per[0]
     notes = [f"{text} ({member_name(case, finest)})" for text in said[finest][2]]
-    return verdict, [f"all {len(said)} runs say so: spacings of {', '.join(f'{dx:g}' for dx in case.spacings_mm)} mm, "
+    return verdict, [f"{'both' if len(said) == 2 else f'all {len(said)}'} runs say so: spacings of {', '.join(f'{dx:g}' for dx in case.spacings_mm)} mm, "
                      f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told], notes
 
 

@@ -13,13 +13,13 @@ import re
 from .. import texts
 from ..errors import HVIError
 from ..material import laws
-from ..version import ROOT
+from ..places import DATA
 from . import ble, decision
 from . import case as cases
 from .projectile import FILLS, Projectile
 from .reader import REQUIRED, Reader
 
-SETTINGS = ROOT / "examples" / "whipple-shield" / "shots" / "all.yaml"  # of a list that comes without a study
+SETTINGS = DATA / "examples" / "whipple-shield" / "shots" / "all.yaml"  # of a list that comes without a study
 CM = 10.0  # mm
 SMALLEST, LARGEST = 1e-6, 1e5  # of the numbers of a list
 FINEST = 1e-4  # mm, to which spacings are rounded
