@@ -3,7 +3,6 @@
 are no Python.  They are copied into its folder data (hvi/places.py) when a wheel or a source distribution is made; git has them once."""
 
 import atexit
-import os
 import pathlib
 import re
 import shutil
@@ -56,7 +55,5 @@ options = {}
 if "sdist" not in sys.argv:
     scratch = tempfile.mkdtemp(prefix="lammps-hvi-")  # a folder build in the tree would bring modules of before into the wheel
     atexit.register(shutil.rmtree, scratch, ignore_errors=True)
-    options["build"] = {"build_base": scratch}
-    if not os.access(HERE, os.W_OK):
-        options["egg_info"] = {"egg_base": scratch}
+    options.update(build={"build_base": scratch}, egg_info={"egg_base": scratch})  # and not everybody may write there
 setup(version=version(), cmdclass={"build_py": BuildPy, "sdist": SDist}, options=options)

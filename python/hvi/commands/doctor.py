@@ -6,6 +6,7 @@ import importlib.metadata
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import sys
 import tempfile
@@ -13,7 +14,7 @@ import tempfile
 from ..errors import HVIError, remedy
 from ..jobs import lammps, machine
 from ..material import library
-from ..places import DATA, EXAMPLE, IN_TREE, ROOT, program
+from ..places import DATA, EXAMPLE, IN_TREE, ROOT, typed
 from ..version import version
 
 EXAMPLES = """  python3 -m hvi doctor
@@ -182,5 +183,5 @@ def main(args):
     show(of_machine(args.runs))
     if wrong:
         raise HVIError(f"WRONG: {', '.join(wrong)}")
-    print(f"all is there; to begin with: {program()} shield {EXAMPLE} --jobs {min(2, machine.cores())} --ranks 1")
+    print(f"all is there; to begin with: {shlex.join([*typed(), 'shield', str(EXAMPLE)])} --jobs {min(2, machine.cores())} --ranks 1")
     return 0
