@@ -22,7 +22,7 @@ for s in voids principal; do
 0.063 0.126
 THICK
 done
-python3=${HVI_PYTHON:-python3}
+python3=${HVI_PYTHON:-$("$here"/../../cmake/find-python.sh numpy scipy matplotlib)} || exit 1
 $python3 "$here"/plot.py --raised || exit 1
 sed '/^#/d; /^name,/d' "$here"/shots.csv | while IFS=, read -r shot metal paper flyer target hf ht v0 rest; do
   todo="voids-64 voids-128 none-128"

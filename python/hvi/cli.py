@@ -105,7 +105,7 @@ def main(arguments=None):
             sys.stdout.flush()
             return status
         except HVIError as error:
-            print(f"hvi: {shown(str(error))}", file=sys.stderr)
+            print(f"hvi: {shown(str(error)).replace('python3 -m hvi', program())}", file=sys.stderr)
         except ImportError as error:
             print(f"hvi: {missing(error)}", file=sys.stderr)
         except MemoryError:

@@ -11,10 +11,12 @@
 #include "comm.h"
 #include "error.h"
 #include "lammps.h"
+#include "platform.h"
 #include "update.h"
 #include "utils.h"
 
 #include <cstdio>
+#include <cstdlib>
 
 using namespace LAMMPS_NS;
 
@@ -22,14 +24,37 @@ namespace {
 
 constexpr size_t LARGEST = 100000000;    // bytes: more is no file of ours, or has no end
 
-// The text of a file, found as LAMMPS finds potentials, on all ranks; returns what is wrong.
+#ifdef HVI_POTENTIALS
+constexpr char PACKAGE[] = HVI_POTENTIALS;    // folder of the source tree, as cmake has it
+#else
+constexpr char PACKAGE[] = "";
+#endif
+
+// as LAMMPS finds potentials, and then the files of the package; "" if there is none
+
+std::string path_of(const std::string &filename)
+{
+  const std::string path = utils::get_potential_file_path(filename);
+  if (!path.empty() || !*PACKAGE) return path;
+  const std::string own = platform::path_join(PACKAGE, platform::path_basename(filename));
+  return platform::file_is_readable(own) ? own : "";
+}
+
+std::string places()
+{
+  const char *const given = std::getenv("LAMMPS_POTENTIALS");
+  return std::string("LAMMPS_POTENTIALS (") + (given && *given ? given : "not set") + ")" +
+      (*PACKAGE ? std::string(" or ") + PACKAGE : "");
+}
+
+// The text of a file on all ranks; returns what is wrong.
 
 std::string read_text(LAMMPS *lmp, const std::string &what, const std::string &filename,
                       std::string &text)
 {
   int length = -1;    // not found, -2: not readable
   if (lmp->comm->me == 0) {
-    const std::string path = utils::get_potential_file_path(filename);
+    const std::string path = path_of(filename);
     FILE *fp = path.empty() ? nullptr : fopen(path.c_str(), "rb");
     if (fp) {
       char buffer[4096];
@@ -45,7 +70,7 @@ std::string read_text(LAMMPS *lmp, const std::string &what, const std::string &f
   }
   MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
   if (length == -1)
-    return "Cannot find " + what + " file " + filename + ", neither here nor in LAMMPS_POTENTIALS";
+    return "Cannot find " + what + " file " + filename + ", neither here nor in " + places();
   if (length == -2) return "Cannot read " + what + " file " + filename + ": is it a folder?";
   if (length == -3)
     return "The " + what + " file " + filename + " is larger than " + std::to_string(LARGEST) +

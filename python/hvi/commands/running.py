@@ -20,7 +20,7 @@ def add_runs(parser):
     group.add_argument("--jobs", type=count, default=1, metavar="N", help="runs at a time (default: 1)")
     group.add_argument("--ranks", type=count, metavar="R", help="MPI ranks of a run (default: the study's, or 2)")
     group.add_argument("--timeout", type=positive, metavar="S", help="end a run after this many seconds (default: the study's, or never)")
-    group.add_argument("--lmp", metavar="FILE", help="LAMMPS with USER-HVI (default: $HVI_LMP, or build/lmp of the source tree)")
+    group.add_argument("--lmp", metavar="FILE", help="LAMMPS with USER-HVI (default: $HVI_LMP, build/lmp of the source tree, or lmp on PATH)")
     group.add_argument("--mpirun", default="mpirun", metavar="FILE", help="how ranks are started (default: mpirun)")
     group.add_argument("--dry-run", action="store_true", help="show what would be run")
 

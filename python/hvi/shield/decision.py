@@ -52,7 +52,7 @@ def decide(case, said):
     if len({frozenset(found) for found in per.values()}) > 1:
         reasons.append("the verdict differs over the spacing: " + ", ".join(f"{' or '.join(sorted(found))} at {where(which)}" for which, found in per.items()))
     if {"holds", "fails"} <= set.union(*per.values()):
-        reasons.append("so near the limit finer spacings_mm may decide; python3 -m hvi limit says how near it is")
+        reasons.append("so near the limit finer spacings_mm may decide; hvi limit says how near it is")
     finest = len(case.spacings_mm) - 1, case.shifts[-1]
     texts = {}  # why runs are undecided; if all agree on another verdict, what the finest says of it
     for member, (verdict, why, _) in said.items():
