@@ -7,7 +7,7 @@ command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || exit 0 # no
 
 build="g++ make cmake openmpi-bin libopenmpi-dev libeigen3-dev libpng-dev libjpeg-dev zlib1g-dev xz-utils ca-certificates"
 python="python3 python3-numpy python3-scipy python3-matplotlib python3-mdanalysis python3-yaml python3-tqdm python3-meshio"
-test="libgtest-dev python3-pytest python3-pandas python3-setuptools python3-wheel python3-hypothesis $python"
+test="libgtest-dev python3-pytest python3-pandas python3-setuptools python3-wheel python3-venv python3-hypothesis $python"
 demo="$python"
 browser="chromium" # of make verify; large
 fuzz="clang libclang-rt-14-dev" # libFuzzer; in Debian 12 clang is 14

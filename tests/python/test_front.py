@@ -229,6 +229,11 @@ def test_undecided_runs_and_what_is_not_modelled(folder, capsys, monkeypatch):
     assert engine.read_yaml(folder / "runs/emi/dx-0.2_shift-0.0/job.yaml")["variables"]["outside"] == "MLI, honeycomb"
 
 
+def test_both_runs(folder, capsys):
+    (folder / "emi.yaml").write_text(change("shifts: [0, 0.5]", "shifts: [0]"))
+    assert front("shield") == 3 and "  - both runs say so: spacings of 0.4, 0.2 mm, 1 shift of the lattice\n" in capsys.readouterr().out
+
+
 def test_notes_are_not_causes(folder, capsys, monkeypatch):
     """what would make a run undecided if it did not fail comes after the causes, by itself, with keys of the case"""
     monkeypatch.setenv("FAKE_NOTE", "yes")

@@ -127,6 +127,24 @@ def test_last_lines(folder, lines, seen, unseen):
     assert seen in said and unseen not in said
 
 
+@pytest.mark.parametrize("seconds, words", [(0, "0 s"), (89, "89 s"), (600, "10 min"), (5400, "1.5 h"), (170000, "47.2 h"), (172800, "2 days"), (3e7, "347 days"), (63115200, "2 years"),
+                                            (3600 * 82576814.6, "9,420 years")])
+def test_durations(seconds, words):
+    assert engine.duration(seconds) == words
+
+
+@pytest.mark.parametrize("speed, asks", [("-6", ""), ("0", ""), ("0.006", "; is it in km/s?"), ("6000", "; is it in m/s?")])
+def test_units_are_asked_for_where_they_may_be_why(folder, capsys, speed, asks):
+    (folder / "emi.yaml").write_text(change("speed_km_s: 7.1", f"speed_km_s: {speed}"))
+    assert front("shield", "--dry-run") == 1 and capsys.readouterr().err.endswith(f"must be at least 0.1 and below 100 km/s, not {speed}{asks}\n")
+
+
+def test_lammps_without_the_package(folder, capsys):
+    """a run stops at the first style of ours"""
+    (folder / "mpirun").write_text("#!/bin/sh\necho \"ERROR: Unrecognized pair style 'hvi/sph' (src/force.cpp:275)\"\nexit 1\n")
+    assert front("shield") == 1 and "FAILED: exit status 1; this LAMMPS has no USER-HVI, or an older one: hvi doctor says more" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("status, words", [(1, "exit status 1"), (139, "exit status 139 (SIGSEGV)"), (-9, "exit status -9 (SIGKILL: out of memory?)"),
                                            (137, "exit status 137 (SIGKILL: out of memory?)"), (255, "exit status 255")])
 def test_status_in_words(status, words):

@@ -1,6 +1,7 @@
 """python/hvi and LAMMPS's computes give the same numbers on the same frames: fragments, cloud, per-atom IDs."""
 
 import re
+import sys
 
 import hvi
 import numpy as np
@@ -315,6 +316,14 @@ def test_table_in_pandas(run):
     assert table.index.name == "id" and list(table.columns) == list(ROW.names[1:])
     assert table.loc[found.table["id"][3], "mass"] == found.table["mass"][3]
     assert table["count"].sum() == len(frame)
+
+
+def test_table_without_pandas(run, monkeypatch):
+    for _, frame in frames(run):
+        found = hvi.find(frame, column="c_bonds")
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(hvi.HVIError, match=r"^dataframe\(\) needs pandas: Debian's python3-pandas, or pip install pandas$"):
+        found.dataframe()
 
 
 def test_column_of_a_group(run):

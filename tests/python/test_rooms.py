@@ -11,7 +11,7 @@ import pytest
 from graphs import circles
 from hvi import cli
 
-GROUND = "errors progress tables texts units version"  # modules beside the rooms that all of them may import
+GROUND = "errors places progress tables texts units version"  # modules beside the rooms that all of them may import
 BELOW = {"io": "", "material": "", "analysis": "io", "model": "io", "jobs": "material", "shield": "io material model jobs", "figures": "io material analysis shield",
          "report": "material analysis jobs shield figures", "commands": "io material analysis model jobs shield figures report"}
 HEAVY = "MDAnalysis PIL matplotlib meshio numpy pandas scipy tqdm yaml".split()
@@ -75,6 +75,7 @@ def test_what_hvi_gives_out():
     given = {name: getattr(hvi, name) for name in hvi.__all__}
     assert {"Dump", "Frame", "HVIError", "HVIWarning", "open", "find", "fit", "measure", "cumulative", "figures", "hole", "maps", "debris", "cloud", "fragments", "universe"} <= set(given)
     assert given["open"] is given["universe"].open_universe and given["measure"] is given["cloud"].measure and set(given) <= set(dir(hvi))
+    assert "open" in dir(hvi) and all(name in hvi.__all__ or name.startswith("__") for name in dir(hvi))
     with pytest.raises(AttributeError, match="no attribute nothing"):
         hvi.nothing
 

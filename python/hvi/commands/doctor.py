@@ -14,11 +14,11 @@ import tempfile
 from ..errors import HVIError, remedy
 from ..jobs import lammps, machine
 from ..material import library
-from ..places import DATA, EXAMPLE, IN_TREE, ROOT, typed
+from ..places import DATA, EXAMPLE, IN_TREE, POTENTIALS, ROOT, typed
 from ..version import version
 
-EXAMPLES = """  python3 -m hvi doctor
-  python3 -m hvi doctor --lmp build/lmp --runs /scratch/runs"""
+EXAMPLES = """  python3 -m hvi doctor --lmp build/lmp --runs /scratch/runs
+  python3 -m hvi doctor"""
 
 NEEDED = {"numpy": ("numpy", (1, 23)), "scipy": ("scipy", (1, 8)), "matplotlib": ("matplotlib", (3, 5)), "yaml": ("PyYAML", (5, 1))}  # {module: (distribution, oldest version)}
 BESIDE = {"tqdm": ("tqdm", "progress bars"), "PIL": ("Pillow", "hvi movie"), "MDAnalysis": ("MDAnalysis", "hvi.open()"), "pandas": ("pandas", "dataframe()"),
@@ -137,7 +137,7 @@ def state_of(module, name):
 
 def of_materials():
     for folder in library.potentials():
-        own = folder == DATA / "potentials"
+        own = folder == POTENTIALS
         if not folder.is_dir():
             yield False, "materials", f"{folder} is no folder: " + ("install the package again" if own else "it is in LAMMPS_POTENTIALS; correct or unset that")
             continue
@@ -155,7 +155,11 @@ def of_materials():
 
 def of_machine(runs):
     disk, there = machine.free_disk(runs)
-    writable = os.access(there, os.W_OK | os.X_OK)
+    try:
+        with tempfile.TemporaryFile(dir=there):
+            writable = True
+    except OSError:
+        writable = False
     yield writable and disk >= DISK, "disk", (f"{there} cannot be written: give another --runs DIR" if not writable else
                                               f"{disk:,.0f} MB free in {there}" + ("" if disk >= DISK else f", less than {DISK}: make room, or give another --runs DIR"))
     free, cores = machine.free_memory(), machine.cores()

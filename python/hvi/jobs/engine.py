@@ -272,7 +272,7 @@ class Job:
                            "it has saved nothing new, another call would come no farther: take a longer --timeout")
         elif status != 0:
             self.problem = said_of(status)
-            if any(re.search(r"ERROR: (Unrecognized|Unknown) \w+ style 'hvi/", line) for line in self.last_lines()):
+            if any(re.search(r"ERROR: Unrecognized \w+ style '(hvi/|sph')", line) for line in self.last_lines()):
                 self.advice = "this LAMMPS has no USER-HVI, or an older one: hvi doctor says more"
         elif self.result() is None:
             self.problem = f"no complete {RESULT}"
