@@ -30,13 +30,14 @@ constexpr char PACKAGE[] = HVI_POTENTIALS;    // folder of the source tree, as c
 constexpr char PACKAGE[] = "";
 #endif
 
-// as LAMMPS finds potentials, and then the files of the package; "" if there is none
+// as LAMMPS finds potentials, and then, by a name without folders, the files of the package;
+// "" if there is none
 
 std::string path_of(const std::string &filename)
 {
   const std::string path = utils::get_potential_file_path(filename);
-  if (!path.empty() || !*PACKAGE) return path;
-  const std::string own = platform::path_join(PACKAGE, platform::path_basename(filename));
+  if (!path.empty() || !*PACKAGE || platform::path_basename(filename) != filename) return path;
+  const std::string own = platform::path_join(PACKAGE, filename);
   return platform::file_is_readable(own) ? own : "";
 }
 

@@ -126,6 +126,18 @@ def test_missing_file(lmp, tmp_path, nranks):
     assert says in refused(lmp, "unobtainium.hvi", nranks=nranks, env={"LAMMPS_POTENTIALS": str(tmp_path)})
 
 
+def test_without_potentials(lmp, root, tmp_path):
+    """the files of the tree that LAMMPS was built in, by their names; what is in LAMMPS_POTENTIALS goes before"""
+    for given in ("", str(tmp_path / "none")):
+        env = {"LAMMPS_POTENTIALS": given}
+        assert "Reading material file Pb.hvi" in lmp(text("Pb.hvi", "si"), env=env).log
+        places = f"neither here nor in LAMMPS_POTENTIALS ({given or 'not set'}) or {root / 'potentials'}"
+        for name in ("unobtainium.hvi", "folder/Pb.hvi"):
+            assert f"Cannot find material file {name}, {places}" in refused(lmp, name, env=env)
+    (tmp_path / "Pb.hvi").write_text("# UNITS: si\neos linear\n  rho0 fast\n")
+    assert "Pb.hvi:3: eos linear: rho0: fast is not a number" in refused(lmp, "Pb.hvi", env={"LAMMPS_POTENTIALS": str(tmp_path)})
+
+
 @pytest.mark.parametrize("file_units, units", [("si", "lj"), ("lj", "si")])
 def test_units_that_do_not_convert(lmp, tmp_path, file_units, units):
     (tmp_path / "x.hvi").write_text(GOOD.replace("UNITS: si", f"UNITS: {file_units}"))
