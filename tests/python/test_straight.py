@@ -59,6 +59,8 @@ def test_write_run_and_judge(lmp, tmp_path, capsys, monkeypatch, change):
     said = []
     for folder, ends in (("one", [2, 5, 8]), ("three", [2, 5, 8])):
         where = tmp_path / folder / "dx-0.75_shift-0.0"
+        wanted = set(re.findall(r"[\w.-]+\.hvi\b", (where / script.BEGIN).read_text()))  # LAMMPS would take those of its tree
+        assert wanted and wanted <= {path.name for path in where.iterdir()}
         for leg, until in enumerate(ends):
             command = where / (script.CONTINUE if leg else script.BEGIN)
             if folder == "three" and leg == 1:  # one that is stopped in the middle leaves rows, which do not count
