@@ -16,6 +16,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_hvi_debris.h"
 #include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_store.h"
 #include "fix_store_atom.h"
@@ -42,7 +43,7 @@ static constexpr double WHOLE =
 
 ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
     ComputeHVIMatter(lmp, narg, arg), axis(-1), reach(0.0), id_fix(nullptr), owns_fix(true),
-    first(nullptr), store(nullptr), strength(nullptr)
+    first(nullptr), store(nullptr), strength(nullptr), debris(nullptr)
 {
   if (domain->dimension != 3)
     error->all(FLERR, "Compute hvi/wall needs a three-dimensional simulation");
@@ -365,6 +366,7 @@ void ComputeHVIWall::compute_array()
   if (!store) error->all(FLERR, "Compute hvi/wall needs pair style hvi/sph");
   find_first();
   strength = FixHVIJohnsonCook::find(lmp);
+  debris = FixHVIDebris::find(lmp);
 
   for (size_t k = 0; k < walls.size(); k++) std::fill(array[k], array[k] + NCOLUMNS, 0.0);
   sum_up();
@@ -524,36 +526,43 @@ int64_t ComputeHVIWall::piece_of(const std::vector<int64_t> &piece, int64_t tag)
 }
 
 /* ----------------------------------------------------------------------
-   Of the body of a wall.  What lies in the crater of a wall that has bulged by more than its thickness is
-   beyond the plane where its rear was, but has not come through.
+   Of the wall's own matter that hangs together.  What lies in the crater of a wall that has bulged by more than its
+   thickness is beyond the plane where its rear was, but has not come through.
 ------------------------------------------------------------------------- */
 
-void ComputeHVIWall::find_rear_face(const Wall &w, int64_t body)
+void ComputeHVIWall::find_rear_face(const Wall &w, int64_t hull)
 {
-  static constexpr double WIDE = 2.0;    // spacings: a layer that is stretched has no gaps
+  static constexpr double WIDE =
+      0.75;    // half of a square of its own, in spacings: a layer that is stretched has no gaps
   double box[5] = {BIG, BIG, BIG, BIG,
-                   0.0};    // least, and less the most, to both sides; volume of a particle
-  const auto is_body = [&](int i) {
-    return body && sound[i] == body && w.owns(atom->type[i]);
+                   BIG};    // least, and less the most, to both sides; least spacing
+  const auto is_of_it = [&](int i) {
+    return hull && together[i] == hull && w.owns(atom->type[i]);
+  };
+  const auto spacing = [&](int i) {
+    const HVI::Material *const material = store->materials.of(atom->type[i]);
+    const double rho0 = material ? material->eos->rho0() : 0.0;
+    const double rho = rho0 > 0.0 ? rho0 : atom->rho[i];
+    return rho > 0.0 ? std::cbrt(mass_of(i) / rho) : 0.0;
   };
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_body(i)) continue;
+    if (!is_of_it(i)) continue;
     for (int k = 0; k < 2; k++) {
       box[k] = MIN(box[k], atom->x[i][across[k]]);
       box[2 + k] = MIN(box[2 + k], -atom->x[i][across[k]]);
     }
-    const HVI::Material *const material = store->materials.of(atom->type[i]);
-    const double rho0 = material ? material->eos->rho0() : 0.0;
-    const double rho = rho0 > 0.0 ? rho0 : atom->rho[i];
-    if (rho > 0.0) box[4] = MIN(box[4], -mass_of(i) / rho);
+    box[4] = MIN(box[4], spacing(i));
   }
   MPI_Allreduce(MPI_IN_PLACE, box, 5, MPI_DOUBLE, MPI_MIN, world);
   const double hi[2] = {-box[2], -box[3]};
-  rear_face.start(box, hi, WIDE * std::cbrt(-box[4]));
+  rear_face.start(box, hi, box[4]);
   for (int i = 0; i < atom->nlocal; i++)
-    if (is_body(i)) rear_face.add(atom->x[i][across[0]], atom->x[i][across[1]], atom->x[i][axis]);
+    if (is_of_it(i))
+      rear_face.add(atom->x[i][across[0]], atom->x[i][across[1]], atom->x[i][axis],
+                    WIDE * spacing(i));
   std::vector<double> &columns = rear_face.columns();
-  MPI_Allreduce(MPI_IN_PLACE, columns.data(), columns.size(), MPI_DOUBLE, MPI_MAX, world);
+  if (!columns.empty())
+    MPI_Allreduce(MPI_IN_PLACE, columns.data(), columns.size(), MPI_DOUBLE, MPI_MAX, world);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -576,7 +585,7 @@ void ComputeHVIWall::measure(Wall &w, double *row)
   const int64_t body = piece_of(sound, kernel);
   const int64_t hull = piece_of(together, kernel);
 
-  find_rear_face(w, body);
+  find_rear_face(w, hull);
 
   // what has passed it, and what of that is apart
 
@@ -599,7 +608,7 @@ void ComputeHVIWall::measure(Wall &w, double *row)
     if (together[i] == hull) continue;
     mine[APART] += mass_of(i);
     if (mine_here) mine[SPALL] += mass_of(i);
-    mine[NUMBER] += 1.0;
+    mine[NUMBER] += debris ? debris->part(i) : 1.0;
   }
   MPI_Allreduce(mine, sum, NSUM, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(&height, &row[BULGE], 1, MPI_DOUBLE, MPI_MAX, world);

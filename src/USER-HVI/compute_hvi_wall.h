@@ -89,6 +89,7 @@ class ComputeHVIWall : public ComputeHVIMatter {
   class FixStoreAtom *first;    // where particles were
   class FixHVIStore *store;
   class FixHVIJohnsonCook *strength;
+  class FixHVIDebris *debris;
 
   std::vector<char> chosen;
   HVI::RearFace rear_face;                      // of the wall that is measured
@@ -104,7 +105,7 @@ class ComputeHVIWall : public ComputeHVIMatter {
   void find_first();
   void sum_up();
   void find_pieces();
-  void find_rear_face(const Wall &, int64_t body);
+  void find_rear_face(const Wall &, int64_t hull);
   void measure(Wall &, double *row);
   int64_t piece_of(const std::vector<int64_t> &, int64_t id) const;
   void find_hole(Wall &, double *row);

@@ -15,6 +15,7 @@
 #include "atom_vec.h"
 #include "domain.h"
 #include "fix_hvi_johnson_cook.h"
+#include "fix_hvi_ledger.h"
 #include "fix_hvi_sph.h"
 #include "fix_hvi_store.h"
 #include "hvi_pieces.h"
@@ -25,6 +26,8 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
+static constexpr double BIG = 1.0e300;
+
 constexpr FixHVIDebris::Field FixHVIDebris::FIELDS[] = {
     {"flown", 0, offsetof(HVIDebrisState, flown)},
     {"pieces", 0, offsetof(HVIDebrisState, pieces)},
@@ -34,7 +37,7 @@ constexpr FixHVIDebris::Field FixHVIDebris::FIELDS[] = {
 
 FixHVIDebris::FixHVIDebris(LAMMPS *lmp, int narg, char **arg) :
     FixHVIRecords(lmp, narg, arg, HVIDebrisState(), FIELDS, {""}), most(3), store(nullptr),
-    integrator(nullptr), strength(nullptr)
+    integrator(nullptr), strength(nullptr), ledger(nullptr)
 {
   static_assert(covers<HVIDebrisState>(FIELDS),
                 "a number of the record is missing, or there twice");
@@ -47,8 +50,11 @@ FixHVIDebris::FixHVIDebris(LAMMPS *lmp, int narg, char **arg) :
     (key == "every" ? every : most) = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
   }
   if (every < 1) error->all(FLERR, "Fix hvi/debris every must be 1 or more, not {}", every);
-  if (most < 2 || most > 8)
-    error->all(FLERR, "Fix hvi/debris most must be 2 to 8 pieces to an edge, not {}", most);
+  if (most < 2 ||
+      most > 3)    // with more, pieces would be put farther away than particles see each other
+    error->all(FLERR, "Fix hvi/debris most must be 2 or 3 pieces to an edge, not {}", most);
+  if (atom->molecular != Atom::ATOMIC)
+    error->all(FLERR, "Fix hvi/debris works with atom styles without bonds");
   if (domain->dimension != 3) error->all(FLERR, "Fix hvi/debris needs three dimensions");
   if (!atom->tag_enable) error->all(FLERR, "Fix hvi/debris needs IDs of atoms");
   begin();
@@ -80,10 +86,17 @@ void FixHVIDebris::init()
     error->all(FLERR,
                "Fix hvi/debris needs masses of particles, for pieces have less: fix ID all "
                "property/atom rmass ghost yes, and set type ... mass ...");
+  ledger = FixHVILedger::instance(lmp);
   forget_rows();
   check_restored();
   restored.clear();
   next_reneighbor = -1;
+}
+
+FixHVIDebris *FixHVIDebris::find(LAMMPS *lmp)
+{
+  const auto found = lmp->modify->get_fix_by_style("^hvi/debris$");
+  return found.empty() ? nullptr : dynamic_cast<FixHVIDebris *>(found[0]);
 }
 
 /* ----------------------------------------------------------------------
@@ -131,18 +144,33 @@ void FixHVIDebris::end_of_step()
   static constexpr double PUSHED = 1.0e-3;    // of rho c^2: what is hot expands against less
   const double time = nevery * integrator->step();
   const HVI::SphView &records = store->fields.view();
-  int here = 0, any;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit) || (atom->mask[i] & store->embedded)) continue;
-    if (extra[i].flown < 0.0 || !store->materials.of(atom->type[i]) || !strength->failed(i))
+    const int mask = atom->mask[i];
+    if (!(mask & groupbit) || !(mask & integrator->groupbit) || (mask & store->embedded)) continue;
+    if (extra[i].flown < 0.0 || !store->materials.of(atom->type[i]) || !strength->failed(i) ||
+        integrator->has_frozen(i) || (ledger && ledger->clamps(mask)))
       continue;
     const HVI::SphState &s = records.state[i];
     if (records.traction[i].p > PUSHED * s.rho * s.c * s.c)
       extra[i].flown = opened(i) < 2.0 ? 0.0 : -1.0;
     else
       extra[i].flown += time;
-    if (is_due(i)) here = 1;
   }
+  look();
+}
+
+// what is due at the end of a run is divided in the first step of the next
+
+void FixHVIDebris::setup(int /*vflag*/)
+{
+  look();
+}
+
+void FixHVIDebris::look()
+{
+  int here = 0, any;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (is_due(i)) here = 1;
   MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
   if (any) next_reneighbor = update->ntimestep + 1;
 }
@@ -151,8 +179,21 @@ void FixHVIDebris::pre_exchange()
 {
   if (update->ntimestep != next_reneighbor) return;
   const int n = atom->nlocal;
-  for (int i = 0; i < n; i++)
-    if (is_due(i)) split(i);
+  double far[2] = {0.0, 0.0};    // that a piece is put, and less the width of what ranks have
+  far[1] = -BIG;
+  for (int i = 0; i < n; i++) {
+    if (!is_due(i)) continue;
+    far[0] = MAX(far[0], opened(i) * size(i) * HVI::Pieces::corner(pieces(i)));
+    split(i);
+  }
+  for (int k = 0; k < 3; k++)
+    if (comm->procgrid[k] > 1) far[1] = MAX(far[1], domain->sublo[k] - domain->subhi[k]);
+  MPI_Allreduce(MPI_IN_PLACE, far, 2, MPI_DOUBLE, MPI_MAX, world);
+  if (far[0] > -far[1])
+    error->all(FLERR,
+               "Fix hvi/debris puts pieces up to {} away, and the box of a rank is {} wide at step "
+               "{}: use fewer ranks, or other processors",
+               far[0], -far[1], update->ntimestep);
   integrator->reflect();
   tell();
 }
@@ -175,13 +216,18 @@ void FixHVIDebris::split(int i)
   }
   const auto places = HVI::Pieces::places(n, atom->tag[i]);
   const double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
+  extra[i].flown = -1.0;
+  for (const auto &place : places) {
+    const double at[3] = {x[0] + far * wide * place[0], x[1] + far * wide * place[1],
+                          x[2] + far * wide * place[2]};
+    if (!stays_in(at)) return;    // it leaves the box as a whole
+  }
 
   atom->rmass[i] = m / N;
   atom->esph[i] = (atom->esph[i] - m * spread) / N;
   atom->desph[i] /= N;
   for (int k = 0; k < 3; k++) atom->f[i][k] /= N;
   integrator->share(i, N, m * spread);
-  extra[i].flown = -1.0;
   extra[i].pieces = n;
 
   for (int q = 0; q < N; q++) {
@@ -190,6 +236,7 @@ void FixHVIDebris::split(int i)
       double at[3] = {x[0], x[1], x[2]};
       atom->avec->create_atom(atom->type[i], at);
       j = atom->nlocal - 1;
+      atom->avec->copy(i, j, 0);    // fixes look at what is new
       modify->create_attribute(j);
     }
   }
@@ -208,6 +255,20 @@ void FixHVIDebris::split(int i)
     }
     integrator->hasten(j, along);
   }
+}
+
+// at fixed faces, what is beyond a mirror plane where it will be put
+
+bool FixHVIDebris::stays_in(const double *x) const
+{
+  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
+  for (int k = 0; k < 3; k++) {
+    double at = x[k];
+    if (mirror.has(k) && mirror.depth(k, x) < 0.0) at = 2.0 * mirror.at[k] - at;
+    if (domain->boundary[k][0] == 1 && at < domain->boxlo[k]) return false;
+    if (domain->boundary[k][1] == 1 && at >= domain->boxhi[k]) return false;
+  }
+  return true;
 }
 
 // LAMMPS, of the new particles

@@ -37,9 +37,17 @@ class FixHVIDebris : public FixHVIRecords<FixHVIDebris, HVIDebrisState> {
   FixHVIDebris(class LAMMPS *, int, char **);
   int setmask() override;
   void init() override;
+  void setup(int) override;
   void pre_exchange() override;
   void end_of_step() override;
   double compute_scalar() override;
+
+  static FixHVIDebris *find(class LAMMPS *);    // of this simulation, nullptr: none
+  double part(int i) const                      // of a particle that it is
+  {
+    const double n = extra[i].pieces;
+    return n > 0.0 ? 1.0 / (n * n * n) : 1.0;
+  }
 
  private:
   static const Field FIELDS[];
@@ -48,6 +56,7 @@ class FixHVIDebris : public FixHVIRecords<FixHVIDebris, HVIDebrisState> {
   class FixHVIStore *store;
   class FixHVISPH *integrator;
   class FixHVIJohnsonCook *strength;
+  class FixHVILedger *ledger;
 
   std::string settings() const override { return ""; }
   double mass(int) const;
@@ -55,6 +64,8 @@ class FixHVIDebris : public FixHVIRecords<FixHVIDebris, HVIDebrisState> {
   int pieces(int) const;
   double opened(int) const;
   bool is_due(int) const;
+  void look();
+  bool stays_in(const double *x) const;
   void split(int);
   void tell();
 };

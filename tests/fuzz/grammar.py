@@ -60,7 +60,7 @@ RULES = {
     "fix_hvi_johnson_cook": {
         "strength": pick("johnson-cook", "steinberg-guinan", "cowper-symonds", "zerilli-armstrong", "perfect", "none"), "damage": pick("yes", "no", "johnson-cook"),
         "spall": SPALL, "temperature": pick("energy", "work"), "thermal": YES, "weibull": each(between(0.5, 20), pick("1", "4711")), "weibull_size": pick("0", "1")},
-    "fix_hvi_debris": {"every": pick("1", "5", "20"), "most": pick("2", "3", "8")},
+    "fix_hvi_debris": {"every": pick("1", "5", "20"), "most": pick("2", "3")},
     "fix_hvi_dt": {"min": pick("0", "1e-12"), "max": pick("0.1", "1e-6"), "floor": pick("0", "0.1"), "every": pick("1", "2", "7")},
     "fix_hvi_fem": {
         "probe": each(between(-2, 2), between(-2, 2), between(-1, 1)), "local": pick("1", "5"), "viscosity": each(between(0, 2), between(0, 1)),

@@ -32,7 +32,7 @@ TEST(Pieces, MeanAndMeanSquare)
       }
       for (int k = 0; k < 3; k++) EXPECT_NEAR(mean[k] / places.size(), 0.0, 1e-15);
       EXPECT_NEAR(square / places.size(), Pieces::mean_square(n), 1e-14);
-      EXPECT_NEAR(most, 0.75 * (1.0 - 1.0 / n) * (1.0 - 1.0 / n), 1e-14) << "corners of the cube";
+      EXPECT_NEAR(std::sqrt(most), Pieces::corner(n), 1e-14);
     }
 }
 

@@ -12,20 +12,43 @@
 
 using HVI::RearFace;
 
+// a slope in one direction: what is deeper than all columns around is hidden
+
 TEST(RearFace, HidesWhatTheBodyReachesBeyond)
 {
   RearFace face;
-  const double lo[2] = {-1.0, 2.0}, hi[2] = {1.0, 3.0};
-  face.start(lo, hi, 0.5);
-  EXPECT_EQ(face.columns().size(), 5u * 3u);
-  face.add(-0.9, 2.1, 4.0);
-  face.add(-0.6, 2.4, 7.0);    // the same column
-  face.add(1.0, 3.0, -2.0);    // the last one
-  EXPECT_TRUE(face.hides(-0.99, 2.01, 6.9));
-  EXPECT_FALSE(face.hides(-0.99, 2.01, 7.0));
-  EXPECT_FALSE(face.hides(-0.4, 2.1, -10.0)) << "a column without matter";
-  EXPECT_TRUE(face.hides(1.2, 3.2, -2.1));
-  EXPECT_FALSE(face.hides(1.2, 3.2, -1.9));
+  const double lo[2] = {0.0, 0.0}, hi[2] = {10.0, 6.0};
+  face.start(lo, hi, 1.0);
+  EXPECT_EQ(face.columns().size(), 11u * 7u);
+  for (int p = 0; p < 11; p++)
+    for (int q = 0; q < 7; q++) face.add(p + 0.5, q + 0.5, p, 0.4);
+  for (const double b : {0.1, 3.3, 6.9}) {
+    EXPECT_TRUE(face.hides(5.5, b, 3.99)) << b;
+    EXPECT_FALSE(face.hides(5.5, b, 4.0)) << b;
+    EXPECT_FALSE(face.hides(10.99, b, 9.0)) << "the last column looks at the one before it";
+    EXPECT_TRUE(face.hides(10.99, b, 8.9)) << b;
+  }
+  face.columns()[5 * 7 + 3] = RearFace::NONE;    // a hole
+  for (int p = 4; p <= 6; p++) EXPECT_FALSE(face.hides(p + 0.5, 3.5, -1.0)) << p;
+  EXPECT_TRUE(face.hides(7.5, 3.5, 5.9));
+}
+
+// coarse matter covers several columns
+
+TEST(RearFace, SquaresOfMatter)
+{
+  RearFace face;
+  const double lo[2] = {0.0, 0.0}, hi[2] = {8.0, 8.0};
+  face.start(lo, hi, 1.0);
+  face.add(4.5, 4.5, 2.0, 1.5);
+  int covered = 0;
+  for (const double h : face.columns()) covered += h == 2.0;
+  EXPECT_EQ(covered, 16);
+  EXPECT_TRUE(face.hides(4.5, 4.5, 1.0));
+  EXPECT_FALSE(face.hides(2.5, 4.5, 1.0));
+  face.add(-5.0, 4.5, 9.0, 1.0);    // beside it all
+  face.add(4.5, 1e300, 9.0, 1.0);
+  for (const double h : face.columns()) EXPECT_LT(h, 9.0);
 }
 
 TEST(RearFace, WhatIsBesideIsNotHidden)
@@ -34,7 +57,7 @@ TEST(RearFace, WhatIsBesideIsNotHidden)
   const double lo[2] = {0.0, 0.0}, hi[2] = {1.0, 1.0};
   face.start(lo, hi, 0.25);
   for (double a = 0.0; a <= 1.0; a += 0.125)
-    for (double b = 0.0; b <= 1.0; b += 0.125) face.add(a, b, 1.0);
+    for (double b = 0.0; b <= 1.0; b += 0.125) face.add(a, b, 1.0, 0.1);
   for (const double a : {-0.01, 1.3, 1e300, -1e300, double(NAN)}) {
     EXPECT_FALSE(face.hides(a, 0.5, 0.0)) << a;
     EXPECT_FALSE(face.hides(0.5, a, 0.0)) << a;
@@ -48,13 +71,13 @@ TEST(RearFace, OfNoBodyAndOfAHugeOne)
   const double high[2] = {1e20, 1e20}, low[2] = {-1e20, -1e20};
   face.start(high, low, 1.0);    // as least and most of nothing come out
   EXPECT_TRUE(face.columns().empty());
-  face.add(0.0, 0.0, 1.0);
+  face.add(0.0, 0.0, 1.0, 1.0);
   EXPECT_FALSE(face.hides(0.0, 0.0, 0.0));
   const double lo[2] = {0.0, 0.0}, hi[2] = {1e6, 2.0}, corner[2] = {1e6, 1e6};
   for (const double *to : {hi, corner}) {
     face.start(lo, to, 1e-3);
-    EXPECT_LT(face.columns().size(), 1100000u);
-    face.add(to[0], to[1], 1.0);
+    EXPECT_LT(face.columns().size(), 2100000u);
+    face.add(to[0], to[1], 1.0, 1e7);
     EXPECT_TRUE(face.hides(to[0], to[1], 0.0));
   }
 }

@@ -17,8 +17,9 @@
 namespace HVI {
 
 /* ----------------------------------------------------------------------
-   How far a body reaches along an axis, in square columns across it.  What is not so far in a column of the body
-   is before its rear face, however far the body has bulged; where it has no matter there is no face.
+   How far a body reaches along an axis, in square columns across it.  What is not so far, neither in its column nor in
+   those around it, is before the rear face of the body, however far it has bulged.  Where the body has no matter there
+   is no face.
 ------------------------------------------------------------------------- */
 
 class RearFace {
@@ -41,29 +42,42 @@ class RearFace {
     }
     heights.assign((std::size_t) number[0] * number[1], NONE);
   }
-  void add(double a, double b, double height)
+  // matter that covers a square, half of it to all sides of a, b
+
+  void add(double a, double b, double height, double half)
   {
-    const std::ptrdiff_t m = column(a, b);
-    if (m >= 0) heights[m] = std::max(heights[m], height);
+    const std::ptrdiff_t from[2] = {line(a - half, 0), line(b - half, 1)},
+                         to[2] = {line(a + half, 0), line(b + half, 1)};
+    for (std::ptrdiff_t p = std::max<std::ptrdiff_t>(0, from[0]); p <= std::min(to[0], last(0));
+         p++)
+      for (std::ptrdiff_t q = std::max<std::ptrdiff_t>(0, from[1]); q <= std::min(to[1], last(1));
+           q++)
+        heights[p * number[1] + q] = std::max(heights[p * number[1] + q], height);
   }
   bool hides(double a, double b, double height) const
   {
-    const std::ptrdiff_t m = column(a, b);
-    return m >= 0 && height < heights[m];
+    const std::ptrdiff_t p = line(a, 0), q = line(b, 1);
+    if (p < 0 || q < 0 || p > last(0) || q > last(1)) return false;
+    for (std::ptrdiff_t m = std::max<std::ptrdiff_t>(0, p - 1); m <= std::min(p + 1, last(0)); m++)
+      for (std::ptrdiff_t n = std::max<std::ptrdiff_t>(0, q - 1); n <= std::min(q + 1, last(1));
+           n++)
+        if (!(height < heights[m * number[1] + n])) return false;
+    return true;
   }
   std::vector<double> &columns() { return heights; }    // the highest of all ranks is to be put in
 
  private:
   static constexpr double MOST = 1.0e6;
-  double origin[2], width;
-  int number[2];
+  double origin[2] = {0.0, 0.0}, width = 1.0;
+  int number[2] = {0, 0};
   std::vector<double> heights;
 
-  std::ptrdiff_t column(double a, double b) const
+  std::ptrdiff_t last(int k) const { return (std::ptrdiff_t) number[k] - 1; }
+  std::ptrdiff_t line(double x,
+                      int k) const    // -1: before the first; beyond the last: some number above it
   {
-    const double p = (a - origin[0]) / width, q = (b - origin[1]) / width;
-    if (!(p >= 0.0 && q >= 0.0 && p < number[0] && q < number[1])) return -1;
-    return (std::ptrdiff_t) p * number[1] + (std::ptrdiff_t) q;
+    const double p = std::floor((x - origin[k]) / width);
+    return p >= 0.0 ? (std::ptrdiff_t) std::min(p, (double) number[k]) : -1;
   }
 };
 

@@ -43,6 +43,10 @@ class Pieces {
 
   static double mean_square(int n) { return 0.25 * (1.0 - 1.0 / (n * n)); }
 
+  // the largest of these distances
+
+  static double corner(int n) { return std::sqrt(0.75) * (1.0 - 1.0 / n); }
+
  private:
   static double middle(int i, int n) { return (i + 0.5) / n - 0.5; }
 

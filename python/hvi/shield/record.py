@@ -128,7 +128,7 @@ def measure(shield, folder):
             "largest_fragment_mass_fraction": at["largest_mass"] / mp, "largest_fragment_velocity_m_s": at["largest_velocity"], "pieces_apart": int(at["pieces_apart"]),
             "largest_apart_mass_fraction": at["largest_apart_mass"] / mp, "momentum_N_s": q * at["momentum"], "momentum_ratio": q * at["momentum"] / p0,
             "energy_J": q * at["energy"], "energy_ratio": q * at["energy"] / E0, "spall_mass_mg": 1e6 * q * at["spall_mass"], "apart_mass_mg": 1e6 * q * at["apart_mass"],
-            "apart_particles": int(at["apart_number"]), "layers": wall.layers, "bulge_over_thickness": at["bulge"] / wall.thickness,
+            "apart_particles": round(at["apart_number"], 3), "layers": wall.layers, "bulge_over_thickness": at["bulge"] / wall.thickness,
             "deepest_failed_layer": math.ceil(at["failed_depth"] / wall.dz), "rear_plastic_strain": at["rear_strain"], "outer_plastic_strain": at["outer_strain"],
             "push_percent": 100 * push(record, k, g.enough_us) if k == reached - 1 else 0.0, "bulge_m_s": growth(record, k) if k == reached - 1 else 0.0,
             "plastic_percent_per_us": 100 * q * 1e-6 * at["plastic_power"] / E0,

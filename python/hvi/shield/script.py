@@ -31,7 +31,7 @@ COLUMNS = "id type mass x y z vx vy vz v_dumped c_state[*]"
 STATE = ("p", "damage", "spalled", "vm", "e", "eps", "fragsize")
 HANGS = 1.5  # spacings: what is closer hangs together
 ETA = 1.2  # of pair_coeff ... spacing: smoothing length in spacings
-FRICTION = 3 * 5300.0  # m/s: a wave loses exp(-3) of its amplitude on the way through an absorbing rim and back
+FRICTION = 3 * 5300.0  # m/s: a wave keeps exp(-3) of its amplitude on the way through an absorbing rim and back
 
 
 BALL = "ball.data"  # the projectile, if it is no lattice
@@ -282,10 +282,6 @@ class Shield:
                 for kinds, rho in alike(rows):
                     text("set", f"type {types(kinds)} sph/rho {rho}")
                 text("group", f"matter type {self.matter}")
-        if s["debris"] == "yes":
-            flies = [1, *(1 + k for k in range(1, self.n)), *(self.outer_type(k) for k in self.outers if k < self.n)]
-            text("group", f"flies type {' '.join(map(str, flies))}")
-            text("fix", "debris flies hvi/debris", "what fails into fragments smaller than particles flies on as these")
         text("fix", f"step all hvi/dt {s['C']}", "time step; f_step[2] is the time")
         if s["skin"]:
             skin = float(s["skin"]) * g.widest
@@ -296,11 +292,21 @@ class Shield:
         kind, rim = self.settings["edge"], 1e-3 * float(self.settings["rim"])
         if new and kind != "free":
             self.rim(text, rim)
+        if s["debris"] == "yes":
+            self.debris(text)
         text("compute", f"book all hvi/energy{' clamps rim' if kind != 'free' else ''}", "energy and momentum balance")
         if kind == "clamp":
             text("fix", "rim rim setforce 0 0 0")
         elif kind == "absorb":
             text("fix", f"rim rim viscous $({number(FRICTION / rim)}*mass(rim)/count(rim))", "absorbs waves")
+
+    def debris(self, text):
+        """what flies becomes as many particles as fragments; rims, which do not, stay as they are"""
+        flies = [1, *(1 + k for k in range(1, self.n)), *(self.outer_type(k) for k in self.outers if k < self.n)]
+        text("group", f"flies type {' '.join(map(str, flies))}")
+        if self.settings["edge"] != "free":
+            text("group", "loose subtract flies rim")
+        text("fix", f"debris {'flies' if self.settings['edge'] == 'free' else 'loose'} hvi/debris", "what fails into fragments smaller than particles flies on as these")
 
     def rim(self, text, rim):
         """the group of what is no farther than that from the edge of a wall"""
