@@ -53,7 +53,7 @@ def test_before_it_runs(root, reader, tmp_path):
     assert (tmp_path / "runs/my/sketch.png").is_file()
 
 
-@pytest.mark.parametrize("number, steps, energy", [(0, 100, 1e-5), (1, 40, 5e-4), (2, 300, 1e-4)], ids=["solid", "liquid", "dem"])
+@pytest.mark.parametrize("number, steps, energy", [(0, 100, 1e-5), (1, 40, 5e-4), (2, 1000, 1e-4)], ids=["solid", "liquid", "dem"])
 def test_inputs_run(lmp, root, number, steps, energy):
     """the straight inputs, cut short: no warning, something is struck, and the energy balance is kept"""
     inputs = [text.strip() for text in blocks(root, "LAMMPS")]
