@@ -1,7 +1,9 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """Parts of a report that can be written as Markdown, reStructuredText and HTML: headings, texts (str), tables, lists, pictures."""
 
+import csv
 import dataclasses
+import io
 import re
 
 STRONG = {"default", "front", "dominates"}  # marks that are bold
@@ -102,13 +104,14 @@ def markdown(parts):
 
 
 def rst(parts):
-    """Texts and tables as reStructuredText, tables as list-table"""
+    """Texts and tables as reStructuredText, tables as csv-table"""
     lines = []
     for part in parts:
         if isinstance(part, Table):
-            lines += [f".. list-table:: {safe(part.caption)}".rstrip(), "   :header-rows: 1", ""]
-            for row in (part.names, *part.rows):
-                lines += [f"   {'  -' if k else '* -'} {safe(c)}".rstrip() for k, c in enumerate(row)]
+            lines += [f".. csv-table:: {safe(part.caption)}".rstrip(), "   :header-rows: 1", ""]
+            text = io.StringIO()
+            csv.writer(text, lineterminator="\n").writerows([safe(c) for c in row] for row in (part.names, *part.rows))
+            lines += ["   " + line for line in text.getvalue().splitlines()]
         else:
             lines += [safe(part)]
         lines.append("")
