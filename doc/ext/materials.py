@@ -1,21 +1,43 @@
-"""The directive ".. materials::" is the table of all material files of the folder potentials/: what each has, lacks and assumes.
+"""Tables of the pages on materials, made by python/hvi/material/library.py, which needs no NumPy.
 
-The files are read by python/hvi/material/library.py, as `python3 -m hvi material` does; neither needs NumPy.
+".. materials::" is the table of all material files of the folder potentials/: what each has, lacks and assumes.
+".. parameters:: KIND LAW" is the table of a law: its content has a line "key meaning" per key, unit, range and default come from the code.
 """
 
 import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+UNITS = {"number": "", "length": "m", "density": "kg/m^3", "speed": "m/s", "pressure": "Pa", "per_pressure": "1/Pa", "specific_energy": "J/kg", "heat_capacity": "J/kg/K",
+         "temperature": "K", "per_temperature": "1/K", "rate": "1/s", "impulse": "Pa^lambda s"}
 COLUMNS = {"file": 15, "eos": 14, "strength": 12, "damage": 10, "spall": 9, "lacks; assumed": 24, "sources": 16}
+
+
+def library():
+    sys.path.insert(0, str(ROOT / "python"))
+    from hvi.material import library
+
+    return library
 
 
 def rows(folder):
     """a {column: text} per file"""
-    sys.path.insert(0, str(ROOT / "python"))
-    from hvi.material import library
+    return library().everything(folder)
 
-    return library.everything(folder)
+
+def parameters(kind, law, content):
+    """the table of a law as reStructuredText; ValueError if the keys of the content are not those of the law, in its order"""
+    meanings = dict(line.split(None, 1) for line in content if line.strip())
+    keys = library().LAWS[kind, law]
+    if list(meanings) != [key for key, *_ in keys]:
+        raise ValueError(f"{kind} {law} has the keys {' '.join(key for key, *_ in keys)}, not {' '.join(meanings)}")
+    text = [".. list-table::", "   :header-rows: 1", "   :widths: 14 50 12 12 12", ""]
+    cells = [["key", "meaning", "unit (SI)", "range", "default"]]
+    for key, quantity, bounds, preset in keys:
+        cells.append([f"*{key}*", meanings[key], UNITS[quantity], bounds.replace("in ", "") or "any", "required" if preset is None else f"{preset:g}"])
+    for line in cells:
+        text += [f"   {'  -' if k else '* -'} {cell}" for k, cell in enumerate(line)]
+    return text
 
 
 def escaped(text):
@@ -49,5 +71,20 @@ def setup(app):
             self.state.nested_parse(StringList(lines(folder), source="potentials"), self.content_offset, node)
             return node.children
 
+    class Parameters(Directive):
+        required_arguments = 2
+        has_content = True
+
+        def run(self):
+            self.state.document.settings.env.note_reread()  # the code may have changed
+            try:
+                text = parameters(*self.arguments, self.content)
+            except (KeyError, ValueError) as problem:
+                raise self.error(f"parameters: {problem}") from None
+            node = nodes.Element()
+            self.state.nested_parse(StringList(text, source="library.py"), self.content_offset, node)
+            return node.children
+
     app.add_directive("materials", Materials)
+    app.add_directive("parameters", Parameters)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -196,6 +196,22 @@ def test_table_of_the_documentation():
     assert ".. materials::" in (ROOT / "doc" / "src" / "Howto_materials.rst").read_text()
 
 
+def test_tables_of_laws():
+    """each law with keys has its table in the page, made of the code; keys that are not those of the law are found"""
+    import materials
+
+    text = (ROOT / "doc" / "src" / "Howto_laws.rst").read_text()
+    blocks = {(kind, law): body.splitlines() for kind, law, body in re.findall(r"^\.\. parameters:: ([\w-]+) ([\w-]+)\n\n((?:   .*\n)+)", text, re.M)}
+    assert set(blocks) == {section for section, keys in library.LAWS.items() if keys}
+    for section, content in blocks.items():
+        table = materials.parameters(*section, content)
+        assert len(table) == 4 + 5 * (len(library.LAWS[section]) + 1), section
+    table = materials.parameters("spall", "limit", blocks["spall", "limit"])
+    assert table[-5:] == ["   * - *sigma_p*", "     - tension that the material bears", "     - Pa", "     - > 0", "     - required"]
+    with pytest.raises(ValueError, match="spall limit has the keys sigma_p, not sigma"):
+        materials.parameters("spall", "limit", ["sigma tension"])
+
+
 # ---------------------------------------------------------------------- curves
 POINT = """units {units}
 atom_style sph

@@ -1,6 +1,6 @@
 """Matter without shear strength in which voids grow, stretched at a constant rate: ordinary differential equations, independent of the C++ sources.
 
-The equation of state is Grueneisen's as written in Howto_materials, with the constants of potentials/Al6061-T6.hvi.
+The equation of state is Grueneisen's as written in Howto_laws, with the constants of potentials/Al6061-T6.hvi.
 """
 
 import numpy as np

@@ -49,7 +49,7 @@ def test_books_close(lmp, tmp_path, words):
 
 
 def test_drift_falls_with_the_step(lmp, tmp_path):
-    """leapfrog: second order, so half the step leaves about a quarter of the drift; the table of Howto_sph"""
+    """leapfrog: second order, so half the step leaves about a quarter of the drift; the table of Howto_sph_verification"""
     drift = {C: np.abs(run(lmp, tmp_path, "h variable", C=C, until=4.0)["c_book[9]"] - 1).max() for C in (0.05, 0.1, 0.2, 0.3, 0.6)}
     for C, largest in drift.items():
         print(f"C {C}: largest drift / energy {largest:.1e}")

@@ -3,7 +3,7 @@
 
     python3 tests/verify/hard.py --out build/verify       all cases and methods, stock LAMMPS beside: hard.csv, hard.md
     python3 tests/verify/hard.py --criteria FILE          the criteria, without running anything
-    python3 tests/verify/hard.py --table                  the table of doc/src/Howto_hard.rst from tests/verify/hard.csv
+    python3 tests/verify/hard.py --table                  doc/src/tables/hard.inc from tests/verify/hard.csv
 
 Criteria are in tests/verify/hard_criteria.csv, written down before the first run but for those of cases that came later, as it says there. What is
 known to miss one has its cause in the case.
@@ -126,27 +126,32 @@ def write_criteria(path):
 
 
 def table(rows):
-    """reST list-table of survivors: a row per case, what each method misses with its number"""
-    out = [".. list-table::", "   :header-rows: 1", "   :widths: 30 35 35", "", "   * - case", "     - hvi", "     - stock LAMMPS"]
-    by = {}
+    """reST: a list-table, a row per case, what each method misses with its number and that of its cause; then the causes"""
+    out = [".. list-table::", "   :header-rows: 1", "   :widths: 30 40 30", "", "   * - case", "     - hvi", "     - stock LAMMPS"]
+    by, numbered = {}, {}
     for r in rows:
         by.setdefault(r["case"], []).append(r)
+
+    def because(why):
+        return f" ({numbered.setdefault(why, len(numbered) + 1)})" if why else ""
+
     for c in cases():
         ours, theirs = [], []
         for r in by.get(c.name, []):
             numbers = dict(p.split(":") for p in r["measures"].split())
             known = c.known.get(r["method"], {})
             if r["cannot"]:
-                said = f"*cannot*: {r['cannot']}"
+                said = "cannot" + because(r["cannot"])
             elif r["stopped"]:
-                said = f"**stops**: {known.get('run', r['stopped'])}"
+                at = re.search(r" \(t = ([\d.]+)\)$", r["stopped"])
+                said = "**stops**" + (f" at t = {at[1]}" if at else "") + because(known.get("run", re.sub(r" \((src/|t = )[^)]*\)", "", r["stopped"])))
             elif r["missed"]:
                 causes = {}
                 for m in r["missed"].split():
                     causes.setdefault(known.get(m, ""), []).append(f"{m} {numbers[m]}")
-                said = "**misses** " + "; ".join(", ".join(what) + (f" ({why})" if why else "") for why, what in causes.items())
+                said = "**misses** " + "; ".join(", ".join(what) + because(why) for why, what in causes.items())
             else:
-                said = "lives"
+                said = "passes"
             (theirs if r["method"].startswith("stock") else ours).append((r["method"].removeprefix("stock "), said))
 
         def joined(cells):
@@ -156,7 +161,7 @@ def table(rows):
             return "; ".join(f"{', '.join(methods)}: {said}" for said, methods in same.items()) or "--"
 
         out += [f"   * - {c.title}", f"     - {joined(ours)}", f"     - {joined(theirs)}"]
-    return "\n".join(out) + "\n"
+    return "\n".join([*out, "", *(f"({n}) {why}" for why, n in numbered.items())]) + "\n"
 
 
 def read(path=TESTS / "verify" / "hard.csv"):

@@ -3,7 +3,7 @@
 
     python3 tests/verify/shocks.py --out build/verify      all methods, the resolutions of the long form: report.md, shocks.csv, pictures
     python3 tests/verify/shocks.py --bounds FILE           the bounds, without running anything
-    python3 tests/verify/shocks.py --table                 the table of doc/src/Howto_sph.rst from tests/verify/shocks.csv
+    python3 tests/verify/shocks.py --table                 doc/src/tables/shocks.inc from tests/verify/shocks.csv
 """
 
 import argparse

@@ -1,6 +1,6 @@
 """What dissipation does to motion that it should leave alone: a shear layer, Gresho's vortex, a body in rigid rotation.
 
-Two dimensions. The figures are in doc/src/Howto_sph.rst, "Shear and rotation".
+Two dimensions. The figures are in doc/src/Howto_sph_verification.rst, "Shear and rotation".
 """
 
 import functools

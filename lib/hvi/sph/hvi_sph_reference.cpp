@@ -437,7 +437,7 @@ namespace {
   }
 
   /* ----------------------------------------------------------------------
-     Solids (Howto_sph, Solids that bear their stress at faces).  What hangs together, sound particles of one body and
+     Solids (Howto_sph, Corrected solids).  What hangs together, sound particles of one body and
      of types with tension between them, and how much of the rest counts: all of it under pressure, or while it comes
      nearer, and of rubble in rubble; smoothly to nothing within LITTLE of rho c^2, and of c
   ------------------------------------------------------------------------- */

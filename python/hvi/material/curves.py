@@ -191,7 +191,7 @@ def sigma_for(material, strength, rate):
 
 
 def spall_strength(material, law, rate):
-    """tension over strain rate at which a law of spall lets go, as Howto_materials has it"""
+    """tension over strain rate at which a law of spall lets go, as Howto_laws has it"""
     v, rate = material.in_si(("spall", law)), np.asarray(rate, float)
     if law == "limit":
         return v["sigma_p"] + 0.0 * rate
