@@ -1,10 +1,12 @@
 """Tables of the pages on materials, made by python/hvi/material/library.py, which needs no NumPy.
 
 ".. materials::" is the table of all material files of the folder potentials/: what each has, lacks and assumes.
+".. sets:: KIND LAW" is the table of the numbers that these files have for a law, in SI, and of what is assumed of them.
 ".. parameters:: KIND LAW" is the table of a law: its content has a line "key meaning" per key, unit, range and default come from the code.
 """
 
 import pathlib
+import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -43,6 +45,31 @@ def parameters(kind, law, content):
 def escaped(text):
     """plain text in reStructuredText"""
     return "".join("\\" + c if c in "\\*`_|-" else c for c in text)
+
+
+def brief(note):
+    """what is assumed, without unit and the word itself"""
+    return re.sub(r"^([\w/^]+, )?assumed(: |, )", "", note)
+
+
+def sets(folder, kind, law):
+    """the sets of a law as reStructuredText: keys that are given in some file, and what is assumed"""
+    section, files = (kind, law), [library().read(path) for path in sorted(folder.glob("*.hvi"))]
+    files = [one for one in files if section in one.sections and one.units != "lj"]
+    keys = [(key, quantity) for key, quantity, *_ in library().LAWS[section] if any(key in one.notes[section] for one in files)]
+    text = [".. list-table::", "   :header-rows: 1", "   :class: materials", ""]
+    cells = [["file", *(f"{key} {UNITS[quantity]}".strip() for key, quantity in keys), "assumed"]]
+    for one in files:
+        assumed = one.assumed().get(section, {})
+        cells.append([one.name, *(f"{one.in_si(section)[key]:g}".replace("e+0", "e").replace("e+", "e") for key, _ in keys),
+                      "; ".join(f"{', '.join(k for k in assumed if brief(assumed[k]) == note)}: {note}" for note in dict.fromkeys(map(brief, assumed.values()))) or "-"])
+    if all(row[-1] == "-" for row in cells[1:]):
+        cells = [row[:-1] for row in cells]
+    if len(keys) > 8:  # a row per key
+        cells = [list(row) for row in zip(*cells)]
+    for line in cells:
+        text += [f"   {'  -' if k else '* -'} {escaped(cell)}" for k, cell in enumerate(line)]
+    return text
 
 
 def lines(folder):
@@ -85,6 +112,20 @@ def setup(app):
             self.state.nested_parse(StringList(text, source="library.py"), self.content_offset, node)
             return node.children
 
+    class Sets(Directive):
+        required_arguments = 2
+
+        def run(self):
+            self.state.document.settings.env.note_reread()
+            try:
+                text = sets(ROOT / "potentials", *self.arguments)
+            except KeyError as problem:
+                raise self.error(f"sets: no law {problem}") from None
+            node = nodes.Element()
+            self.state.nested_parse(StringList(text, source="potentials"), self.content_offset, node)
+            return node.children
+
     app.add_directive("materials", Materials)
+    app.add_directive("sets", Sets)
     app.add_directive("parameters", Parameters)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

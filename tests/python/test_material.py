@@ -196,6 +196,17 @@ def test_table_of_the_documentation():
     assert ".. materials::" in (ROOT / "doc" / "src" / "Howto_materials.rst").read_text()
 
 
+def test_sets_of_a_law():
+    """made from the files: numbers in SI, what is assumed without its unit"""
+    import materials
+
+    text = "\n".join(materials.sets(ROOT / "potentials", "spall", "voids"))
+    assert "   * - Al5083\\-H116\n     - 8.4e8\n     - 19000\n     - 0.2\n     - 0.0596\n     - m: not from [W14]\n" in text
+    assert text.count("   * - ") == 1 + sum(("spall", "voids") in library.read(path).sections for path in FILES)
+    page = (ROOT / "doc" / "src" / "Howto_materials.rst").read_text()
+    assert ".. sets:: spall voids" in page and ".. sets:: eos tillotson" in page
+
+
 def test_tables_of_laws():
     """each law with keys has its table in the page, made of the code; keys that are not those of the law are found"""
     import materials
