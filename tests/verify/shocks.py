@@ -130,8 +130,8 @@ def table(path=TESTS / "verify" / "shocks.csv"):
                 continue
             lost = r["missed"].split()
             show = lambda what, number: f"({number})" if what in lost else number  # noqa: E731
-            error = [show(f"l1_{f}", f"{100 * float(r[f'l1_{f}']):.2f}") if r[f"l1_{f}"] else "-" for f in FIELDS]
-            order = [show(f"order_{f}", f"{round(float(r[f'order_{f}']), 1) + 0.0:.1f}") if r[f"order_{f}"] else "-" for f in FIELDS]
+            error = [show(f"l1_{f}", f"{100 * float(r[f'l1_{f}']):.2f}") if r[f"l1_{f}"] else "\\-" for f in FIELDS]
+            order = [show(f"order_{f}", f"{round(float(r[f'order_{f}']), 1) + 0.0:.1f}") if r[f"order_{f}"] else "\\-" for f in FIELDS]
             cells += [" ".join(error), " ".join(order), f"{float(r['seconds']):.1f}"]
         body.append([*cells, why])
     head = [["problem", "n", "monaghan", "", "", "riemann", "", "", "stock", "", "", "missed"], ["", "", *["error %", "order", "s"] * 3, ""]]
