@@ -555,7 +555,11 @@ void ComputeHVIWall::find_rear_face(const Wall &w, int64_t hull)
   }
   MPI_Allreduce(MPI_IN_PLACE, box, 5, MPI_DOUBLE, MPI_MIN, world);
   const double hi[2] = {-box[2], -box[3]};
-  rear_face.start(box, hi, box[4]);
+  const HVI::MirrorPlanes &mirror = store->fields.settings.mirror;
+  double anchor[2];
+  for (int k = 0; k < 2; k++)
+    anchor[k] = mirror.has(across[k]) ? mirror.at[across[k]] : w.center[k];
+  rear_face.start(box, hi, box[4], anchor);
   for (int i = 0; i < atom->nlocal; i++)
     if (is_of_it(i))
       rear_face.add(atom->x[i][across[0]], atom->x[i][across[1]], atom->x[i][axis],

@@ -1,11 +1,11 @@
 """compute hvi/wall: the same numbers as a dump gives another program; ranks, newton, restart, mirrors; wrong input."""
 
-import itertools
 import re
 
 import hvi
 import numpy as np
 import pytest
+import rear_faces
 from hvi.shield import record
 
 HEAD = """
@@ -97,17 +97,7 @@ def test_as_a_dump_says(walls, tmp_path, quarter):
     body, hull = (label == label[member] for label in everything)
     flown = (z - 1.2e-3) / np.where(v > 0, v, 1)
     aside = (kind != 2) & (v > 0) & (np.hypot(*(frame.x[:, :2] - flown[:, None] * frame.v[:, :2]).T) > 5.4e-3)  # of wall 2, which does not come from wall 1
-    own = hull & (kind == 2)
-    origin, reaches = frame.x[own, :2].min(axis=0), {}
-    for (a, b), height in zip(frame.x[own, :2], z[own]):  # each covers 1.5 spacings, columns are a spacing wide
-        lo, hi = (np.floor((np.array([a, b]) + side * 4.5e-4 - origin) / 6e-4).astype(int) for side in (-1, 1))
-        for p, q in itertools.product(range(lo[0], hi[0] + 1), range(lo[1], hi[1] + 1)):
-            reaches[p, q] = max(reaches.get((p, q), -1), height)
-    last = np.floor((frame.x[own, :2].max(axis=0) - origin) / 6e-4).astype(int)
-    inside = {c for c in itertools.product(range(last[0] + 1), range(last[1] + 1))}
-    columns = np.floor((frame.x[:, :2] - origin) / 6e-4).astype(int)
-    hidden = np.array([(p, q) in inside and all(height < reaches.get(c, -1) for c in itertools.product(range(p - 1, p + 2), range(q - 1, q + 2)) if c in inside)
-                       for (p, q), height in zip(columns, z)])
+    hidden = rear_faces.hidden(frame, hull & (kind == 2), 2703)
     passed = (z > 1.2e-3) & (v > 0) & ~body & ~aside & ~hidden
     assert first["missed_mass"] == pytest.approx(m[(kind == 1) & (z > 1.2e-3) & aside].sum()) and first["cloud_mass"] == pytest.approx(m[passed].sum(), rel=1e-12) and first["cloud_mass"] > 0
     assert first["apart_mass"] == pytest.approx(m[passed & ~hull].sum(), rel=1e-12, abs=1e-20)

@@ -8,6 +8,7 @@ import types
 import hvi
 import numpy as np
 import pytest
+import rear_faces
 import yaml
 from hvi.material import laws
 from hvi.model import plates
@@ -69,7 +70,7 @@ def measures(frame, layer, rear, near):
         everything = pieces(np.ones(len(kind), dtype=bool), sound)
         return everything == everything[member]
 
-    passed = (frame.x[:, 2] > rear) & (v > 0) & ~wall_piece(True)
+    passed = (frame.x[:, 2] > rear) & (v > 0) & ~wall_piece(True) & ~rear_faces.hidden(frame, wall_piece(False) & (kind == layer), 2703)
     spall = passed & ~wall_piece(False) & (kind == layer)
     largest, most = (np.bincount(pieces(passed, sound), frame.m[passed]).max() if passed.any() else 0.0 for sound in (True, False))
     bulge = frame.x[wall_piece(True) & (kind == layer), 2].max() - rear

@@ -17,8 +17,8 @@
 namespace HVI {
 
 /* ----------------------------------------------------------------------
-   How far a body reaches along an axis, in square columns across it.  What is not so far, neither in its column nor in
-   those around it, is before the rear face of the body, however far it has bulged.  Where the body has no matter there
+   How far a body reaches along an axis, in square columns across it.  What is farther back than that by half a column's
+   width, in its column and in those around it, is before the rear face of the body, however far it has bulged.  Where the body has no matter there
    is no face.
 ------------------------------------------------------------------------- */
 
@@ -26,22 +26,25 @@ class RearFace {
  public:
   static constexpr double NONE = -std::numeric_limits<double>::infinity();
 
-  // of a body between lo and hi: two coordinates across the axis; columns are cell wide, or as many as MOST allows
+  // of a body between lo and hi: two coordinates across the axis; columns are cell wide, or as many as MOST allows, and
+  // begin at the anchor, so that a body between mirror planes has those of the whole
 
-  void start(const double *lo, const double *hi, double cell)
+  void start(const double *lo, const double *hi, double cell_in, const double *anchor)
   {
-    for (int k = 0; k < 2; k++) {
-      origin[k] = lo[k];
-      number[k] = 0;
-    }
+    cell = cell_in;
+    for (int k = 0; k < 2; k++) number[k] = 0;
     if (lo[0] <= hi[0] && lo[1] <= hi[1] && cell > 0.0) {
-      const double area = (hi[0] - lo[0]) * (hi[1] - lo[1]);
+      const double wide[2] = {hi[0] - lo[0], hi[1] - lo[1]};
       width =
-          std::max({cell, std::sqrt(area / MOST), std::max(hi[0] - lo[0], hi[1] - lo[1]) / MOST});
-      for (int k = 0; k < 2; k++) number[k] = 1 + (int) ((hi[k] - lo[k]) / width);
+          std::max({cell, std::sqrt(wide[0] * wide[1] / MOST), std::max(wide[0], wide[1]) / MOST});
+      for (int k = 0; k < 2; k++) {
+        origin[k] = anchor[k] + width * std::floor((lo[k] - anchor[k]) / width);
+        number[k] = 1 + (int) ((hi[k] - origin[k]) / width);
+      }
     }
     heights.assign((std::size_t) number[0] * number[1], NONE);
   }
+
   // matter that covers a square, half of it to all sides of a, b
 
   void add(double a, double b, double height, double half)
@@ -61,14 +64,14 @@ class RearFace {
     for (std::ptrdiff_t m = std::max<std::ptrdiff_t>(0, p - 1); m <= std::min(p + 1, last(0)); m++)
       for (std::ptrdiff_t n = std::max<std::ptrdiff_t>(0, q - 1); n <= std::min(q + 1, last(1));
            n++)
-        if (!(height < heights[m * number[1] + n])) return false;
+        if (!(height < heights[m * number[1] + n] - 0.5 * cell)) return false;
     return true;
   }
   std::vector<double> &columns() { return heights; }    // the highest of all ranks is to be put in
 
  private:
   static constexpr double MOST = 1.0e6;
-  double origin[2] = {0.0, 0.0}, width = 1.0;
+  double origin[2] = {0.0, 0.0}, width = 1.0, cell = 1.0;
   int number[2] = {0, 0};
   std::vector<double> heights;
 
