@@ -752,7 +752,8 @@ void PairHVISPH::check_places()
 }
 
 /* ----------------------------------------------------------------------
-   at the start of a run no particle may be beyond a plane, or on it
+   at the start of a run no particle may be beyond a plane, and none that is in no run before on it: rubble that the
+   dissipation of its own image slows down comes as near to a plane as numbers do
 ------------------------------------------------------------------------- */
 
 void PairHVISPH::check_sides() const
@@ -760,14 +761,18 @@ void PairHVISPH::check_sides() const
   if (!set.mirror.planes) return;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_ours[atom->type[i]]) continue;
-    for (int k = 0; k < 3; k++)
-      if (set.mirror.has(k) && !(set.mirror.depth(k, atom->x[i]) > 1.0e-12 * set.h[atom->type[i]]))
+    const bool is_new = !integrator || integrator->is_new(i);
+    for (int k = 0; k < 3; k++) {
+      if (!set.mirror.has(k)) continue;
+      const double depth = set.mirror.depth(k, atom->x[i]);
+      if (is_new ? !(depth > 1.0e-12 * set.h[atom->type[i]]) : !(depth >= 0.0))
         error->one(FLERR,
                    "Pair style hvi/sph: particle {} at {} = {} is on the mirror plane {} or beyond "
                    "it (mirror {} {} {} wants all {} it); a lattice is best half a spacing away",
                    atom->tag[i], "xyz"[k], atom -> x[i][k], set.mirror.at[k], "xyz"[k],
                    set.mirror.at[k], set.mirror.side[k] > 0 ? "lo" : "hi",
                    set.mirror.side[k] > 0 ? "above" : "below");
+    }
   }
 }
 

@@ -140,3 +140,10 @@ def test_periodic(lmp, tmp_path, material):
     s.periodic = (True, False, False)
     r = lmp(scene(s, tmp_path / "s.data", PAIR.format(kernel="cubic", words="mirror x 0 lo", path=material)) + "run 1\n", expect_fail=True)
     assert "not periodic" in r.log + r.stdout
+
+
+def test_what_has_come_to_a_plane(lmp, tmp_path, material):
+    """during runs a particle may come as near to a plane as numbers do: the next run takes it there"""
+    text, _ = start("x", tmp_path, material, steps=0, sort=False, more="")
+    r = lmp(text + "run 3\nset atom 1 x 1e-20\nrun 3\n")
+    assert len(r.runs) >= 2
