@@ -187,7 +187,8 @@ void FixHVIDebris::pre_exchange()
     split(i);
   }
   for (int k = 0; k < 3; k++)
-    if (comm->procgrid[k] > 1) far[1] = MAX(far[1], domain->sublo[k] - domain->subhi[k]);
+    if (domain->subhi[k] - domain->sublo[k] < domain->prd[k])
+      far[1] = MAX(far[1], domain->sublo[k] - domain->subhi[k]);
   MPI_Allreduce(MPI_IN_PLACE, far, 2, MPI_DOUBLE, MPI_MAX, world);
   if (far[0] > -far[1])
     error->all(FLERR,
@@ -230,17 +231,13 @@ void FixHVIDebris::split(int i)
   integrator->share(i, N, m * spread);
   extra[i].pieces = n;
 
-  for (int q = 0; q < N; q++) {
-    int j = i;
-    if (q) {
-      double at[3] = {x[0], x[1], x[2]};
-      atom->avec->create_atom(atom->type[i], at);
-      j = atom->nlocal - 1;
-      atom->avec->copy(i, j, 0);    // fixes look at what is new
-      modify->create_attribute(j);
-    }
+  const int first = atom->nlocal;
+  for (int q = 1; q < N; q++) {
+    double at[3] = {x[0], x[1], x[2]};
+    atom->avec->create_atom(atom->type[i], at);
+    atom->avec->copy(i, atom->nlocal - 1, 0);    // fixes look at what is new
+    modify->create_attribute(atom->nlocal - 1);
   }
-  const int first = atom->nlocal - (N - 1);
   for (int q = N - 1; q >= 0; q--) {
     const int j = q ? first + q - 1 : i;
     if (q) {

@@ -56,7 +56,7 @@ def frame(path):
     return hvi.Dump(str(path), units="si")[0]
 
 
-@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (4, "off")])
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (3, "on"), (4, "off")])
 def test_pieces(ball, tmp_path, nranks, newton):
     """mass, momentum, energy and the middle of each particle stay; pieces fly on as all does, from one place; fragments as coarse as particles change nothing"""
     thermo = ball("run 200\n" + DUMP.format("end.dump"), nranks=nranks, newton=newton).thermo
@@ -74,7 +74,8 @@ def test_pieces(ball, tmp_path, nranks, newton):
     slope = (r @ v) / (r @ r)
     rest = end.v - slope * end.x
     assert np.sqrt((rest**2).sum(axis=1).mean()) < 0.25 * v.mean()
-    assert abs(slope * thermo["f_step[2]"][-1] - 1) < 0.5
+    flown = RATE * thermo["f_step[2]"][-1]
+    assert slope == pytest.approx(RATE / (1 + flown), rel=0.1)
 
 
 def test_energy_of_spreading(ball, tmp_path):
@@ -131,7 +132,7 @@ def test_at_faces_and_on_many_ranks(ball):
     """what would be put beyond a fixed face leaves as a whole, and all of it is counted; ranks that are too narrow are an error"""
     head = BALL.format(newton="on", low=-0.1, edge=-0.1, mirror="", rate=RATE).replace("box block -0.1 0.1 -0.1 0.1 -0.1 0.1", "box block -2e-3 2e-3 -4e-3 4e-3 -4e-3 4e-3").replace("x final -0.1 0.1 y final -0.1 0.1", "x final -2e-3 2e-3 y final -4e-3 4e-3")
     thermo = ball("run 200\n", head=head).thermo
-    assert thermo["f_debris"][-1] > 0 and thermo["c_book[21]"][-1] >= 0 and abs(np.array(thermo["c_book[9]"]) - 1).max() < 1e-3
+    assert thermo["f_debris"][-1] > 0 and abs(np.array(thermo["c_book[9]"]) - 1).max() < 1e-3
     assert thermo["Atoms"][-1] < thermo["Atoms"].max()
     narrow = BALL.format(newton="on", low=-0.1, edge=-0.1, mirror="", rate=RATE).replace("region box", "processors 4 1 1\nregion box") + "balance 1.0 x 0.499 0.5 0.501\n"
     said = ball("run 200\n", nranks=4, head=narrow, expect_fail=True)

@@ -18,8 +18,8 @@ namespace HVI {
 
 /* ----------------------------------------------------------------------
    How far a body reaches along an axis, in square columns across it.  What is farther back than that by half a column's
-   width, in its column and in those around it, is before the rear face of the body, however far it has bulged.  Where the body has no matter there
-   is no face.
+   width, in its column and in those around it, is before the rear face of the body, however far it has bulged.
+   Where the body has no matter there is no face.
 ------------------------------------------------------------------------- */
 
 class RearFace {
