@@ -1,6 +1,6 @@
 """Fuzzes the readers of C++ and of Python, and LAMMPS with random inputs: make fuzz MINUTES=10.
 
-    python3 tests/fuzz/fuzz.py --minutes 10 --jobs 2 --out build-sanitize/fuzz --lmp build-sanitize/lmp [--seed N] [--only material,case,lammps]
+    python3 tests/fuzz/fuzz.py --minutes 10 --jobs 2 --out build-sanitize/fuzz --lmp build-sanitize/lmp [--seed N] [--only material,python-case,lammps]
 
 Each of the fuzzers runs for these minutes, as many at once as there are jobs. What they find is in the folder --out, by fuzzer, and the status is 1. The C++ ones
 are built with clang and libFuzzer, and go on from the corpus that they left there.
