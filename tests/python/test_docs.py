@@ -1,4 +1,4 @@
-"""The documentation keeps up with the code: a page per style, links that lead somewhere, inputs that run."""
+"""The documentation keeps up with the code: a page per style, inputs that run. Links: test_links.py; commands: test_page_commands.py, test_readmes.py."""
 
 import re
 import shlex
@@ -16,12 +16,6 @@ def test_every_style_has_its_page(root):
     import stylepages
 
     assert list(stylepages.problems(root / "doc" / "src", root / "src" / "USER-HVI")) == []
-
-
-def test_links_lead_somewhere(markdown):
-    lost = [f"{p.name}: {link}" for p in markdown for link in re.findall(r"\]\(([^)#]+)\)", p.read_text())
-            if "://" not in link and not (p.parent / link).exists()]
-    assert lost == []
 
 
 def test_plain_ascii(root, markdown):
