@@ -12,7 +12,7 @@ import sys
 import pytest
 from conftest import ROOT
 from hvi import cli
-from test_readmes import known
+from input_variables import known
 
 PAGES = [ROOT / "README.md", ROOT / "bench" / "README.md", ROOT / "tests" / "fuzz" / "README.md", *sorted((ROOT / "doc" / "src").glob("*.rst"))]
 BEGINS = r"(?:\w+=\S+ +)*(?:apt-get|git|cd|make|cmake|ctest|export|hvi|build/hvi|venv/bin/\w+|mpirun|lmp|build/lmp|cmake/env\.sh|python3)(?=\s|$)"
@@ -186,5 +186,5 @@ def test_lines_run(tmp_path, lmp_exe):
             folder.mkdir()
             for link in ("examples", "potentials", "python"):
                 (folder / link).symlink_to(tmp_path / link)
-        done = subprocess.run(["bash", "-c", line], cwd=folder, env=environment, text=True, capture_output=True, timeout=120)
+        done = subprocess.run(["bash", "-c", line], cwd=folder, env=environment, text=True, capture_output=True, timeout=900)
         assert done.returncode == 0, f"{name}: {line}: {done.stdout[-1000:]}{done.stderr[-1000:]}"

@@ -10,6 +10,7 @@ import sys
 import pytest
 from conftest import ROOT
 from hvi import cli
+from input_variables import known
 
 EXAMPLES = sorted(path.parent for path in (ROOT / "examples").glob("**/README.md"))
 # what a block of commands leaves behind for the next ones
@@ -33,12 +34,6 @@ def commands(folder):
                 yield words
     for line in re.findall(r"^        (mpirun .*)$", (folder / "README.md").read_text(), re.M):  # the body of a loop
         yield shlex.split(line.split(";")[0])
-
-
-def known(script):
-    """names that an input takes with -var"""
-    text = script.read_text()
-    return set(re.findall(r"\bvariable +(\w+) +index\b", text)) | set(re.findall(r"is_defined\(variable,(\w+)\)", text))
 
 
 def check_variables(folder, words, where):
