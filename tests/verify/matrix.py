@@ -44,7 +44,7 @@ def sources():
     files = subprocess.run(["git", "ls-files", "src", "lib", "cmake", "tests", "potentials", "Makefile"], cwd=ROOT, text=True, capture_output=True, check=True).stdout.split()
     h = hashlib.sha256()
     for f in sorted(files):
-        if not f.startswith("tests/matrix.") and (ROOT / f).exists():
+        if not f.startswith("tests/verify/matrix.") and (ROOT / f).exists():
             h.update(f.encode() + (ROOT / f).read_bytes())
     return h.hexdigest()[:12]
 
