@@ -100,7 +100,7 @@ FixHVIDebris *FixHVIDebris::find(LAMMPS *lmp)
 }
 
 /* ----------------------------------------------------------------------
-   the particle before it failed: its cell, and how many fragments of the mass that it stands for lie along its edge
+   the particle before it failed: its cell, and how many fragments lie along its edge
 ------------------------------------------------------------------------- */
 
 double FixHVIDebris::mass(int i) const
@@ -117,8 +117,7 @@ int FixHVIDebris::pieces(int i) const
 {
   const double fragments = strength->fragments(i);
   if (!(fragments > 0.0)) return 1;
-  const double ratio = size(i) / fragments;
-  return HVI::Pieces::along_edge(ratio * ratio * ratio, most, atom->tag[i]);
+  return (int) std::lround(std::min((double) most, size(i) / fragments));
 }
 
 // by how much its cell has widened, by the rate at which it failed: as if all flew from one place

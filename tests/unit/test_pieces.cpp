@@ -59,29 +59,3 @@ TEST(Pieces, TheSameNumberTheSameTurn)
   EXPECT_EQ(Pieces::places(3, 5), Pieces::places(3, 5));
   EXPECT_NE(Pieces::places(3, 5), Pieces::places(3, 6));
 }
-
-// parts of all mass in fragments heavier than x times the mean, (1 + x) exp(-x), by the integral of x exp(-x)
-
-TEST(Pieces, MassesAreExponential)
-{
-  const int many = 40000;
-  for (const double mean_fragments : {0.1, 1.0, 8.0, 40.0}) {
-    double number[4] = {}, part[3] = {};
-    for (int one = 0; one < many; one++)
-      number[Pieces::along_edge(mean_fragments, 3, one)] += 1.0 / many;
-    const double edges[4] = {1e3, mean_fragments / std::sqrt(8.0),
-                             mean_fragments / std::sqrt(8.0 * 27.0), 0.0};
-    for (int n = 0; n < 3; n++) {
-      const int steps = 20000;
-      const double dx = (edges[n] - edges[n + 1]) / steps;
-      for (int k = 0; k < steps; k++) {
-        const double x = edges[n + 1] + (k + 0.5) * dx;
-        part[n] += x * std::exp(-x) * dx;
-      }
-      EXPECT_NEAR(number[n + 1], part[n], 4.0 * std::sqrt(0.25 / many))
-          << mean_fragments << " " << n;
-    }
-  }
-  EXPECT_EQ(Pieces::along_edge(1e-9, 3, 7), 1);
-  EXPECT_EQ(Pieces::along_edge(1e9, 2, 7), 2);
-}

@@ -20,24 +20,6 @@ namespace HVI {
 
 class Pieces {
  public:
-  // How many to an edge, most at most, of a cube with the mass of so many mean fragments.  Masses of fragments are
-  // exponential (Grady & Kipp, J. Appl. Phys. 58 (1985) 1210): those heavier than x times the mean have the part
-  // (1 + x) exp(-x) of all mass.  A cube stands for fragments of one mass, drawn by its number with the odds of the
-  // part that they have.
-
-  static int along_edge(double mean_fragments, int most, uint64_t number)
-  {
-    number = ~number;    // turns are drawn from the number itself
-    const double drawn = uniform(number);
-    int n = 1;
-    for (; n < most; n++) {
-      const double x =
-          mean_fragments / std::pow(n * (n + 1.0), 1.5);    // between n^3 and (n + 1)^3
-      if (drawn < (1.0 + x) * std::exp(-x)) break;
-    }
-    return n;
-  }
-
   // their middles, whose mean is 0; the same number turns them the same way
 
   static std::vector<std::array<double, 3>> places(int n, uint64_t number)
