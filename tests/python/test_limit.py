@@ -42,7 +42,7 @@ def test_limit_with_an_undecided_region(folder, capsys, monkeypatch):
     assert re.search(r"undecided: dx-0.2_shift-0.0_D-4.3\n  - 1 percent of the energy of the shot are still on their way to wall 2 at [\d.]+ us, the end at the latest -- take settings: {tstop: [\d.]+}\n", out)
 
 
-@pytest.mark.parametrize("words, limit", [(("thickness2", "--from", "1.2", "--to", "3.2", "--step", "0.2"), 1.9), (("D",), 4.25)])
+@pytest.mark.parametrize("words, limit", [(("thickness2", "--from", "1.2", "--to", "3.2", "--step", "0.2"), 1.9), pytest.param(("D",), 4.25, marks=pytest.mark.long)])
 def test_limit_on_what_holds_when_it_is_more(folder, monkeypatch, words, limit):
     """a wall that is thicker holds: D = 5 needs 1.95 mm and 1.9 mm at 0.2, 1.75 mm and 1.7 at 0.4"""
     monkeypatch.setenv("FAKE_LIMIT", "4.05")
@@ -64,7 +64,7 @@ def test_limit_on_speed(folder, monkeypatch):
 def test_curve(folder, capsys, monkeypatch):
     """a limit for each speed, with the equations beside; what was run is left alone; a speed that has none in the range says so"""
     monkeypatch.setenv("FAKE_POWER", "1")
-    words = ["curve", "--speeds", "5:7:3", "--from", "3", "--to", "7", "--step", "0.2", "--jobs", "3"]
+    words = ["curve", "--speeds", "5:7:2", "--from", "3", "--to", "7", "--step", "0.2", "--jobs", "3"]
     assert front(*words) == 0
     out, where = capsys.readouterr().out, folder / "runs/emi/curve-D"
     with open(where / "curve.csv", newline="") as table:
@@ -72,12 +72,12 @@ def test_curve(folder, capsys, monkeypatch):
     for row in rows:
         v = float(row["speed_km_s"])
         assert float(row["limit_mm"]) == pytest.approx(4 * 7.1 / v + 0.2, abs=0.2) and float(row["low"]) < float(row["limit_mm"]) < float(row["high"]) and float(row["NNO"]) > 0
-    assert [float(row["speed_km_s"]) for row in rows] == [5, 6, 7] and "cost: " in out and (where / "curve.png").stat().st_size > 10_000
+    assert [float(row["speed_km_s"]) for row in rows] == [5, 7] and "cost: " in out and (where / "curve.png").stat().st_size > 10_000
     before = begun(folder)
     assert front(*words) == 0 and begun(folder) == before
     assert front("curve", "--speeds", "3:7:2", "--from", "3", "--to", "7", "--step", "0.2") == 4
     assert "no limit at 3 km/s: an end of the range" in capsys.readouterr().out
-    assert front("curve", "--speeds", "5:7:2", "--on", "thickness2", "--from", "1.2", "--to", "3.2", "--step", "0.4") in (0, 4)
+    assert front("curve", "--speeds", "5:7:2", "--on", "thickness2", "--from", "1.2", "--to", "3.2", "--step", "0.8") in (0, 4)
     assert "equations: none: the equations are for a diameter" in capsys.readouterr().out
 
 
