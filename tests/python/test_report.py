@@ -27,13 +27,13 @@ def lattice(kind, dx, low, high, radius, speed):
     return np.column_stack([np.full(len(x), kind), x, np.full(len(x), speed)])
 
 
-def write_dump(path, step, time, rows):
+def write_dump(path, step, time, rows, columns=COLUMNS):
     n = len(rows)
-    table = np.zeros((n, len(COLUMNS.split())))
+    table = np.zeros((n, len(columns.split())))
     table[:, 0], table[:, 1], table[:, 2] = np.arange(1, n + 1), rows[:, 0], 1e-6
     table[:, 3:6], table[:, 8], table[:, 9] = 1e-3 * rows[:, 1:4], rows[:, 4], time
     body = "\n".join(" ".join(f"{v:.9g}" for v in row) for row in table)
-    path.write_text(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{n}\nITEM: BOX BOUNDS ff ff ff\n-0.001 0.02\n-0.001 0.02\n-0.02 0.05\nITEM: ATOMS {COLUMNS}\n{body}\n")
+    path.write_text(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{n}\nITEM: BOX BOUNDS ff ff ff\n-0.001 0.02\n-0.001 0.02\n-0.02 0.05\nITEM: ATOMS {columns}\n{body}\n")
 
 
 def make_run(folder, dx, shift=0.0, verdict="fails", material="Al6061-T6.hvi", film=False, reason="wall 2 is perforated by a hole of 3 mm", outside=""):
@@ -229,6 +229,55 @@ def test_scene_is_the_whole(tmp_path):
     assert len(left) == (scene.body == 2).sum()
     case = run.case
     assert (case.diameter_mm, case.speed_km_s, [w.gap_mm for w in case.walls]) == (4.0, 6.0, [None, 6.0])
+
+
+def write_whole(folder, walls):
+    """shield.dump of a run as a whole model: [(wall, front and rear in mm, (x, y) of a hole of 3 mm or None), ...]"""
+    side, rows = np.arange(-7.75, 8, 0.5), []
+    for k, low, high, hole in walls:
+        x = np.stack(np.meshgrid(side, side, np.arange(low + 0.25, high, 0.5), indexing="ij"), -1).reshape(-1, 3)
+        x = x[np.hypot(x[:, 0], x[:, 1]) < 8]
+        x = x[np.hypot(x[:, 0] - hole[0], x[:, 1] - hole[1]) > 1.5] if hole else x
+        rows.append(np.column_stack([np.full(len(x), 1 + k), x, np.zeros(len(x))]))
+    write_dump(folder / "shield.dump", 200, 9e-6, np.concatenate(rows), COLUMNS.replace("mirror_x_lo mirror_y_lo", "mirror_none"))
+
+
+def test_the_circle_is_at_the_hole(tmp_path):
+    """of an oblique shot it is not where the shot struck, on both faces; without a hole in the frame it is there"""
+    make_run(tmp_path / "run", 0.5)
+    write_whole(tmp_path / "run", [(1, 0.0, 1.0, None), (2, 7.0, 8.0, (2.0, -1.0))])
+    run = Run(tmp_path / "run")
+    scene = run.scene("shield.dump")
+    assert pictures.hole_center(run, scene, 2) == pytest.approx((2.0, -1.0), abs=0.1) and pictures.hole_center(run, scene, 1) == (0.0, 0.0)
+    for rear, y in ((False, -1.0), (True, 1.0)):  # the view from behind has -y to the right
+        (circle,) = pictures.face(run, scene, 2, rear).axes[0].lines
+        middle = [0.5 * (values.min() + values.max()) for values in (circle.get_xdata(), circle.get_ydata())]
+        assert middle == pytest.approx([y, 2.0], abs=0.1) and np.ptp(circle.get_xdata()) == pytest.approx(3.0, abs=0.01), f"rear {rear}"
+
+
+def test_a_wall_near_by_hides_no_other(tmp_path):
+    """a wall 1 that is within the reach of wall 2 is in no picture of it; its debris on wall 2 is"""
+    make_run(tmp_path / "run", 0.5)
+    plan = tmp_path / "run/plan.yaml"
+    plan.write_text(plan.read_text().replace("wall2_front_mm: 7.0", "wall2_front_mm: 2.0"))
+    write_whole(tmp_path / "run", [(1, 0.0, 1.0, None), (1, 4.5, 5.0, (0.0, 0.0)), (2, 2.0, 3.0, None)])
+    run = Run(tmp_path / "run")
+    scene = run.scene("shield.dump")
+
+    def layers(k, body):
+        return [*np.unique(np.round(scene.x[pictures.near_wall(run, scene, k) & (scene.body == body), 2], 2))]
+    assert layers(2, 1) == [4.75] and layers(2, 2) == [2.25, 2.75]
+    assert layers(1, 1) == [0.25, 0.75] and layers(1, 2) == []
+
+
+def test_energy_of_the_tile_is_the_largest_of_the_table(tmp_path):
+    """no tile with a small error over a table with a large one"""
+    make_run(tmp_path / "one", 1.0)
+    result = tmp_path / "one/result.yaml"
+    text = result.read_text()
+    for missed, tile in ((7.4e-4, "<b>7.4e-04</b><span>energy missed by the time integration"), (-7.4e-6, "<b>1.0e-04</b><span>energy missing in the ledger")):
+        result.write_text(f"energy_missed_ratio: {missed}\n{text}")
+        assert cli.main(["report", str(tmp_path / "one")]) == 0 and tile in (tmp_path / "one/report.html").read_text(), missed
 
 
 # ---------------------------------------------------------------------- movie and export
