@@ -247,7 +247,7 @@ class Records:
 
     def of_limit(self, limit, answer):
         """between which values the measured limit is, as those of the records are, and how many of their shields hold with the case's own value"""
-        case, wall = limit.case, limit.wall == len(limit.case.walls) - 1
+        case, wall = limit.case, limit.key == "thickness_mm" and limit.wall == len(limit.case.walls) - 1
         if not (wall or limit.key == "size_mm"):
             raise HVIError(f"there are no measured limits over {answer['on']}: records are of the last wall's thickness and of diameters")
         computed, records = answer["limit"], self.for_case(limit.at(answer["limit"]), ["wall_mm" if wall else "D_mm"])
