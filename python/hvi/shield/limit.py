@@ -153,7 +153,7 @@ class Limit:
     def answer(self):
         """The mapping of limit.yaml; limit is None where it is not in the range, reasons say why."""
         borders = {member: (s.borders()[0], s.borders()[3]) for member, s in self.searches.items()}
-        result = {"on": self.quantity.title, "unit": self.unit, "limit": None, "own": self.own, "case": self.case.mapping()}
+        result = {"on": self.quantity.title, "unit": self.unit, "limit": None, "varied": self.on, "own": self.own, "case": self.case.mapping()}
         outside = [f"{decision.member_name(self.case, member)}: " + ", ".join(f"{s.said[place]} at {self.values[place]:g} {self.unit}" for place in sorted(s.said))
                    for member, s in self.searches.items() if None in borders[member]]
         if outside:
