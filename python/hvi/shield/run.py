@@ -8,10 +8,12 @@ import warnings
 
 import numpy as np
 
-from ..errors import HVIError
+from ..errors import HVIError, needed
 from ..io.dump import Dump
 from ..jobs import engine
+from ..units import label
 from . import case as cases
+from .record import OF_A_PIECE, OF_THE_MODEL, UNITS, WALL, Record
 from .script import CASE
 
 
@@ -40,7 +42,11 @@ class Scene:
 
 
 class Run:
-    """The folder of one run."""
+    """The folder of one run, as runs/quick/dx-0.5_shift-0.0.
+
+    result, plan: mappings of result.yaml and plan.yaml, units in the names; case: the Case; walls: how many, reached: the last one that was struck; dx: mm between particles of the projectile;
+    frames(): the hvi.Dump of all frames, scene(name): a dump in mm, us, km/s
+    """
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
@@ -110,6 +116,19 @@ class Run:
     def dx(self):
         """of its particles, mm"""
         return self.case.spacings_mm[0]
+
+    def dataframe(self):
+        """A pandas.DataFrame with a row per moment, index "time (us)": for each wall the columns of compute hvi/wall, as "wall2 momentum (kg m/s)", in SI, of the whole shield also where a
+        quarter was modelled. HVIError if pandas, or a file of the run, is not there."""
+        pandas = needed("pandas", "dataframe() needs")
+        record = Record(self.folder)
+        images, columns = 4 if str(self.settings["quarter"]) == "yes" else 1, {}
+        for k in range(1, self.walls + 1):
+            for name in WALL:
+                unit = UNITS.get(name)
+                times = images if unit in OF_THE_MODEL and name not in OF_A_PIECE or name == "apart_number" else 1
+                columns[label(f"wall{k} {name}", unit)] = times * getattr(record.pieces, name)[:, k - 1]
+        return pandas.DataFrame(columns, index=pandas.Index(record.seldom_us, name="time (us)"))
 
     def dumps(self):
         """paths of all frames, in order of time"""
