@@ -27,7 +27,7 @@ COMMANDS = {
     "sweep": "a LAMMPS input for many values of its variables, as study files say, with a table of all results",
     "report": "one HTML file of the folder of hvi shield, or of one of its runs: verdict, reasons, pictures, all numbers",
     "movie": "an animated GIF of a run of a shield from the side; frames: settings: {film: 1} of a case",
-    "export": "dumps for ParaView: a VTU file of each frame with units in the names, and a PVD file of all",
+    "export": "dumps for ParaView: a VTU file of each frame with units in the names, and a PVD file of all; or for OVITO: one dump with names of types",
     "limits": "shields whose limit shots bracket: the measured limit, that of the simulation, and those of equations",
     "calibrate": "how sure verdicts and limits are: makes records of hvi limits and hvi shots, and judges them by each other",
     "shots": "a list of shots on double walls: what was seen, what the simulation says, and what equations say",

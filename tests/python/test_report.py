@@ -10,6 +10,7 @@ import yaml
 from hvi import cli
 from hvi.commands import movie
 from hvi.errors import HVIError
+from hvi.io.dump import Dump
 from hvi.report import page, pictures, render
 from hvi.shield.run import Run, runs_of
 
@@ -334,8 +335,38 @@ def test_export_without_meshio(several, monkeypatch):
     np.testing.assert_array_equal(values(piece.find("Points/DataArray")), scene.x.ravel())
     cells = {element.get("Name"): values(element) for element in piece.findall("Cells/DataArray")}
     assert list(cells["connectivity"]) == list(range(n)) and list(cells["offsets"]) == list(range(1, n + 1)) and set(cells["types"]) == {1}  # VTK_VERTEX
+    assert piece.find("Points/DataArray").get("Name") == "position (m)"
+    said = {element.get("Name"): values(element) for element in tree.parse("x.0004.vtu").getroot().findall("UnstructuredGrid/FieldData/DataArray")}
+    assert said["TimeValue"] == [9e-6] and said["type 1: projectile, Al2017-T4"] == [1] and said["type 3: wall 2, Al6061-T6"] == [3] and len(said) == 4
     kinds = {element.get("Name"): element.get("type") for element in piece.findall("PointData/DataArray")}
     assert kinds["type"] == "Int64" and kinds["mass (kg)"] == "Float64" and {element.get("NumberOfComponents") for element in piece.findall("PointData/DataArray")} == {None, "3"}
+
+
+def test_export_to_ovito(tmp_path, capsys):
+    """one dump of all frames, whole, with units, times, names of types and units in the names of columns; our own reader takes it back"""
+    make_run(tmp_path / "run", 1.0)
+    assert cli.main(["export", str(tmp_path / "run"), "--to", "ovito", "--out", "x"]) == 0
+    assert capsys.readouterr().out.strip() == "exported: x.lammpstrj, 2 frames, lengths in m, times in s; types: 1 projectile, Al2017-T4; 2 wall 1, Al6061-T6; 3 wall 2, Al6061-T6"
+    dump, scene = Dump("x.lammpstrj", mirror="none"), Run(tmp_path / "run").scene("shield.dump").whole
+    frame = dump[1]
+    assert (dump.units, list(dump.steps), [dump.time(k) for k in range(2)]) == ("si", [50, 200], [2e-6, 9e-6])
+    np.testing.assert_allclose(frame.x, scene.x, rtol=1e-8)
+    np.testing.assert_allclose(frame.v, scene.v, rtol=1e-8)
+    np.testing.assert_array_equal(frame.ids, scene.ids)
+    assert {"p_Pa", "vm_Pa", "e_J/kg", "fragsize_m", "mass"} <= set(frame.columns) and not {"time_si", "mirror_x_lo"} & set(frame.columns)
+    assert {(kind, name) for kind, name in zip(frame["type"], frame["element"])} >= {(1, "projectile_Al2017-T4"), (3, "wall2_Al6061-T6")}
+
+
+@pytest.mark.parametrize("box", ["BOX BOUNDS pp ff ff\n-1 1\n-2 2\n-3 3\n", "BOX BOUNDS xy xz yz pp pp pp\n-1 1.5 0.5\n-2 2 0\n-3 3 0\n"])
+def test_export_of_boxes(tmp_path, box):
+    """periodic and triclinic ones stay what they are; coordinates are unwrapped; types have the names that are given"""
+    (tmp_path / "a.dump").write_text(f"ITEM: UNITS\nlj\nITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n2\nITEM: {box}ITEM: ATOMS id type x y z ix iy iz\n1 1 0.5 0 0 1 0 0\n2 2 0 1 0 0 0 0\n")
+    assert cli.main(["export", "a.dump", "--to", "ovito", "--names", "ball", "my plate", "--mirror", "none", "--mass", "1=1", "--mass", "2=3"]) == 0
+    old, new = Dump("a.dump", mirror="none")[0], Dump("a.lammpstrj", mirror="none")[0]
+    np.testing.assert_allclose(new.x, old.x)
+    np.testing.assert_allclose(new.box.vectors, old.box.vectors)
+    np.testing.assert_allclose(new.box.origin, old.box.origin)
+    assert new.box.periodic == old.box.periodic and new.x[0, 0] > 2 and list(new["element"]) == ["ball", "myplate"] and list(new["mass"]) == [1, 3] and new.units == "lj" and new.time is None
 
 
 def test_texts_are_escaped():

@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import HVIError, needed
 from ..io.dump import Dump
 from ..jobs import engine
+from ..material.library import stem
 from ..units import label
 from . import case as cases
 from .record import OF_A_PIECE, OF_THE_MODEL, UNITS, WALL, Record
@@ -81,6 +82,11 @@ class Run:
     def bodies(self):
         """of each type: 0 the projectile, k wall k"""
         return self.by_type(list(range(self.walls + 1)), lambda k: k)
+
+    def type_names(self):
+        """{type: "wall 1, Al6061-T6"}"""
+        names = {1 + k: f"{f'wall {k}' if k else 'projectile'}, {stem(material)}" for k, material in enumerate(self.materials)}
+        return {**names, **{kind: f"{names[1 + k]}, outer part" for kind, k in self.outers().items()}}
 
     def spacings(self):
         """the longest of a particle's cell, mm, for each type"""
