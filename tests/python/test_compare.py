@@ -98,8 +98,10 @@ def test_wrong_shields(three, capsys):
     for words, message in ((["emi.yaml", "a.yaml"], "cannot compare a shield with what is none: emi.yaml and a.yaml"), (["emi.yaml", "runs"], "a shield with what is none: emi.yaml and runs"),
                            (["emi.yaml", "triple.yaml", "--rtol", "1"], "--rtol is for two runs, not for shields"), (["a.yaml", "a.yaml", "a.yaml"], "two runs are compared, not 3"),
                            (["a.yaml", "a.yaml", "--figure", "x"], "--figure is for shields"), (["runs/old"], "runs/old has limits or curves only: give the case itself, CASE.yaml, and --runs runs"),
-                           (["old.yaml"], "runs/old/limit-D/limit.yaml does not say of which case it is: call python3 -m hvi limit again")):
+                           (["old.yaml", "a.yaml"], "a shield with what is none: old.yaml and a.yaml")):
         assert cli.main(["compare", *words]) == 1 and message in capsys.readouterr().err, words
+    capsys.readouterr()
+    assert cli.main(["compare", "old.yaml"]) == 0 and "left out: runs/old/limit-D: of other values than the case's, or of an older version" in capsys.readouterr().out
     with pytest.raises(HVIError, match="nowhere does not exist"):
         answer.read("nowhere")
     with pytest.raises(HVIError, match="runs is no folder of python3 -m hvi shield, limit or curve"):

@@ -62,7 +62,7 @@ def of_shields(args):
     print(tables.text(("", *(one.name for one in found)), [(name, *(row.get(name, compare.MISSING) for row in rows)) for name in columns]))
     for one in found:
         for folder in one.left_out:
-            print(f"left out: {one.folder / folder}: of other values than the case's")
+            print(f"left out: {one.folder / folder}: of other values than the case's, or of an older version: call hvi limit or curve again, its runs stay")
     if args.out:
         tables.write_csv(args.out, ("shield", *columns), [(one.name, *(row.get(name, "") for name in columns)) for one, row in zip(found, rows)])
     draw(args.figure, "shields", answer.bars_of(found), answer.curves_of(found))

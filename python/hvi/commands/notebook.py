@@ -8,7 +8,6 @@ import signal
 import yaml
 
 from ..errors import HVIError, writing
-from ..jobs import engine
 from ..shield import answer
 from . import shield
 
@@ -47,7 +46,7 @@ def verdict(case, name=None, runs="runs", **options):
     args = parser.parse_args([str(path), f"--runs={runs}", *(f"--{key.replace('_', '-')}={value}" for key, value in options.items() if value is not None)])
     if args.write or args.dry_run:
         raise HVIError("hvi.verdict(): write and dry_run are for the command line")
-    before = {number: signal.getsignal(number) for number in engine.ENDING}
+    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGHUP)}  # which end runs, and are the notebook's own again after them
     try:
         shield.main(args)
     finally:

@@ -30,7 +30,6 @@ RESULT, LAST = "result.yaml", "package_version"  # what a run is for, and the la
 PATIENCE = 10  # seconds that mpirun has to end its ranks
 DAY = 86400  # seconds
 FULL = 100_000  # bytes: less is a full disk
-ENDING = signal.SIGTERM, signal.SIGHUP  # as Ctrl-C; nohup still works
 END = b"LammpS RestartT\0"  # of a restart file
 
 
@@ -360,7 +359,7 @@ class Runner:
         lammps.check_mpirun(self.mpirun)
         if os.sep in self.mpirun:
             self.mpirun = os.path.abspath(self.mpirun)  # runs have folders of their own
-        for ends in ENDING:
+        for ends in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C; nohup still works
             if signal.getsignal(ends) != signal.SIG_IGN:
                 signal.signal(ends, signal.default_int_handler)
 

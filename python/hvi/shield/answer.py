@@ -15,7 +15,7 @@ from .run import runs_of, texts
 
 NOT_RUN = "not run"
 MARGINS = ("hole_mm", "apart_mass_mg", "bulge_over_thickness", "deepest_failed_layer", "layers", "rear_plastic_strain")  # of a run, the larger the worse
-NOT_OF_THE_SHOT = "spacings_mm", "shifts", "file"  # keys of a case that differ between its runs, or do not matter here
+NOT_OF_THE_SHOT = "spacings_mm", "shifts", "file"  # keys of a case that differ between its runs: each has one spacing, and the file of that
 
 
 @dataclasses.dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Answer:
     runs: tuple of hvi.shield.run.Run, the finest first
     said: mapping of verdict.yaml, {} if there is none
     limits, curves: {folder: mapping of limit.yaml or curve.yaml} of those that were searched with the values of this case
-    left_out: names of folders with limits and curves of other values
+    left_out: names of folders with limits and curves of other values, or of an older version
     """
 
     name: str
@@ -92,13 +92,11 @@ def shot_of(mapping):
 
 
 def searched(folder, kind, case):
-    """({folder: mapping} of kind.yaml in the folders kind-* that are of this case, [names of those that are not])"""
+    """({folder: mapping} of kind.yaml in the folders kind-* that are of this case, [names of those that are not, or of an older version that does not say])"""
     found, other = {}, []
     for path in sorted(folder.glob(f"{kind}-*/{kind}.yaml")):
-        mapping = engine.read_yaml(path)
-        if not mapping or not isinstance(mapping.get("case"), dict):
-            raise HVIError(f"{path} does not say of which case it is: call python3 -m hvi {kind} again, its runs stay")
-        if shot_of(mapping["case"]) == shot_of(case.mapping()):
+        mapping = engine.read_yaml(path) or {}
+        if isinstance(mapping.get("case"), dict) and shot_of(mapping["case"]) == shot_of(case.mapping()):
             found[path.parent.name] = mapping
         else:
             other.append(path.parent.name)
