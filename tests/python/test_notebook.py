@@ -46,7 +46,8 @@ def test_verdict_of_a_mapping(folder):
 @pytest.mark.parametrize("how, message", [
     ({"case": {}}, "a mapping needs a name: its runs are in the folder RUNS/NAME"), ({"case": "emi.yaml", "name": "x"}, "a name is for a mapping"), ({"case": "none.yaml"}, "none.yaml does not exist|cannot read none.yaml"),
     ({"case": "emi.yaml", "jobs": 0}, r"hvi.verdict\(\): argument --jobs: 0 is not a whole number from 1 on"), ({"case": "emi.yaml", "shift": 3}, r"hvi.verdict\(\): unrecognized arguments: --shift=3"),
-    ({"case": "emi.yaml", "write": "x"}, "write and dry_run are for the command line"), ({"case": {"speed_km_s": 7}, "name": "half"}, "runs/half.yaml.*is missing")])
+    ({"case": "emi.yaml", "write": "x"}, "write is for the command line"), ({"case": "emi.yaml", "dry_run": True}, r"hvi.verdict\(\): argument --dry-run: ignored explicit argument"),
+    ({"case": {}, "name": "../x"}, "the name '../x' must be that of a folder in runs, without a path"), ({"case": {"speed_km_s": 7}, "name": "half"}, "runs/half.yaml.*is missing")])
 def test_wrong_verdicts(folder, how, message):
     """errors are HVIErrors, none ends Python"""
     with pytest.raises(hvi.HVIError, match=message):

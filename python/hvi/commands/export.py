@@ -56,7 +56,7 @@ def fields(frame):
 
 
 def field_data(frame, names):
-    """What is of the whole frame, as numbers with names, since not all readers know texts: the time, by the name that VTK gives it, and the types"""
+    """Values of the whole frame, as numbers with names, since not all readers know texts: the time, by the name that VTK gives it, and the types"""
     found = [] if frame.time is None else [array(np.array([frame.time]), "TimeValue")]
     found += [array(np.array([kind]), f"type {kind}: {name}") for kind, name in names.items()]
     return ["<FieldData>", *(text.replace("<DataArray", '<DataArray NumberOfTuples="1"') for text in found), "</FieldData>"] if found else []

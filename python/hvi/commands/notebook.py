@@ -33,6 +33,8 @@ def verdict(case, name=None, runs="runs", **options):
     if isinstance(case, dict):
         if not name:
             raise HVIError("hvi.verdict(): a mapping needs a name: its runs are in the folder RUNS/NAME")
+        if pathlib.Path(name).name != name:
+            raise HVIError(f"hvi.verdict(): the name {name!r} must be that of a folder in {runs}, without a path")
         path = pathlib.Path(runs) / f"{name}.yaml"
         with writing(path):
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -44,8 +46,8 @@ def verdict(case, name=None, runs="runs", **options):
     parser = _Parser(add_help=False, allow_abbrev=False)
     shield.add_arguments(parser)
     args = parser.parse_args([str(path), f"--runs={runs}", *(f"--{key.replace('_', '-')}={value}" for key, value in options.items() if value is not None)])
-    if args.write or args.dry_run:
-        raise HVIError("hvi.verdict(): write and dry_run are for the command line")
+    if args.write:
+        raise HVIError("hvi.verdict(): write is for the command line: it runs nothing")
     before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGHUP)}  # which end runs, and are the notebook's own again after them
     try:
         shield.main(args)

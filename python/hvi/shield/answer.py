@@ -1,5 +1,5 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""What hvi shield, limit and curve have found of a case, read from its folder: for notebooks, and for shields side by side."""
+"""Answers: verdict, limits and curves of a case, read from its folder, for notebooks and for shields side by side."""
 
 import dataclasses
 import math
@@ -14,7 +14,7 @@ from . import quantity
 from .run import runs_of, texts
 
 NOT_RUN = "not run"
-MARGINS = ("hole_mm", "apart_mass_mg", "bulge_over_thickness", "deepest_failed_layer", "layers", "rear_plastic_strain")  # of a run, the larger the worse
+MARGINS = ("hole_mm", "apart_mass_mg", "bulge_over_thickness", "deepest_failed_layer", "layers", "rear_plastic_strain")  # of a run; the largest is the worst, layers are the same in all of a spacing
 NOT_OF_THE_SHOT = "spacings_mm", "shifts", "file"  # keys of a case that differ between its runs: each has one spacing, and the file of that
 
 
@@ -80,7 +80,7 @@ class Answer:
 
 
 def shot_of(mapping):
-    """what a case is of, without what differs between its runs; mapping: of Case.mapping()"""
+    """a mapping of Case.mapping() without the keys in which runs of a case differ"""
     def plain(value):
         if isinstance(value, dict):
             return {key: plain(inside) for key, inside in value.items() if key not in NOT_OF_THE_SHOT}
