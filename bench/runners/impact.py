@@ -25,7 +25,6 @@ in the output of the run.
 import csv
 import math
 import os
-import pathlib
 import re
 import time
 

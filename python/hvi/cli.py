@@ -21,13 +21,13 @@ OLDEST = (3, 9)  # Python, as pyproject.toml has it
 COMMANDS = {
     "shield": "does the wall hold? A case at several spacings and shifts of the lattice, one verdict; exit status 0 holds, 3 fails, 4 undecided",
     "judge": "the verdict on a folder of hvi shield --write that was run by hand; exit status as that of shield",
-    "limit": "up to where does the wall hold? The limit over diameter, speed or the thickness of a wall; exit status 0 found, 4 not in the range",
-    "curve": "the limit over a list of speeds: table, CSV, and a picture with ballistic-limit equations; exit status 0, 4 if a speed has none in the range",
+    "limit": "up to where does the wall hold? The limit over diameter, speed, angle, the thickness of a wall or a gap; exit status 0 found, 4 not in the range",
+    "curve": "the limit over a list of speeds, gaps or angles: table, CSV, and a picture with ballistic-limit equations; exit status 0, 4 if one has none in the range",
     "ble": "ballistic-limit equations: critical diameter over speed for the shield of a case, or what they say of published shots",
     "sweep": "a LAMMPS input for many values of its variables, as study files say, with a table of all results",
     "report": "one HTML file of the folder of hvi shield, or of one of its runs: verdict, reasons, pictures, all numbers",
     "movie": "an animated GIF of a run of a shield from the side; frames: settings: {film: 1} of a case",
-    "export": "dumps for ParaView: a VTU file of each frame with units in the names, and a PVD file of all",
+    "export": "dumps for ParaView: a VTU file of each frame with units in the names, and a PVD file of all; or for OVITO: one dump with names of types",
     "limits": "shields whose limit shots bracket: the measured limit, that of the simulation, and those of equations",
     "calibrate": "how sure verdicts and limits are: makes records of hvi limits and hvi shots, and judges them by each other",
     "shots": "a list of shots on double walls: what was seen, what the simulation says, and what equations say",
@@ -44,7 +44,7 @@ COMMANDS = {
     "impacts": "where a cloud will strike a wall: momentum and energy per area of particles that fly on freely",
     "material": "checks material files, says what they have, lack and assume, and for which use; of one file the curves, too",
     "measure": "what a run of an example has recorded, such as the free surface of in.spall, is measured and put into its result.yaml",
-    "compare": "two runs side by side: result.yaml (or its folder), or the same measures of two dumps",
+    "compare": "shields side by side: verdict, limits, margins, areal density, cost, and curves in one picture; or two runs: result.yaml (or its folder), or the same measures of two dumps",
     "doctor": "is all there that hvi needs? LAMMPS with USER-HVI, MPI, Python's packages, materials, room; exit status 0 yes, 1 no",
 }
 

@@ -10,6 +10,10 @@ class HVIError(Exception):
     """Something in the input cannot be used; the message is meant for the user."""
 
 
+class NotThere(HVIError, AttributeError):
+    """An attribute that needs a library that is not there: help() goes on without it."""
+
+
 class HVIWarning(UserWarning):
     """Something is left out of the answer."""
 

@@ -236,7 +236,7 @@ class Writer:
                  "set group one type 2", "set group one sph/rho 1.01", "group moving clear", "group moving region half", "balance 1.0 shift xyz 5 1.1", "run 0", "run 3 pre no post no", "neighbor 0 bin",
                  "change_box all boundary p p p", f"change_box all x delta 0 {a} units box", "pair_coeff * * eos tait 1 4 7 h 1.25", f"timestep {self.dt / 2:g}", "timestep 1e10",
                  "replicate 2 1 1", "minimize 0 0 5 5", "newton off", "neigh_modify exclude group one two", "run_style respa 2 2", "special_bonds lj/coul 0 1 1", f"create_atoms 1 single {3 * a} {3 * a} {0} units box",
-                 "write_dump all atom now.dump", f"rerun now.dump dump x y z", "kim init x y", "reset_atoms id", "atom_modify sort 1 0", "comm_modify cutoff 3", "processors 1 1 *",
+                 "write_dump all atom now.dump", "rerun now.dump dump x y z", "kim init x y", "reset_atoms id", "atom_modify sort 1 0", "comm_modify cutoff 3", "processors 1 1 *",
                  "delete_bonds all bond 1 remove", "clear\nread_restart now.restart", "suffix off", "set group all charge 1", "fix again all hvi/sph", "compute again all hvi/energy"]
         return [rng.choice(known) for _ in range(rng.randrange(4))]
 

@@ -23,10 +23,10 @@ from hvi.io.data import DataFile
 from hvi.io.dump import Dump
 from hvi.jobs import sweep
 from hvi.material import library
-from hvi.model import stl
+from hvi.model import mesh_import, stl
 from hvi.shield import calibration, case, shots
 
-KINDS = {"case": "yaml", "dump": "dump", "data": "data", "material": "hvi", "surface": "stl", "shots": "csv", "records": "csv", "study": "yaml"}
+KINDS = {"case": "yaml", "dump": "dump", "data": "data", "material": "hvi", "surface": "stl", "abaqus": "inp", "vtk": "vtk", "shots": "csv", "records": "csv", "study": "yaml"}
 SECONDS, BYTES = 10, 2 << 30  # that one file may take
 
 
@@ -61,13 +61,21 @@ def _material(path):
     library.row(library.read(path))
 
 
+def _mesh(path):
+    for cells in (None, "STRUCK"):
+        with contextlib.suppress(HVIError):
+            made, _ = mesh_import.load(path, 2, cells)
+            if not all(np.isfinite(block).all() for block in (made.nodes, made.corners)):
+                raise AssertionError("coordinates that are not finite")
+
+
 def _study(path):
     for full in (False, True):
         with contextlib.suppress(HVIError):
             sweep.Study(path, full).jobs(path.parent)
 
 
-READ = {"case": _case, "dump": _dump, "data": _data, "material": _material, "surface": lambda path: stl.volume(stl.read(path)), "shots": shots.read_list,
+READ = {"case": _case, "dump": _dump, "data": _data, "material": _material, "surface": lambda path: stl.volume(stl.read(path)), "abaqus": _mesh, "vtk": _mesh, "shots": shots.read_list,
         "records": calibration.read, "study": _study}
 
 

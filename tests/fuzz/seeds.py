@@ -162,6 +162,12 @@ remove: [frame.*.dump]
 full:
   grid: {a: [1]}
 """
+_CORNERS = [(x, y, z) for x in (0, 1, 2) for y in (0, 1) for z in (0, 1)]
+_HEXES = [(0, 4, 6, 2, 1, 5, 7, 3), (4, 8, 10, 6, 5, 9, 11, 7)]
+ABAQUS = ("*NODE\n" + "".join(f"{k + 1}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(_CORNERS))
+          + "*ELEMENT, TYPE=C3D8\n" + "".join(f"{k + 1}, {', '.join(str(n + 1) for n in nodes)}\n" for k, nodes in enumerate(_HEXES)) + "*ELSET, ELSET=STRUCK\n1\n")
+LEGACY_VTK = ("# vtk DataFile Version 4.2\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 double\n" + "".join(f"{x} {y} {z}\n" for x, y, z in _CORNERS)
+              + "\nCELLS 2 18\n" + "".join(f"8 {' '.join(map(str, nodes))}\n" for nodes in _HEXES) + "\nCELL_TYPES 2\n12\n12\n")
 INPUT = "variable a index 1\nvariable b index 1\nvariable c index 1\nvariable d index 1 2\n"
 
 
@@ -198,6 +204,10 @@ def of(kind):
         found = [DATA, BOND, DATA.replace("# sph", "")]
     elif kind == "surface":
         found = [STL]
+    elif kind == "abaqus":
+        found = [ABAQUS]
+    elif kind == "vtk":
+        found = [LEGACY_VTK]
     elif kind == "shots":
         lists = sorted((ROOT / "examples" / "whipple-shield" / "shots").glob("shots.csv"))
         found = [",".join(shots.COLUMNS) + "\nA1,2017-T4,6061-T6,2024-T3,P,0.3,0.1,10,0.2,0,6.5,47\n"] + ["\n".join(path.read_text().splitlines()[:12]) + "\n" for path in lists]
@@ -208,7 +218,7 @@ def of(kind):
     return [text.encode() for text in found]
 
 
-KINDS = ("material", "table", "case", "dump", "data", "surface", "shots", "records", "study")
+KINDS = ("material", "table", "case", "dump", "data", "surface", "abaqus", "vtk", "shots", "records", "study")
 
 
 def words(kind):

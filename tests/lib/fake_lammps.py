@@ -1,7 +1,8 @@
 """Stands in for mpirun and LAMMPS:  fake_lammps.py -np N LMP -in in.shield -log FILE -var NAME VALUE ... [-var ...]
 
 The shield, which is that of job.yaml, holds up to a diameter of FAKE_LIMIT + dx + shift / 10, then is undecided (debris is still on its way), and fails
-(with a hole) from FAKE_UNSURE more on; a thickness of wall 2 adds to the limit what it has more than 1.2 mm. FAKE_POWER: it goes with the speed to minus that. FAKE_SLEEP: seconds that it takes; FAKE_FAIL:
+(with a hole) from FAKE_UNSURE more on; a thickness of wall 2 adds to the limit what it has more than 1.2 mm. FAKE_POWER: it goes with the speed to minus that;
+FAKE_GAP, FAKE_ANGLE: added to it for each mm of the last gap above 60, each degree. FAKE_SLEEP: seconds that it takes; FAKE_FAIL:
 fails in folders whose name has this in it, FAKE_SAVE: leaves restart files there; FAKE_NOTE: debris is on its way, and a part passed beside wall 2, whatever
 the verdict. With another input it writes the result.yaml of a sweep.
 """
@@ -41,6 +42,8 @@ time.sleep(float(os.environ.get("FAKE_SLEEP", "0")))
 D, dx, shift, v0 = (float(variables[name][0]) for name in ("D", "dx", "shift", "v0")) if shield else (float(variables["D"][0]), float(variables["dx"][0]), 0.0, 7100.0)
 thickness = [float(value) for value in variables["thickness"]]
 limit = float(os.environ.get("FAKE_LIMIT", "4")) * (7100 / v0) ** float(os.environ.get("FAKE_POWER", "0")) + dx + 0.1 * shift + thickness[-1] - 1.2
+if shield:
+    limit += float(os.environ.get("FAKE_GAP", "0")) * (float(variables["gap"][-1]) - 60) + float(os.environ.get("FAKE_ANGLE", "0")) * float(variables["angle"][0])
 unsure = float(os.environ.get("FAKE_UNSURE", "0"))
 verdict = "holds" if D <= limit else "undecided" if D <= limit + unsure else "fails"
 particles, core = int((D / dx)**3), dx**-4

@@ -10,6 +10,7 @@ import yaml
 from hvi import cli
 from hvi.commands import movie
 from hvi.errors import HVIError
+from hvi.io.dump import Dump
 from hvi.report import page, pictures, render
 from hvi.shield.run import Run, runs_of
 
@@ -27,13 +28,13 @@ def lattice(kind, dx, low, high, radius, speed):
     return np.column_stack([np.full(len(x), kind), x, np.full(len(x), speed)])
 
 
-def write_dump(path, step, time, rows):
+def write_dump(path, step, time, rows, columns=COLUMNS):
     n = len(rows)
-    table = np.zeros((n, len(COLUMNS.split())))
+    table = np.zeros((n, len(columns.split())))
     table[:, 0], table[:, 1], table[:, 2] = np.arange(1, n + 1), rows[:, 0], 1e-6
     table[:, 3:6], table[:, 8], table[:, 9] = 1e-3 * rows[:, 1:4], rows[:, 4], time
     body = "\n".join(" ".join(f"{v:.9g}" for v in row) for row in table)
-    path.write_text(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{n}\nITEM: BOX BOUNDS ff ff ff\n-0.001 0.02\n-0.001 0.02\n-0.02 0.05\nITEM: ATOMS {COLUMNS}\n{body}\n")
+    path.write_text(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{n}\nITEM: BOX BOUNDS ff ff ff\n-0.001 0.02\n-0.001 0.02\n-0.02 0.05\nITEM: ATOMS {columns}\n{body}\n")
 
 
 def make_run(folder, dx, shift=0.0, verdict="fails", material="Al6061-T6.hvi", film=False, reason="wall 2 is perforated by a hole of 3 mm", outside=""):
@@ -231,6 +232,55 @@ def test_scene_is_the_whole(tmp_path):
     assert (case.diameter_mm, case.speed_km_s, [w.gap_mm for w in case.walls]) == (4.0, 6.0, [None, 6.0])
 
 
+def write_whole(folder, walls):
+    """shield.dump of a run as a whole model: [(wall, front and rear in mm, (x, y) of a hole of 3 mm or None), ...]"""
+    side, rows = np.arange(-7.75, 8, 0.5), []
+    for k, low, high, hole in walls:
+        x = np.stack(np.meshgrid(side, side, np.arange(low + 0.25, high, 0.5), indexing="ij"), -1).reshape(-1, 3)
+        x = x[np.hypot(x[:, 0], x[:, 1]) < 8]
+        x = x[np.hypot(x[:, 0] - hole[0], x[:, 1] - hole[1]) > 1.5] if hole else x
+        rows.append(np.column_stack([np.full(len(x), 1 + k), x, np.zeros(len(x))]))
+    write_dump(folder / "shield.dump", 200, 9e-6, np.concatenate(rows), COLUMNS.replace("mirror_x_lo mirror_y_lo", "mirror_none"))
+
+
+def test_the_circle_is_at_the_hole(tmp_path):
+    """of an oblique shot it is not where the shot struck, on both faces; without a hole in the frame it is there"""
+    make_run(tmp_path / "run", 0.5)
+    write_whole(tmp_path / "run", [(1, 0.0, 1.0, None), (2, 7.0, 8.0, (2.0, -1.0))])
+    run = Run(tmp_path / "run")
+    scene = run.scene("shield.dump")
+    assert pictures.hole_center(run, scene, 2) == pytest.approx((2.0, -1.0), abs=0.1) and pictures.hole_center(run, scene, 1) == (0.0, 0.0)
+    for rear, y in ((False, -1.0), (True, 1.0)):  # the view from behind has -y to the right
+        (circle,) = pictures.face(run, scene, 2, rear).axes[0].lines
+        middle = [0.5 * (values.min() + values.max()) for values in (circle.get_xdata(), circle.get_ydata())]
+        assert middle == pytest.approx([y, 2.0], abs=0.1) and np.ptp(circle.get_xdata()) == pytest.approx(3.0, abs=0.01), f"rear {rear}"
+
+
+def test_a_wall_near_by_hides_no_other(tmp_path):
+    """a wall 1 that is within the reach of wall 2 is in no picture of it; its debris on wall 2 is"""
+    make_run(tmp_path / "run", 0.5)
+    plan = tmp_path / "run/plan.yaml"
+    plan.write_text(plan.read_text().replace("wall2_front_mm: 7.0", "wall2_front_mm: 2.0"))
+    write_whole(tmp_path / "run", [(1, 0.0, 1.0, None), (1, 4.5, 5.0, (0.0, 0.0)), (2, 2.0, 3.0, None)])
+    run = Run(tmp_path / "run")
+    scene = run.scene("shield.dump")
+
+    def layers(k, body):
+        return [*np.unique(np.round(scene.x[pictures.near_wall(run, scene, k) & (scene.body == body), 2], 2))]
+    assert layers(2, 1) == [4.75] and layers(2, 2) == [2.25, 2.75]
+    assert layers(1, 1) == [0.25, 0.75] and layers(1, 2) == []
+
+
+def test_energy_of_the_tile_is_the_largest_of_the_table(tmp_path):
+    """no tile with a small error over a table with a large one"""
+    make_run(tmp_path / "one", 1.0)
+    result = tmp_path / "one/result.yaml"
+    text = result.read_text()
+    for missed, tile in ((7.4e-4, "<b>7.4e-04</b><span>energy missed by the time integration"), (-7.4e-6, "<b>1.0e-04</b><span>energy missing in the ledger")):
+        result.write_text(f"energy_missed_ratio: {missed}\n{text}")
+        assert cli.main(["report", str(tmp_path / "one")]) == 0 and tile in (tmp_path / "one/report.html").read_text(), missed
+
+
 # ---------------------------------------------------------------------- movie and export
 def test_movie(several, tmp_path, capsys):
     """a frame for each moment, the last stays; with too few of them a remedy"""
@@ -285,8 +335,38 @@ def test_export_without_meshio(several, monkeypatch):
     np.testing.assert_array_equal(values(piece.find("Points/DataArray")), scene.x.ravel())
     cells = {element.get("Name"): values(element) for element in piece.findall("Cells/DataArray")}
     assert list(cells["connectivity"]) == list(range(n)) and list(cells["offsets"]) == list(range(1, n + 1)) and set(cells["types"]) == {1}  # VTK_VERTEX
+    assert piece.find("Points/DataArray").get("Name") == "position (m)"
+    said = {element.get("Name"): values(element) for element in tree.parse("x.0004.vtu").getroot().findall("UnstructuredGrid/FieldData/DataArray")}
+    assert said["TimeValue"] == [9e-6] and said["type 1: projectile, Al2017-T4"] == [1] and said["type 3: wall 2, Al6061-T6"] == [3] and len(said) == 4
     kinds = {element.get("Name"): element.get("type") for element in piece.findall("PointData/DataArray")}
     assert kinds["type"] == "Int64" and kinds["mass (kg)"] == "Float64" and {element.get("NumberOfComponents") for element in piece.findall("PointData/DataArray")} == {None, "3"}
+
+
+def test_export_to_ovito(tmp_path, capsys):
+    """one dump of all frames, whole, with units, times, names of types and units in the names of columns; our own reader takes it back"""
+    make_run(tmp_path / "run", 1.0)
+    assert cli.main(["export", str(tmp_path / "run"), "--to", "ovito", "--out", "x"]) == 0
+    assert capsys.readouterr().out.strip() == "exported: x.lammpstrj, 2 frames, lengths in m, times in s; types: 1 projectile, Al2017-T4; 2 wall 1, Al6061-T6; 3 wall 2, Al6061-T6"
+    dump, scene = Dump("x.lammpstrj", mirror="none"), Run(tmp_path / "run").scene("shield.dump").whole
+    frame = dump[1]
+    assert (dump.units, list(dump.steps), [dump.time(k) for k in range(2)]) == ("si", [50, 200], [2e-6, 9e-6])
+    np.testing.assert_allclose(frame.x, scene.x, rtol=1e-8)
+    np.testing.assert_allclose(frame.v, scene.v, rtol=1e-8)
+    np.testing.assert_array_equal(frame.ids, scene.ids)
+    assert {"p_Pa", "vm_Pa", "e_J/kg", "fragsize_m", "mass"} <= set(frame.columns) and not {"time_si", "mirror_x_lo"} & set(frame.columns)
+    assert {(kind, name) for kind, name in zip(frame["type"], frame["element"])} >= {(1, "projectile_Al2017-T4"), (3, "wall2_Al6061-T6")}
+
+
+@pytest.mark.parametrize("box", ["BOX BOUNDS pp ff ff\n-1 1\n-2 2\n-3 3\n", "BOX BOUNDS xy xz yz pp pp pp\n-1 1.5 0.5\n-2 2 0\n-3 3 0\n"])
+def test_export_of_boxes(tmp_path, box):
+    """periodic and triclinic ones stay what they are; coordinates are unwrapped; types have the names that are given"""
+    (tmp_path / "a.dump").write_text(f"ITEM: UNITS\nlj\nITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n2\nITEM: {box}ITEM: ATOMS id type x y z ix iy iz\n1 1 0.5 0 0 1 0 0\n2 2 0 1 0 0 0 0\n")
+    assert cli.main(["export", "a.dump", "--to", "ovito", "--names", "ball", "my plate", "--mirror", "none", "--mass", "1=1", "--mass", "2=3"]) == 0
+    old, new = Dump("a.dump", mirror="none")[0], Dump("a.lammpstrj", mirror="none")[0]
+    np.testing.assert_allclose(new.x, old.x)
+    np.testing.assert_allclose(new.box.vectors, old.box.vectors)
+    np.testing.assert_allclose(new.box.origin, old.box.origin)
+    assert new.box.periodic == old.box.periodic and new.x[0, 0] > 2 and list(new["element"]) == ["ball", "myplate"] and list(new["mass"]) == [1, 3] and new.units == "lj" and new.time is None
 
 
 def test_texts_are_escaped():

@@ -83,7 +83,7 @@ def test_what_hvi_gives_out():
 def test_commands_are_modules(root):
     """each with its options, examples and main(); the others of the room are what they share"""
     modules = {path.stem for path in (root / "python/hvi/commands").glob("*.py")} - {"__init__"}
-    assert set(cli.COMMANDS) <= modules and modules - set(cli.COMMANDS) == {"dumps", "filling", "running", "shared"}
+    assert set(cli.COMMANDS) <= modules and modules - set(cli.COMMANDS) == {"dumps", "filling", "notebook", "running", "shared"}
     for name in cli.COMMANDS:
         module = importlib.import_module(f"hvi.commands.{name}")
         assert module.EXAMPLES.startswith(f"  python3 -m hvi {name} ") and callable(module.main) and callable(module.add_arguments)

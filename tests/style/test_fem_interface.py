@@ -35,6 +35,7 @@ def test_pulse(lmp, tmp_path, known, pulse):
     assert reflects(lmp, tmp_path, known, pulse, ragged=True)[1] < flat + 0.003
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("pulse", BOUNDS)
 def test_other_kernel(lmp, tmp_path, known, pulse):
     one, found = reflects(lmp, tmp_path, known, pulse, kernel="wendland2 1.6")

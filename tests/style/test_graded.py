@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 
 A, HALF, THICK, RADIUS = 3e-4, 3.6e-3, 1.2e-3, 9e-3  # spacing of the core, its half side, thickness and radius of the wall
 
-HEAD = f"""
+HEAD = """
 units si
 atom_style sph
 atom_modify map array sort 0 0.0

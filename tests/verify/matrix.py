@@ -44,7 +44,7 @@ def sources():
     files = subprocess.run(["git", "ls-files", "src", "lib", "cmake", "tests", "potentials", "Makefile"], cwd=ROOT, text=True, capture_output=True, check=True).stdout.split()
     h = hashlib.sha256()
     for f in sorted(files):
-        if not f.startswith("tests/matrix.") and (ROOT / f).exists():
+        if not f.startswith("tests/verify/matrix.") and (ROOT / f).exists():
             h.update(f.encode() + (ROOT / f).read_bytes())
     return h.hexdigest()[:12]
 
@@ -63,7 +63,7 @@ def make(folder, compiler, version, sanitize, sizes, jobs, more):
     code = run(["make", "build", f"BUILD={folder}", f"LAMMPS_VERSION={version}", f"SANITIZE={'ON' if sanitize else 'OFF'}", f"SIZES={sizes}", f"JOBS={jobs}",
                 *(f"{k}={v}" for k, v in words.items())], folder / "make.log")
     text = (folder / "make.log").read_text(errors="replace")
-    warnings = len(set(re.findall(rf"^.*(?:src/USER-HVI|lib/hvi|tests/unit)/.*warning: .*$", text, re.M)))
+    warnings = len(set(re.findall(r"^.*(?:src/USER-HVI|lib/hvi|tests/unit)/.*warning: .*$", text, re.M)))
     if code:
         return f"does not build: {folder.name}/make.log", warnings
     cache = (folder / "CMakeCache.txt").read_text()

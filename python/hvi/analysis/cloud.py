@@ -34,6 +34,7 @@ def measure(source, axis, plane, quantile=0.99):
     Of the whole cloud: between mirror planes mass, momentum, energy and number are those of all images together.
 
     source: a Frame, or a Universe or AtomGroup of hvi.open(); axis: "x", "y", "z"; plane: distance units
+    All values are in the units of the dump: lengths, velocities, mass, momentum, kinetic energy; ratios have none.
     quantile: share of the mass inside an edge, > 0.5 and <= 1
     """
     if not 0.5 < quantile <= 1.0:

@@ -1,26 +1,35 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""python3 -m hvi compare: two runs side by side."""
+"""python3 -m hvi compare: shields side by side, or two runs."""
+
+import dataclasses
 
 from .. import tables
 from ..analysis import cloud
 from ..analysis import fragments as pieces
 from ..errors import HVIError
 from ..jobs import compare
+from ..shield import answer
 from . import dumps
-from .shared import real
+from .shared import draw, real
 
-EXAMPLES = """  python3 -m hvi compare run1/result.yaml run2/result.yaml
+EXAMPLES = """  python3 -m hvi compare runs/double runs/triple runs/stuffed --figure shields --out shields.csv
+  python3 -m hvi compare double.yaml triple.yaml --runs runs
+  python3 -m hvi compare run1/result.yaml run2/result.yaml
   python3 -m hvi compare run1 run2 --rtol 0.05 --keys length_ratio fragmentation
   python3 -m hvi compare run1/debris.dump run2/debris.dump --mass 1=5e-7 --mass 2=5e-7 --axis z --plane 4.05e-3 \\
       --bonds run1/bonds.dump run2/bonds.dump"""
 
 
+RUNS_ONLY = ("keys", "rtol", "plane", "bonds", "column", "distance")  # options of two runs
+
+
 def add_arguments(parser):
-    for name in "AB":
-        parser.add_argument(name.lower(), metavar=name, help="result.yaml, folder with one, or dump")
-    parser.add_argument("--keys", nargs="+", metavar="KEY", help="only these (default: all)")
-    parser.add_argument("--rtol", type=real, metavar="T", help="exit status 1 if a relative difference is larger than T")
+    parser.add_argument("paths", nargs="+", metavar="PATH", help="of shields: folders of hvi shield, limit and curve, or cases; else two of result.yaml, folder with one, or dump")
+    parser.add_argument("--runs", default="runs", metavar="DIR", help="where the folders of cases are (default: runs)")
+    parser.add_argument("--keys", nargs="+", metavar="KEY", help="of two runs only these (default: all)")
+    parser.add_argument("--rtol", type=real, metavar="T", help="of two runs: exit status 1 if a relative difference is larger than T")
     parser.add_argument("--out", metavar="FILE.csv", help="write the table with all digits")
+    parser.add_argument("--figure", metavar="NAME", help="of shields: draw areal densities with verdicts, and curves: NAME.png and NAME.pdf, or only the one that NAME ends in")
     dumps.add_frame(parser)
     dumps.add_cloud(parser, needed=False)
     dumps.add_quantile(parser)
@@ -29,7 +38,40 @@ def add_arguments(parser):
 
 
 def main(args):
-    runs = args.a, args.b
+    shields = [answer.is_case(path) or answer.is_folder(path) for path in args.paths]
+    if any(shields):
+        if not all(shields):
+            raise HVIError(f"cannot compare a shield with what is none: {args.paths[shields.index(True)]} and {args.paths[shields.index(False)]}")
+        return of_shields(args)
+    if len(args.paths) != 2:
+        raise HVIError(f"two runs are compared, not {len(args.paths)}; shields are cases, or folders of hvi shield, limit and curve")
+    if args.figure:
+        raise HVIError("--figure is for shields: cases, or folders of hvi shield, limit and curve")
+    return of_runs(args)
+
+
+def of_shields(args):
+    """a column for each on the screen, a row in the CSV file"""
+    given = [f"--{option}" for option in RUNS_ONLY if getattr(args, option) is not None]
+    if given:
+        raise HVIError(f"{given[0]} is for two runs, not for shields")
+    found = [answer.read(path, args.runs) for path in args.paths]
+    names = [one.name for one in found]
+    found = [dataclasses.replace(one, name=str(path)) if names.count(one.name) > 1 else one for one, path in zip(found, args.paths)]
+    columns, rows = answer.side_by_side(found)
+    print(tables.text(("", *(one.name for one in found)), [(name, *(row.get(name, compare.MISSING) for row in rows)) for name in columns]))
+    for one in found:
+        for folder in one.left_out:
+            print(f"left out: {one.folder / folder}: of other values than the case's, or of an older version: call hvi limit or curve again, its runs stay")
+    if args.out:
+        tables.write_csv(args.out, ("shield", *columns), [(one.name, *(row.get(name, "") for name in columns)) for one, row in zip(found, rows)])
+    draw(args.figure, "shields", answer.bars_of(found), answer.curves_of(found))
+    return 0
+
+
+def of_runs(args):
+    """two runs"""
+    runs = args.paths
     kinds = [dumps.is_dump(path) for path in runs]
     if kinds[0] != kinds[1]:
         raise HVIError(f"cannot compare a dump with a result.yaml: {runs[0]} and {runs[1]}")

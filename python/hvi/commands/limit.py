@@ -6,25 +6,28 @@ import math
 from .. import tables
 from ..errors import HVIError
 from ..jobs import engine
-from ..shield import ble, calibration, decision
+from ..shield import ble, calibration, decision, quantity
 from ..shield import case as cases
 from ..shield.limit import Limit
 from . import running
 
 EXAMPLES = """  python3 -m hvi limit emi.yaml --on D
-  python3 -m hvi limit emi.yaml --on thickness2 --from 0.5 --to 3 --step 0.1 --jobs 2 --ranks 1"""
+  python3 -m hvi limit emi.yaml --on thickness2 --from 0.5 --to 3 --step 0.1 --jobs 2 --ranks 1
+  python3 -m hvi limit emi.yaml --on D --at gap2=100 angle=45
+  python3 -m hvi limit emi.yaml --on gap2 --from 20 --to 120 --step 10"""
 
 
 def add_arguments(parser):
     running.add_case(parser)
-    parser.add_argument("--on", required=True, metavar="WHAT", help="D, speed, thickness1, thickness2, ...")
+    parser.add_argument("--on", required=True, metavar="WHAT", help="D, speed, angle, thickness1, thickness2, ..., gap2, ...")
+    running.add_at(parser)
     running.add_range(parser)
     running.add_runs(parser)
 
 
 def main(args):
-    case = cases.read(args.case)
-    limit = Limit(case, args.runs.resolve() / case.name / f"limit-{args.on}", args.on, args.from_, args.to_, args.step_)
+    case, given = quantity.changed(cases.read(args.case), args.at, args.on)
+    limit = Limit(case, args.runs.resolve() / case.name / f"limit-{args.on}{given}", args.on, args.from_, args.to_, args.step_)
     runner = engine.Runner(args)
     first, values = limit.first(), limit.values
     most = len(decision.members(case)) * 2 * (1 + math.ceil(math.log2(len(values))))

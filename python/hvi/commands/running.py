@@ -9,7 +9,7 @@ from .. import tables
 from ..errors import writing
 from ..jobs import engine
 from ..shield import case as cases
-from .shared import count, positive
+from .shared import count, least0, positive
 
 MOST = 1000  # speeds
 
@@ -40,7 +40,35 @@ def wrapped(name, default, text):
 
 def add_range(parser):
     for name, text, default in (("from", "lowest value", "half of the case's"), ("to", "highest value", "twice the case's"), ("step", "between values that are tried", "a 20th of the case's")):
-        parser.add_argument("--" + name, dest=name + "_", type=positive, metavar="X", help=f"{text}, mm or km/s (default: {default})")
+        parser.add_argument("--" + name, dest=name + "_", type=positive if name == "step" else least0, metavar="X",
+                            help=f"{text}, mm, km/s or degrees (default: {default}; of angle 0 to 75 by 5)")
+
+
+def add_at(parser):
+    """values that are not the case's"""
+    parser.add_argument("--at", type=setting, nargs="+", default=[], metavar="WHAT=X", help="these values in place of the case's: D, speed, angle, thickness1, ..., gap2, ... in mm, km/s, degrees")
+
+
+def setting(text):
+    """gap2=100 as (gap2, 100.0)"""
+    word, found, value = text.partition("=")
+    if not found:
+        raise argparse.ArgumentTypeError(f"{text} is not WHAT=X, like gap2=100")
+    return word, least0(value)
+
+
+def add_over(parser, default):
+    """speeds A:B:N or WHAT=A:B:N, as (word, (first, last, number))"""
+    group = parser.add_mutually_exclusive_group()
+    add_speeds(group, default)
+    group.add_argument("--over", type=over, metavar="WHAT=A:B:N", help="another quantity in place of the speed: gap2=20:100:5, angle=0:60:4, thickness1=..., D=...")
+
+
+def over(text):
+    word, found, values = text.partition("=")
+    if not found:
+        raise argparse.ArgumentTypeError(f"{text} is not WHAT=FIRST:LAST:NUMBER, like gap2=20:100:5")
+    return word, row_of(values, least0)
 
 
 def add_speeds(parser, default):
@@ -49,15 +77,20 @@ def add_speeds(parser, default):
 
 
 def speeds(text):
+    return row_of(text, positive, "speed")
+
+
+def row_of(text, kind, what="value"):
+    """A:B:N as (first, last, number)"""
     try:
         first, last, number = text.split(":")
-        first, last, number = positive(first), positive(last), count(number)
+        first, last, number = kind(first), kind(last), count(number)
     except ValueError:
         raise argparse.ArgumentTypeError(f"{text} is not FIRST:LAST:NUMBER, like 1:15:15") from None
     if first >= last:
-        raise argparse.ArgumentTypeError(f"{text}: the first speed must be below the last")
-    if number > MOST or len({f"{speed:g}" for speed in evenly(first, last, number)}) < number:
-        raise argparse.ArgumentTypeError(f"{text}: {MOST} speeds at most, which differ in six digits")
+        raise argparse.ArgumentTypeError(f"{text}: the first {what} must be below the last")
+    if number > MOST or len({f"{value:g}" for value in evenly(first, last, number)}) < number:
+        raise argparse.ArgumentTypeError(f"{text}: {MOST} {what}s at most, which differ in six digits")
     return first, last, number
 
 

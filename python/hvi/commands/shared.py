@@ -21,6 +21,7 @@ def number(kind, holds, what):
 
 LARGEST, MANY = 1e60, 2**31 - 1  # the third powers of numbers can be taken, and arrays count so far
 positive = number(float, lambda value: 1 / LARGEST < value < LARGEST, "a number > 0")
+least0 = number(float, lambda value: value == 0 or 1 / LARGEST < value < LARGEST, "a number of at least 0")
 real = number(float, lambda value: abs(value) < LARGEST, "a number")
 count = number(int, lambda value: 1 <= value <= MANY, "a whole number from 1 on")
 natural = number(int, lambda value: 0 <= value <= MANY, "a whole number from 0 on")

@@ -3,4 +3,5 @@
 
 from .frames import cloud, crater, distribution, field, hole, impacts, phase, side, spacing  # noqa: F401
 from .limits import ballistic_limit, limit_brackets, limit_curve  # noqa: F401
+from .shields import shields  # noqa: F401
 from .style import BODIES, save  # noqa: F401

@@ -20,20 +20,21 @@ def _equations(ax, speeds, curves):
     return highest
 
 
-def _said(ax, title, what):
+def _said(ax, title, what, over="speed (km/s)"):
     ax.set_title(title, fontsize=STYLE["size"], parse_math=False)  # names may have $
-    label_axes(ax, "speed (km/s)", what)
+    label_axes(ax, over, what)
     legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=4, columnspacing=1.2)
 
 
-def limit_curve(speeds, curves, points, title, what):
-    """Limits over speed, with bars from what all hold to what all fail; points: [(speed, limit, low, high), ...]; speeds, curves: as of ballistic_limit(), {} if there are none"""
+def limit_curve(values, curves, points, title, what, over="speed (km/s)"):
+    """Limits over speed or another quantity, with bars from what all hold to what all fail; points: [(value, limit, low, high), ...]; values, curves: as of ballistic_limit(), {} if there are none"""
     figure, ((ax,),) = new_figure(4.4)
-    highest = _equations(ax, speeds, curves)
+    highest = _equations(ax, values, curves)
     x, y, low, high = np.array(points).reshape(-1, 4).T
     ax.errorbar(x, y, [y - low, high - y], fmt="o-", color="black", ms=5, lw=STYLE["line"], capsize=3, label="simulation")
-    ax.set(xlim=(speeds[0] - 0.3, speeds[-1] + 0.3), ylim=(0, 1.25 * max([highest, *high])))
-    _said(ax, title, what)
+    margin = 0.05 * (values[-1] - values[0]) or 0.3
+    ax.set(xlim=(values[0] - margin, values[-1] + margin), ylim=(0, 1.25 * max([highest, *high])))
+    _said(ax, title, what, over)
     return figure
 
 
@@ -86,6 +87,5 @@ def limit_brackets(brackets, rows, equations):
         ax.vlines([where[name] + 0.2 for name, _ in between], *zip(*(ends for _, ends in between)), color="black", ls=":", label="not ended: here")
     ax.axhline(1.0, color="0.4", lw=0.5 * STYLE["line"])
     ax.set_xticks(list(where.values()), [f"{name}\n{one.shot.speed_km_s:g}" for name, one in sorted(((one.name, one) for one in brackets), key=lambda pair: where[pair[0]])])
-    _said(ax, "Limits of shields: simulation and equations over what shots bracket", "limit over the measured one: safe above 1")
-    label_axes(ax, "bracket, speed (km/s)", "limit over the measured one: safe above 1")
+    _said(ax, "Limits of shields: simulation and equations over what shots bracket", "limit over the measured one: safe above 1", "bracket, speed (km/s)")
     return figure

@@ -6,7 +6,7 @@ import functools
 import numpy as np
 
 from .. import units as unit_systems
-from ..errors import HVIError
+from ..errors import HVIError, needed
 from . import mirror as mirrors
 from .box import Box
 
@@ -23,7 +23,7 @@ class Frame:
     """Columns of one frame.
 
     frame["c_frag"] is a column, frame.columns the dict of all. Arrays of n particles, rows in order of IDs if the dump
-    has them. Units are those of the dump.
+    has them: ids (n,), x and v (n, 3), m (n,). Units are those of the dump: m, m/s, kg in si.
 
     number: place in the dump, from 0; step: LAMMPS's time step; time: or None; box: a Box; units: "si", ...
     mirror: planes that it is cut at, () of a whole scene, None if nobody knows: see hvi.io.mirror
@@ -61,6 +61,12 @@ class Frame:
         if column.dtype.kind == "U":
             raise HVIError(f"{self.where}: {name} is text in row 1, {column[0]}, not a number")
         return column
+
+    def dataframe(self):
+        """A pandas.DataFrame with a row per particle and the columns of the dump, index id if there is one. HVIError if pandas is not there."""
+        pandas = needed("pandas", "dataframe() needs")
+        table = pandas.DataFrame(self.columns)
+        return table.set_index("id") if "id" in table else table
 
     def select(self, mask):
         """The same frame with only the particles where mask (n,) is true."""

@@ -8,6 +8,7 @@ import numpy as np
 from ..errors import HVIError, needed
 from . import mesh
 
+FARTHEST = 1e100  # coordinates, so that volumes are finite
 _FLAT = {"vertex", "line", "triangle", "quad"}  # edges and surfaces that lie in the hexahedra
 
 
@@ -29,9 +30,7 @@ def load(path, n=0, cells=None, scale=1.0, move=(0.0, 0.0, 0.0), type=1, node_ty
     other = sorted({c.type for c in found.cells} - _FLAT - {"hexahedron"})
     if other or not hexes:
         raise HVIError(f"{path}: fix hvi/fem knows hexahedra of eight nodes, not {', '.join(other) or 'a mesh without any'}")
-    elements = np.concatenate([found.cells[k].data for k in hexes]).astype(int)
-    points = np.zeros((len(found.points), 3))
-    points[:, : found.points.shape[1]] = found.points
+    elements, points = _numbers(path, [found.cells[k].data for k in hexes], found.points)
     points = scale * points + np.asarray(move, dtype=float)
     double = np.flatnonzero((np.diff(np.sort(elements, axis=1), axis=1) == 0).any(axis=1))
     if len(double):
@@ -41,7 +40,7 @@ def load(path, n=0, cells=None, scale=1.0, move=(0.0, 0.0, 0.0), type=1, node_ty
     holds = np.full(len(elements), n > 0)
     if cells is not None:
         if cells not in found.cell_sets:
-            raise HVIError(f"{path} has no set of cells {cells}, but {', '.join(sorted(found.cell_sets)) or 'none'}")
+            raise HVIError(f"{path} has no set of cells {cells}, but {', '.join(sorted(map(str, found.cell_sets))) or 'none'}")
         rows = found.cell_sets[cells]
         if str(path).lower().endswith(".inp"):
             _check_set(path, cells)
@@ -51,6 +50,21 @@ def load(path, n=0, cells=None, scale=1.0, move=(0.0, 0.0, 0.0), type=1, node_ty
     made = mesh.assemble(points, elements, n, holds, np.zeros(len(elements), dtype=bool), type, node_type)
     made.check()
     return made, int(inverted.sum())
+
+
+def _numbers(path, blocks, points):
+    """Nodes of hexahedra (M, 8) and coordinates (N, 3): meshio does not look whether there are as many as there should be, and the nodes that are named"""
+    points = np.asarray(points)
+    if points.ndim != 2 or not 1 <= points.shape[1] <= 3 or any(np.ndim(block) != 2 or np.shape(block)[1] != 8 for block in blocks):
+        raise HVIError(f"cannot read {path} as a mesh: a node has not three coordinates, or a hexahedron not eight nodes")
+    elements = np.concatenate(blocks).astype(int)
+    if elements.min(initial=0) < 0 or elements.max(initial=-1) >= len(points):
+        raise HVIError(f"cannot read {path} as a mesh: a hexahedron names a node that is not among the {len(points)} there are")
+    x = np.zeros((len(points), 3))
+    x[:, :points.shape[1]] = points
+    if not (np.abs(x) < FARTHEST).all():
+        raise HVIError(f"cannot read {path} as a mesh: a coordinate is no number, or {FARTHEST:g} and more")
+    return elements, x
 
 
 def _check_set(path, name):

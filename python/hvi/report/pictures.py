@@ -8,7 +8,7 @@ from matplotlib.colors import PowerNorm, to_rgb
 from matplotlib.figure import Figure
 
 from .. import figures
-from ..analysis import fragments, maps
+from ..analysis import fragments, hole, maps
 from ..figures import sketch as sketches
 from ..shield.script import HANGS
 from . import render
@@ -130,10 +130,25 @@ def _round(length):
 
 # ---------------------------------------------------------------------- walls
 def near_wall(run, scene, k):
-    """what is no farther from wall k than its bulge is high, as compute hvi/hole takes it"""
+    """what is no farther from wall k than its bulge is high, as compute hvi/hole takes it, without other walls: these lie in front of it where gaps are narrow"""
+    def near(j):
+        front, rear = run.faces(j)
+        reach = 2.0 * (rear - front) * (1.0 + max(float(run.result.get(f"wall{j}_bulge_over_thickness", 0.0)), 0.0))
+        return np.abs(scene.x[:, 2] - 0.5 * (front + rear)) <= reach
+    found = near(k)
+    for j in range(1, run.walls + 1):
+        if j != k:
+            found &= ~((scene.body == j) & near(j))
+    return found
+
+
+def hole_center(run, scene, k):
+    """(x, y) in mm of the middle of the hole in wall k along the axis, as compute hvi/hole finds it; where the shot struck if the frame has no hole in one plate"""
     front, rear = run.faces(k)
-    reach = 2.0 * (rear - front) * (1.0 + max(float(run.result.get(f"wall{k}_bulge_over_thickness", 0.0)), 0.0))
-    return np.abs(scene.x[:, 2] - 0.5 * (front + rear)) <= reach
+    struck = run.of_wall(k, "struck_at_mm")
+    found = hole.measure(scene.frame, "z", (1e-3 * struck, 0.0), 0.5e-3 * (front + rear), thickness=1.0, types=np.flatnonzero(run.bodies() == k),
+                         distance=1e-3 * HANGS * run.spacings().max()).values
+    return (1e3 * found["center_x"], 1e3 * found["center_y"]) if found["found"] == 1 else (struck, 0.0)
 
 
 def face(run, scene, k, rear):
@@ -144,10 +159,10 @@ def face(run, scene, k, rear):
     figure, axes, pixels = _panel(window, ("-y (mm)" if rear else "y (mm)", "x (mm)"))
     near = near_wall(run, scene, k)
     _draw(axes, scene.x[near], scene.radius[near], by_body(scene)[near], view, window, pixels)
-    hole = float(run.result.get(f"hole{k}_diameter_mm") or 0.0)
-    if hole > 0.0:
-        turn = np.linspace(0.0, 2.0 * np.pi, 200)
-        axes.plot(0.5 * hole * np.sin(turn), run.of_wall(k, "struck_at_mm") + 0.5 * hole * np.cos(turn), color="#c02020", lw=1.2, ls="--", zorder=4)
+    diameter = float(run.result.get(f"hole{k}_diameter_mm") or 0.0)
+    if diameter > 0.0:
+        turn, (x, y) = np.linspace(0.0, 2.0 * np.pi, 200), hole_center(run, scene, k)
+        axes.plot((-y if rear else y) + 0.5 * diameter * np.sin(turn), x + 0.5 * diameter * np.cos(turn), color="#c02020", lw=1.2, ls="--", zorder=4)
     return figure
 
 

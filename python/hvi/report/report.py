@@ -99,11 +99,13 @@ class Report:
         result, last = self.run.result, self.run.reached
         hole = result.get(f"hole{last}_diameter_mm")
         cost = sum(float(run.result["core_s"]) for run in self.runs)
+        errors = {"energy missing in the ledger": abs(float(result["energy_ratio"]) - 1.0), "energy missed by the time integration": abs(float(result.get("energy_missed_ratio", 0.0)))}
+        worst = max(errors, key=errors.get)
         found = [("unknown" if hole is None or not np.isfinite(hole) else f"{hole:.1f} mm" if hole else "none", f"hole in wall {last}"),
                  (f"{result.get(f'wall{last}_apart_mass_mg', 0):.4g} mg", f"apart behind wall {last}"),
                  (f"{result.get(f'wall{last}_bulge_over_thickness', 0):.2f}", f"bulge over thickness of wall {last}"),
                  (f"{result.get(f'wall{last}_layers', 0):g}", f"layers of particles in wall {last}"),
-                 (f"{abs(float(result['energy_ratio']) - 1.0):.0e}", "energy missing in the ledger"),
+                 (f"{errors[worst]:.1e}", f"{worst}, of that of the start"),
                  (engine.duration(cost), f"core time of {len(self.runs)} run{'s' * (len(self.runs) > 1)}")]
         return tag("div", *(tag("div", tag("b", value), tag("span", text), class_="tile") for value, text in found), class_="tiles")
 
@@ -247,10 +249,10 @@ class Report:
                  class_="note")), section("Speeds", tag("div", *fast[:len(moments)], class_="row pair"), tag("p", note, class_="note"), *fast[len(moments):])]
         walls = [self.key(end)]
         for k in range(1, run.reached + 1):
-            near = f"Shown is what is no farther from it than its bulge is high, at {end.time:.1f} us."
+            near = f"Shown is what is no farther from it than its bulge is high, at {end.time:.1f} us; other walls are left out."
             walls += [tag("h3", f"Wall {k}"), tag("div", *(picture(pictures.face(run, end, k, rear), f"Wall {k} from {'behind' if rear else 'the front'}", join([
                 tag("b", "rear" if rear else "front"), ". ", near])) for rear in (False, True)), class_="row pair")]
-        walls += [tag("p", "Dashed circle: a hole of the same area as that of compute hvi/hole. Both faces of a wall have one scale.", class_="note"), tag("h3", f"Bulge of wall {run.reached}"),
+        walls += [tag("p", "Dashed circle: a hole of the same area and center as that of compute hvi/hole. Both faces of a wall have one scale.", class_="note"), tag("h3", f"Bulge of wall {run.reached}"),
                   picture(pictures.profile(run, end, run.reached), f"Slice through wall {run.reached}",
                           f"A slice of {pictures.slice_of(run, run.reached):.3g} mm about y = 0 at {end.time:.1f} us, struck from below. Dark: what has come off the wall. Dotted: its faces before.")]
         found.append(section("Walls", *walls))

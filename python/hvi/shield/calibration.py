@@ -24,7 +24,7 @@ MARGINS = {"rear_plastic_strain": "a plastic strain of {:.2g} at its rear", "bul
 APART = "apart_over_projectile"  # of one that fails
 ALIKE = 0.02  # lengths and speeds of one shield in two lists
 COARSER = 1.1  # than the records' are spacings of a case that they may judge, at most: that of hvi limit stays while the diameter varies
-HEAD = {**dict.fromkeys(("command", "date", "margin", "limits_in_the_band_of_the_others"), str), **dict.fromkeys(("rows", "shields"), int),
+HEAD: dict[str, type] = {**dict.fromkeys(("command", "date", "margin", "limits_in_the_band_of_the_others"), str), **dict.fromkeys(("rows", "shields"), int),
         **dict.fromkeys(("spacing", "settings", "model", "materials", "scores", "scores_by_other_reports"), dict)}  # what a file must say
 MODEL = ("kernel", "eta", "pair", "solid", "C", "edge", "layers")  # settings that change what a run computes
 
@@ -247,7 +247,7 @@ class Records:
 
     def of_limit(self, limit, answer):
         """between which values the measured limit is, as those of the records are, and how many of their shields hold with the case's own value"""
-        case, wall = limit.case, limit.wall == len(limit.case.walls) - 1
+        case, wall = limit.case, limit.key == "thickness_mm" and limit.wall == len(limit.case.walls) - 1
         if not (wall or limit.key == "size_mm"):
             raise HVIError(f"there are no measured limits over {answer['on']}: records are of the last wall's thickness and of diameters")
         computed, records = answer["limit"], self.for_case(limit.at(answer["limit"]), ["wall_mm" if wall else "D_mm"])

@@ -5,15 +5,12 @@ Each spacing and shift of the lattice has a search of its own; that of a finer s
 coarser one. What was run is not run again: call once more to go on.
 """
 
-import dataclasses
-import re
-
 from .. import tables
 from ..errors import HVIError
-from . import ble, decision
-
+from . import ble, decision, quantity
 
 MOST = 1000  # steps
+ANGLES = 0.0, 75.0, 5.0  # degrees: default of a search, since an angle of 0 has no half and no double
 
 
 class Search:
@@ -73,28 +70,20 @@ class Search:
         return self.asked == set(self.said)
 
 
-def quantity(case, on):
-    """(key, index of the wall or None, unit) of what --on says"""
-    if on in ("D", "speed"):
-        return ("size_mm", None, "mm") if on == "D" else ("speed_km_s", None, "km/s")
-    found = re.fullmatch(r"thickness(\d+)", on)
-    if not found or not 1 <= int(found.group(1)) <= len(case.walls):
-        raise HVIError(f"--on must be D, speed, or {' or '.join(f'thickness{k + 1}' for k in range(len(case.walls)))}, not {on}")
-    return "thickness_mm", int(found.group(1)) - 1, "mm"
-
-
 class Limit:
     """The searches of all spacings and shifts, and the runs that they ask for."""
 
     def __init__(self, case, folder, on, low=None, high=None, step=None, name=""):
         self.case, self.folder, self.on, self.name = case, folder, on, name  # name: what names of runs begin with
-        self.key, self.wall, self.unit = quantity(case, on)
-        middle = getattr(case.projectile if self.key == "size_mm" else case if self.wall is None else case.walls[self.wall], self.key)
-        low, high, step = low or 0.5 * middle, high or 2 * middle, step or 0.05 * middle
+        self.quantity = quantity.find(case, on, "--on")
+        self.key, self.wall, self.unit = self.quantity.key, self.quantity.wall, self.quantity.unit
+        self.own = self.quantity.of(case)
+        usual = ANGLES if on == "angle" else (0.5 * self.own, 2 * self.own, 0.05 * self.own)
+        low, high, step = (value if given is None else given for given, value in zip((low, high, step), usual))
         if low >= high or step > high - low:
             raise HVIError(f"--from {low:g} --to {high:g} --step {step:g}: there is nothing between")
         for option, value in (("--from", low), ("--to", high)):
-            self.at(float(f"{value:.6g}")).check(self._wrong(f"{option} {value:g} {self.unit}"))
+            self.quantity.checked(case, float(f"{value:.6g}"), option)
         n = max(1, round(min((high - low) / step, 10 * MOST)))
         if n > MOST:
             raise HVIError(f"--step {step:g}: more than {MOST} values from {low:g} to {high:g}, steps of {(high - low) / MOST:.2g} are the least")
@@ -102,24 +91,12 @@ class Limit:
         if len(set(self.values)) <= n:
             raise HVIError(f"--from {low:.9g} --to {high:.9g} --step {step:g}: values have six digits, and some of these are the same")
         for value in self.values:  # elements do not fit any thickness
-            self.at(value).check_elements(self._wrong(f"{on} {value:g} {self.unit}"))
+            self.at(value).check_elements(quantity.wrong(f"{on} {value:g} {self.unit}"))
         self.searches, self.jobs = {}, {}
 
     def at(self, value):
         """the case with that value"""
-        if self.key == "size_mm":  # all lengths of the projectile alike
-            return dataclasses.replace(self.case, projectile=self.case.projectile.scaled(value))
-        if self.wall is None:
-            return dataclasses.replace(self.case, **{self.key: value})
-        walls = list(self.case.walls)
-        walls[self.wall] = dataclasses.replace(walls[self.wall], **{self.key: value})
-        return dataclasses.replace(self.case, walls=tuple(walls))
-
-    @staticmethod
-    def _wrong(where):
-        def wrong(key, text):
-            raise HVIError(f"{where}: {key}: {text}")
-        return wrong
+        return self.quantity.at(self.case, value)
 
     def _new(self, member):
         """jobs for what the search of a member asks for next; that of the next spacing, once this one is done"""
@@ -176,7 +153,7 @@ class Limit:
     def answer(self):
         """The mapping of limit.yaml; limit is None where it is not in the range, reasons say why."""
         borders = {member: (s.borders()[0], s.borders()[3]) for member, s in self.searches.items()}
-        result = {"on": f"{'diameter_mm' if self.key == 'size_mm' else self.key}" + ("" if self.wall is None else f" of wall {self.wall + 1}"), "unit": self.unit, "limit": None}
+        result = {"on": self.quantity.title, "unit": self.unit, "limit": None, "varied": self.on, "own": self.own, "case": self.case.mapping()}
         outside = [f"{decision.member_name(self.case, member)}: " + ", ".join(f"{s.said[place]} at {self.values[place]:g} {self.unit}" for place in sorted(s.said))
                    for member, s in self.searches.items() if None in borders[member]]
         if outside:

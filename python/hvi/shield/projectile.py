@@ -229,7 +229,8 @@ def write(path, spacing, shift, density, quarter, file=None, checksum=None, **of
     """
     body = Projectile("", **of)
     if file:
-        x, mass, title, planes = *from_file(str(pathlib.Path(path).with_name(file)), spacing, shift, density), file, ()
+        x, mass = from_file(str(pathlib.Path(path).with_name(file)), spacing, shift, density)
+        title, planes = file, ()
     else:
         made = bodies.make(body.body(quarter), spacing, "glass", 1 + round(1e4 * shift))
         c, s = math.cos(math.radians(body.pitch_deg)), math.sin(math.radians(body.pitch_deg))

@@ -20,6 +20,13 @@ from . import script
 WALL = """coming_mass coming_energy push momentum energy plastic_power passed_mass passed_momentum passed_energy tip failed_depth rear_strain missed_mass missed_reach
     far_free mass held_mass cloud_mass cloud_momentum cloud_energy front_velocity cloud_length cloud_diameter cloud_ratio fragments largest_mass largest_velocity pieces_apart
     largest_apart_mass apart_mass spall_mass apart_number bulge body_mass hole_found hole_diameter hole_min hole_max plane_found plane_diameter plane_x plane_y outer_strain""".split()
+# units of these, in SI; all others are numbers
+UNITS = {**dict.fromkeys("""coming_mass passed_mass missed_mass mass held_mass cloud_mass largest_mass largest_apart_mass apart_mass spall_mass body_mass""".split(), "kg"),
+         **dict.fromkeys("momentum passed_momentum cloud_momentum".split(), "kg m/s"), **dict.fromkeys("coming_energy energy passed_energy cloud_energy".split(), "J"),
+         **dict.fromkeys("front_velocity largest_velocity".split(), "m/s"), "push": "N", "plastic_power": "W",
+         **dict.fromkeys("tip failed_depth missed_reach far_free cloud_length cloud_diameter bulge hole_diameter hole_min hole_max plane_diameter plane_x plane_y".split(), "m")}
+OF_THE_MODEL = {"kg", "kg m/s", "J", "N", "W"}  # of a quarter model these are a quarter, except of a single piece
+OF_A_PIECE = {"largest_mass", "largest_apart_mass"}
 BOOK = 32  # entries of compute hvi/energy
 ARRIVE = 6  # widest spacings before a wall: what comes so near has arrived
 NOTHING = 1e-99

@@ -8,10 +8,13 @@ import warnings
 
 import numpy as np
 
-from ..errors import HVIError
+from ..errors import HVIError, needed
 from ..io.dump import Dump
 from ..jobs import engine
+from ..material.library import stem
+from ..units import label
 from . import case as cases
+from .record import OF_A_PIECE, OF_THE_MODEL, UNITS, WALL, Record
 from .script import CASE
 
 
@@ -40,7 +43,11 @@ class Scene:
 
 
 class Run:
-    """The folder of one run."""
+    """The folder of one run, as runs/quick/dx-0.5_shift-0.0.
+
+    result, plan: mappings of result.yaml and plan.yaml, units in the names; case: the Case; walls: how many, reached: the last one that was struck; dx: mm between particles of the projectile;
+    frames(): the hvi.Dump of all frames, scene(name): a dump in mm, us, km/s
+    """
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
@@ -76,6 +83,11 @@ class Run:
         """of each type: 0 the projectile, k wall k"""
         return self.by_type(list(range(self.walls + 1)), lambda k: k)
 
+    def type_names(self):
+        """{type: "wall 1, Al6061-T6"}"""
+        names = {1 + k: f"{f'wall {k}' if k else 'projectile'}, {stem(material)}" for k, material in enumerate(self.materials)}
+        return {**names, **{kind: f"{names[1 + k]}, outer part" for kind, k in self.outers().items()}}
+
     def spacings(self):
         """the longest of a particle's cell, mm, for each type"""
         longest = [self.dx] + [max(self.of_wall(k, "spacing_mm"), self.of_wall(k, "thickness_mm") / self.of_wall(k, "layers")) for k in range(1, self.walls + 1)]
@@ -110,6 +122,19 @@ class Run:
     def dx(self):
         """of its particles, mm"""
         return self.case.spacings_mm[0]
+
+    def dataframe(self):
+        """A pandas.DataFrame with a row per moment, index "time (us)": for each wall the columns of compute hvi/wall, as "wall2 momentum (kg m/s)", in SI, of the whole shield also where a
+        quarter was modelled. HVIError if pandas, or a file of the run, is not there."""
+        pandas = needed("pandas", "dataframe() needs")
+        record = Record(self.folder)
+        images, columns = 4 if str(self.settings["quarter"]) == "yes" else 1, {}
+        for k in range(1, self.walls + 1):
+            for name in WALL:
+                unit = UNITS.get(name)
+                times = images if unit in OF_THE_MODEL and name not in OF_A_PIECE or name == "apart_number" else 1
+                columns[label(f"wall{k} {name}", unit)] = times * getattr(record.pieces, name)[:, k - 1]
+        return pandas.DataFrame(columns, index=pandas.Index(record.seldom_us, name="time (us)"))
 
     def dumps(self):
         """paths of all frames, in order of time"""
