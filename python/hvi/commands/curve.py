@@ -9,7 +9,7 @@ import math
 
 from .. import tables
 from ..errors import HVIError
-from ..jobs import engine
+from ..jobs import engine, runs
 from ..shield import ble, decision
 from ..shield import case as cases
 from ..shield.limit import Limit
@@ -49,7 +49,7 @@ def main(args):
     speeds = running.evenly(*args.speeds)
     folder = args.runs.resolve() / case.name / f"curve-{args.on}"
     limits = {speed: Limit(dataclasses.replace(case, speed_km_s=speed), folder, args.on, args.from_, args.to_, args.step_, name=f"v-{speed:g}_") for speed in speeds}
-    runner = engine.Runner(args)
+    runner = runs.Runner(args)
     first = [job for limit in limits.values() for job in limit.first()]
     print(f"{case.name}: {args.on} over {len(speeds)} speeds, {len(first)} runs to begin with", flush=True)
     if args.dry_run:
