@@ -18,7 +18,7 @@ import tempfile
 import time
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol")
-SECONDS = 60  # that a daemon may take to answer
+SECONDS = 600  # that something may take on a busy machine
 CONF = """ClusterName=hvi
 SlurmctldHost={host}(127.0.0.1)
 SlurmUser={user}
@@ -90,7 +90,8 @@ class Cluster:
         self.environment = {**os.environ, "SLURM_CONF": str(self.conf), "PATH": path()}
 
     def start(self, name, *words):
-        self.daemons[name] = subprocess.Popen(words, env=self.environment, stdin=subprocess.DEVNULL, stdout=open(self.folder / f"{name}.out", "a"), stderr=subprocess.STDOUT)
+        with open(self.folder / f"{name}.out", "a") as out:  # in a session of its own: Ctrl-C reaches the test only, which ends jobs before daemons
+            self.daemons[name] = subprocess.Popen(words, env=self.environment, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, start_new_session=True)
 
     def stop(self, name, how=signal.SIGTERM):
         daemon = self.daemons.pop(name)
@@ -123,13 +124,19 @@ class Cluster:
 
     def __exit__(self, *_):
         if "slurmctld" in self.daemons:
-            subprocess.run(["scancel", f"--user={getpass.getuser()}"], env=self.environment, check=False, stderr=subprocess.DEVNULL)
-            until = time.monotonic() + SECONDS
-            while self.said("squeue", "--noheader").strip() and time.monotonic() < until:
-                time.sleep(0.2)
+            self.clear()
         for name in [*self.daemons][::-1]:
             self.stop(name)
         shutil.rmtree(self.folder, ignore_errors=True)
+
+    def clear(self):
+        """no jobs any more, and all nodes as at the beginning"""
+        self.said("scancel", f"--user={getpass.getuser()}")
+        until = time.monotonic() + 60
+        while self.said("squeue", "--noheader").strip() and time.monotonic() < until:
+            time.sleep(0.2)
+        for name in (name for name, state in self.states().items() if state.startswith(("drain", "down"))):
+            self.said("scontrol", "update", f"nodename={name}", "state=resume")
 
     def said(self, *words):
         """what a command of Slurm prints"""

@@ -97,6 +97,25 @@ def test_stopped_and_submitted_again(folder, fake, capsys, monkeypatch):
     assert batches(folder) == []
 
 
+def test_saved_more(folder):
+    """only a whole restart file that is new: a job that is cut off while it writes has no right to another"""
+    (folder / "in.main").write_text("")
+    (folder / "a").mkdir()
+    job = engine.Job(engine.Input(folder / "in.main"), "a", {}, folder / "a", restart="x.restart.*")
+    engine.write_yaml(folder / "a/job.yaml", job.record)
+    first, second = (folder / f"a/x.restart.{k}" for k in (1, 2))
+    job.mark()
+    assert not job.has_saved_more()
+    first.write_bytes(engine.END)
+    assert job.has_saved_more()
+    job.mark()
+    second.write_bytes(engine.END[:5])
+    assert not job.has_saved_more()
+    second.write_bytes(engine.END)
+    os.utime(second, ns=(0, first.stat().st_mtime_ns + 10**9))
+    assert job.has_saved_more()
+
+
 @pytest.mark.parametrize("plan, says", [
     ("CANCELLED", "its Slurm job ended (CANCELLED) without a result; see "), ("FAILED", "its Slurm job ended (FAILED) without a result; see "),
     ("NODE_FAIL", "its Slurm job ended (NODE_FAIL) without a result; it has saved nothing new: call again to submit it again"), ("nothing", "its Slurm job ended (it is not in the queue) without a result; it has saved nothing new: call again to submit it again")])

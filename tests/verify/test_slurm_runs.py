@@ -5,8 +5,6 @@ A run is held where a test wants it: MPIRUN waits as long as there is a file hol
 whole minutes, and looked at every half minute.
 """
 
-import os
-import pathlib
 import re
 import shlex
 import signal
@@ -18,7 +16,7 @@ import pytest
 import yaml
 from kill_runs import CLOCK, SCRIPT
 from shield_runs import mapping, wall
-from slurm_cluster import PROGRAMS, Cluster, lacks
+from slurm_cluster import PROGRAMS, SECONDS, Cluster, lacks
 
 from hvi.shield import case as cases
 from hvi.shield import chain
@@ -72,6 +70,7 @@ class Call:
 
     def __init__(self, scene, *words):
         Call.count += 1
+        scene.calls.append(self)
         self.path, self.begun = scene.folder / f"call{Call.count}.txt", time.monotonic()
         self.words, self.cluster = words, scene.cluster
         with open(self.path, "w") as out:
@@ -82,15 +81,15 @@ class Call:
     def said(self):
         return self.path.read_text()
 
-    def sees(self, text, seconds=60):
+    def sees(self, text):
         """waits until it has printed that"""
-        self.cluster.wait_for(lambda: text in self.said or self.process.poll() is not None, f"'{text}' in\n{self.said}", seconds)
+        self.cluster.wait_for(lambda: text in self.said or self.process.poll() is not None, f"'{text}' in\n{self.said}")
         assert text in self.said, self.said
         print(f"{time.monotonic() - self.begun:6.1f} s: {text}")
 
-    def ends(self, status, seconds=120):
+    def ends(self, status):
         try:
-            found = self.process.wait(timeout=seconds)
+            found = self.process.wait(timeout=SECONDS)
         except subprocess.TimeoutExpired:
             self.process.kill()
             pytest.fail(f"no end: {self.cluster.queue()} {self.said}")
@@ -103,7 +102,7 @@ class Scene:
     """A folder with cases, and the calls there"""
 
     def __init__(self, cluster, folder, lmp_exe, root):
-        self.cluster, self.folder = cluster, folder
+        self.cluster, self.folder, self.calls = cluster, folder, []
         self.environment = {**cluster.environment, "PYTHONPATH": str(root / "python"), "PYTHONUNBUFFERED": "1", "HVI_LMP": str(lmp_exe)}
         mpirun = folder / "mpirun"
         mpirun.write_text(MPIRUN.format(folder=folder, mpirun="mpirun"))
@@ -159,7 +158,12 @@ class Scene:
 
 @pytest.fixture
 def scene(cluster, tmp_path, lmp_exe, root):
-    return Scene(cluster, tmp_path, lmp_exe, root)
+    found = Scene(cluster, tmp_path, lmp_exe, root)
+    yield found
+    for call in found.calls:  # of a test that has failed
+        call.process.kill()
+        call.process.wait()
+    cluster.clear()
 
 
 @pytest.mark.long
@@ -170,7 +174,7 @@ def test_time_limit(scene):
     scene.hold("second", "shift-0.5*in.shield")
     call = scene.call("--time", "1")
     call.sees("Slurm: 2 RUNNING")
-    call.sees("dx-0.8_shift-0.0: its job was cut off (TIMEOUT) and had saved more: submitted again", 200)
+    call.sees("dx-0.8_shift-0.0: its job was cut off (TIMEOUT) and had saved more: submitted again")
     scene.release("first")
     said = call.ends(1)
     assert "dx-0.8_shift-0.0  ok" in said and "no verdict: 1 of 2 runs failed: dx-0.8_shift-0.5" in said
@@ -186,7 +190,7 @@ def test_drained_nodes(scene):
     """jobs that wait stay in the queue, and run where a node comes back"""
     scene.case(0, 0.25, 0.5, 0.75)
     scene.hold("all", "in.shield")
-    call = scene.call(ranks=2)  # a node each
+    call = scene.call("--sbatch=--exclusive")  # a node each
     call.sees("2 RUNNING")
     scene.cluster.wait_for(lambda: scene.states() == ["PENDING", "PENDING", "RUNNING", "RUNNING"], "two that wait")
     assert scene.cluster.said("scontrol", "update", "nodename=n[0-1]", "state=drain", "reason=test") == ""
@@ -257,7 +261,7 @@ def test_requeued(scene):
     scene.cluster.start_controller()
     scene.cluster.wait_for(lambda: scene.states() != [], "controller")
     scene.cluster.said("scontrol", "update", f"jobid={scene.arrays()[0]}_0", "StartTime=now")
-    scene.cluster.wait_for(lambda: scene.states() == ["RUNNING"], "second start", 200)
+    scene.cluster.wait_for(lambda: scene.states() == ["RUNNING"], "second start")
     scene.release("all")
     call.ends(scene.status)
     assert (scene.run(0.0) / "log.1.lammps").stat().st_mtime_ns == first and len(scene.arrays()) == 1 and scene.same_as_local() == 1
@@ -270,7 +274,7 @@ def test_searches_and_studies(scene):
     words = ("limit", "plate.yaml", "--on", "thickness1", "--from", "2.4", "--to", "8.8", "--step", "1.6")
     found = []
     for call in (scene.call(command=words), Call(scene, *words, "--runs", "local", "--ranks", "1")):
-        call.process.wait(timeout=300)
+        call.process.wait(timeout=SECONDS)
         print(call.said)
         folder = scene.folder / ("local" if "local" in call.words else "runs")
         found.append((call.process.returncode, {key: value for key, value in yaml.safe_load((folder / "plate/limit-thickness1/limit.yaml").read_text()).items() if key != "core_s"}))

@@ -198,8 +198,8 @@ class Job:
         return sorted([str(path), path.stat().st_mtime_ns] for path in [*self.folder.glob("*.restart*")] or self.restart_files())
 
     def has_saved_more(self):
-        """whether another call would come farther than the one that was marked"""
-        return self._saved() != self.saved and bool(self.restart_files())
+        """whether another call would come farther than this one: what it would go on from is new, and whole"""
+        return any([str(path), path.stat().st_mtime_ns] not in self.saved for path in self.restart_files()[-1:])
 
     def mark(self, saved=None):
         """a call begins: time, problem and what is saved count from now; saved: of a call that has begun already"""
