@@ -78,7 +78,7 @@ test:
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
 
 verify:
-	@cmake/deps.sh build test browser
+	@cmake/deps.sh build test browser slurm
 	@$(MAKE) build
 	@python=$$(cmake/find-python.sh numpy scipy matplotlib pytest) && \
 	  cmake/env.sh $$python tests/verify/shocks.py --lmp $(OUT)/lmp --out $(OUT)/verify --ranks $(RANKS) $(VERIFY_ARGS) && \

@@ -8,7 +8,7 @@ import math
 
 from .. import tables
 from ..errors import HVIError
-from ..jobs import engine
+from ..jobs import engine, runs
 from ..shield import ble, decision, quantity
 from ..shield import case as cases
 from ..shield.limit import Limit
@@ -59,7 +59,7 @@ def main(args):
     folder = args.runs.resolve() / case.name / (f"curve-{args.on}" + ("" if word == "speed" else f"_over-{word}") + given)
     limits = {value: Limit(over.checked(case, value, f"--over {word}" if args.over else "--speeds"), folder, args.on, args.from_, args.to_, args.step_,
                            name=f"{'v' if word == 'speed' else word}-{value:g}_") for value in values}
-    runner = engine.Runner(args)
+    runner = runs.Runner(args)
     first = [job for limit in limits.values() for job in limit.first()]
     print(f"{case.name}: {args.on} over {len(values)} {'speeds' if word == 'speed' else f'values of {word}'}, {len(first)} runs to begin with", flush=True)
     if args.dry_run:

@@ -5,7 +5,7 @@ import math
 
 from .. import tables
 from ..errors import HVIError
-from ..jobs import engine
+from ..jobs import engine, runs
 from ..shield import ble, calibration, decision, quantity
 from ..shield import case as cases
 from ..shield.limit import Limit
@@ -28,7 +28,7 @@ def add_arguments(parser):
 def main(args):
     case, given = quantity.changed(cases.read(args.case), args.at, args.on)
     limit = Limit(case, args.runs.resolve() / case.name / f"limit-{args.on}{given}", args.on, args.from_, args.to_, args.step_)
-    runner = engine.Runner(args)
+    runner = runs.Runner(args)
     first, values = limit.first(), limit.values
     most = len(decision.members(case)) * 2 * (1 + math.ceil(math.log2(len(values))))
     print(f"{case.name}: {args.on} from {values[0]:g} to {values[-1]:g} {limit.unit}, {len(values)} values, at most {most} runs", flush=True)

@@ -3,7 +3,7 @@
 
 from .. import tables
 from ..errors import HVIError
-from ..jobs import engine
+from ..jobs import runs
 from ..shield import brackets
 from . import running
 from .shots import markdown
@@ -67,7 +67,7 @@ def main(args):
     found = [brackets.Found(study, one, across, shift, folder / one.name) for across in sorted(study.across) for shift in study.shifts for one in study.brackets]
     first = {job.name: (one, job) for one in found for job in one.more() if one.bracket.name in chosen}  # of the others what was run before
     if args.dry_run:
-        engine.Runner(args).show([job for _, job in first.values()])
+        runs.Runner(args).show([job for _, job in first.values()])
         return 0
     owner = {name: one for name, (one, _) in first.items()}
 
@@ -80,7 +80,7 @@ def main(args):
         return new
 
     print(f"{study.name}: {len(chosen)} brackets, {len(study.across)} spacings, {len(study.shifts)} shifts; {len(first)} runs to begin with", flush=True)
-    runner = engine.Runner(args)
+    runner = runs.Runner(args)
     try:
         failed = runner.run([job for _, job in first.values()], study.name, more)
     finally:

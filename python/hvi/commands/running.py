@@ -17,12 +17,20 @@ MOST = 1000  # speeds
 def add_runs(parser):
     group = parser.add_argument_group("how LAMMPS is run; call again to go on where it stopped")
     group.add_argument("--runs", type=pathlib.Path, default="runs", metavar="DIR", help="folder for the runs (default: runs)")
-    group.add_argument("--jobs", type=count, default=1, metavar="N", help="runs at a time (default: 1)")
+    group.add_argument("--engine", choices=("local", "slurm"), default="local", help="runs are processes of this machine, or jobs of Slurm (default: local)")
+    group.add_argument("--jobs", type=count, metavar="N", help="runs at a time (default: 1; with slurm all)")
     group.add_argument("--ranks", type=count, metavar="R", help="MPI ranks of a run (default: the study's, or 2)")
     group.add_argument("--timeout", type=positive, metavar="S", help="end a run after this many seconds (default: the study's, or never)")
     group.add_argument("--lmp", metavar="FILE", help="LAMMPS with USER-HVI (default: $HVI_LMP, build/lmp of the source tree, or lmp on PATH)")
-    group.add_argument("--mpirun", default="mpirun", metavar="FILE", help="how ranks are started (default: mpirun)")
+    group.add_argument("--mpirun", default="mpirun", metavar="FILE", help="how ranks are started, by FILE -n R (default: mpirun)")
     group.add_argument("--dry-run", action="store_true", help="show what would be run")
+    group = parser.add_argument_group("with --engine slurm: a job for each run; what stopped at the time limit is submitted again if it has saved more")
+    group.add_argument("--nodes", type=count, metavar="N", help="nodes of a run (default: as its ranks fit)")
+    group.add_argument("--time", metavar="LIMIT", help="time limit of a job as sbatch takes it, such as 4:00:00 (default: that of the partition)")
+    group.add_argument("--partition", metavar="NAME", help="partition of the jobs")
+    group.add_argument("--account", metavar="NAME", help="account that they are charged to")
+    group.add_argument("--sbatch", metavar="'OPTIONS'", help="further options of sbatch, such as '--mem=4G --qos=long'")
+    group.add_argument("--poll", type=positive, metavar="S", help="seconds between looks at the queue (default: 10)")
 
 
 def add_case(parser):

@@ -8,7 +8,7 @@ import shlex
 
 from .. import tables
 from ..errors import HVIError
-from ..jobs import engine, lammps, machine
+from ..jobs import engine, lammps, machine, runs
 from ..places import program, typed
 from ..shield import ble, calibration, chain, script
 from ..shield import case as cases
@@ -28,8 +28,10 @@ def add_arguments(parser):
 
 def command(args, ranks):
     """what was asked for, as it is typed"""
-    given = (("--runs", args.runs), ("--jobs", args.jobs), ("--ranks", ranks), ("--lmp", args.lmp))
-    return shlex.join([*program().split(), "shield", str(args.case), *(str(word) for option, value in given if value for word in (option, value))])
+    jobs = args.jobs or (1 if args.engine == "local" else None)
+    given = (("--runs", args.runs), ("--jobs", jobs), ("--ranks", ranks), ("--lmp", args.lmp))
+    slurm = [f"--{name}={getattr(args, name)}" for name in ("engine", *runs.OF_SLURM) if getattr(args, name)] if args.engine == "slurm" else []
+    return shlex.join([*program().split(), "shield", str(args.case), *(str(word) for option, value in given if value for word in (option, value)), *slurm])
 
 
 def main(args):
@@ -38,13 +40,13 @@ def main(args):
         return write(case, args.write, args.lmp)
     folder = args.runs.resolve() / case.name
     if args.dry_run:
-        return plan(case, folder, args.jobs, args.ranks or 2)
-    runner = engine.Runner(args)
+        return plan(case, folder, args)
+    runner = runs.Runner(args)
     jobs = {member: job(case, member, folder / member_name(case, member)) for member in members(case)}
     (folder / "verdict.yaml").unlink(missing_ok=True)  # that of another case, or of fewer runs
     todo = [j for j in jobs.values() if j.result() is None]
     if todo:
-        refuse_too_large(case, [chain.plan_of(j.shield) for j in todo], folder, min(runner.jobs, len(todo)))
+        refuse_too_large(case, [chain.plan_of(j.shield) for j in todo], folder, runner.here(len(todo)))
     print(f"{case.name}: {len(jobs)} runs, {len(jobs) - len(todo)} done before, {len(todo)} to run", flush=True)
     with engine.table_of(jobs.values, folder / "runs.csv"):
         failed = runner.run(todo, case.name)
@@ -71,7 +73,7 @@ def main(args):
 
 
 def refuse_too_large(case, plans, folder, jobs):
-    """before anything is made: runs that the machine has no room for; plans: [plan, ...] of the spacings, jobs: runs at a time"""
+    """before anything is made: runs that the machine has no room for; plans: [plan, ...] of the spacings, jobs: runs on this machine at a time"""
     free, most = machine.free_memory(), max(plans, key=lambda plan: plan["memory_MB"])
     dx = most["dx_mm"]
     what = f"spacings_mm: {dx:g} mm makes some {most['particles']:.3g} particles"
@@ -84,7 +86,7 @@ def refuse_too_large(case, plans, folder, jobs):
         raise HVIError(f"{case.name}: some {needed:.3g} MB would be written, and {disk:.0f} are free in {existing}: take a larger settings: film, or another --runs DIR")
 
 
-def plan(case, folder, jobs, ranks):
+def plan(case, folder, args):
     """what would be run: particles, areal densities, steps, time and memory of each spacing, from geometry alone; and a sketch"""
     from .. import figures
     from ..figures import sketch
@@ -95,7 +97,8 @@ def plan(case, folder, jobs, ranks):
             "tstop_us", "particles", "steps", "core_s", "memory_MB", "disk_MB"]
     print(tables.text(("each run", *(f"dx-{dx:g}" for dx in case.spacings_mm)), [
         (key, *(f"about {tables.number(found[key])}" if key in ("steps", "core_s", "memory_MB", "disk_MB") else found[key] for found in plans)) for key in keys]))
-    core = sum(found["core_s"] for found in plans) * len(case.shifts)
+    core, local, ranks = sum(found["core_s"] for found in plans) * len(case.shifts), args.engine == "local", args.ranks or 2
+    jobs = args.jobs or (1 if local else len(members(case)))
     print(f"{len(members(case))} runs, {len(case.shifts)} of each spacing: at most about {engine.duration(core / (jobs * ranks))}, {jobs} at a time on {ranks} ranks each, "
           "on idle cores; a run ends when its event is over")
     finest = plans[-1]
@@ -105,7 +108,7 @@ def plan(case, folder, jobs, ranks):
         folder.mkdir(parents=True, exist_ok=True)
         for path in figures.save(sketch.draw(case, finest), str(folder / "sketch.png")):
             print(f"sketch: {path}")
-    refuse_too_large(case, plans, folder, jobs)
+    refuse_too_large(case, plans, folder, jobs if local else 0)
     return 0
 
 

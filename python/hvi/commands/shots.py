@@ -2,7 +2,7 @@
 """python3 -m hvi shots: published shots one after the other, beside equations."""
 
 from .. import tables
-from ..jobs import engine
+from ..jobs import runs
 from ..shield import chain
 from ..shield.shots import Outcome, Study, by_equation, confusion, counts, counts_table, named, ratios_of, row, shown
 from . import running
@@ -76,7 +76,7 @@ def main(args):
     jobs = [job for _, job in sorted(((member, job) for o in outcomes for member, job in o.jobs.items()), key=lambda pair: pair[0])]  # coarse ones first
     todo = [job for job in jobs if job.result() is None]
     print(f"{study.name}: {len(shots)} shots, {len(jobs)} runs, {len(jobs) - len(todo)} done before, {len(todo)} to run", flush=True)
-    runner = engine.Runner(args)
+    runner = runs.Runner(args)
     try:
         failed = runner.run(todo, study.name)
     finally:

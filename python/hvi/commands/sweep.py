@@ -3,7 +3,7 @@
 
 import pathlib
 
-from ..jobs import engine
+from ..jobs import engine, runs
 from ..jobs.sweep import Study
 from . import running
 
@@ -21,7 +21,7 @@ def add_arguments(parser):
 def one(path, args):
     """one study; returns True if all its jobs are done"""
     study = Study(pathlib.Path(path), args.full)
-    runner = engine.Runner(args, study.ranks, study.timeout)
+    runner = runs.Runner(args, study.ranks, study.timeout)
     folder = args.runs.resolve()
     jobs = study.jobs(folder)
     todo = [job for job in jobs if job.result() is None]

@@ -16,15 +16,13 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
 import time
 
 import yaml
 
-from .. import progress, tables, texts
+from .. import tables, texts
 from ..errors import HVIError, writing
 from ..material.library import potentials
-from . import lammps
 
 RESULT, LAST = "result.yaml", "package_version"  # what a run is for, and the last key in it: it is there if the file is complete
 PATIENCE = 10  # seconds that mpirun has to end its ranks
@@ -196,8 +194,16 @@ class Job:
         return sorted(filter(is_whole, found), key=lambda path: path.stat().st_mtime)
 
     def _saved(self):
-        """files with particles and their times"""
-        return sorted((path, path.stat().st_mtime_ns) for path in [*self.folder.glob("*.restart*")] or self.restart_files())
+        """files with particles and their times, [[path, ns], ...]"""
+        return sorted([str(path), path.stat().st_mtime_ns] for path in [*self.folder.glob("*.restart*")] or self.restart_files())
+
+    def has_saved_more(self):
+        """whether another call would come farther than this one: what it would go on from is new, and whole"""
+        return any([str(path), path.stat().st_mtime_ns] not in self.saved for path in self.restart_files()[-1:])
+
+    def mark(self, saved=None):
+        """a call begins: time, problem and what is saved count from now; saved: of a call that has begun already"""
+        self.start, self.problem, self.advice, self.saved = time.monotonic(), "", "", self._saved() if saved is None else saved
 
     def words(self):
         """LAMMPS's options"""
@@ -268,7 +274,7 @@ class Job:
         if status is None:
             end([self])
             self.problem = f"stopped after {timeout:g} s"
-            self.advice = ("call again: it goes on from what it has saved" if self._saved() != self.saved and self.restart_files() else
+            self.advice = ("call again: it goes on from what it has saved" if self.has_saved_more() else
                            "it has saved nothing new, another call would come no farther: take a longer --timeout")
         elif status != 0:
             self.problem = said_of(status)
@@ -347,84 +353,6 @@ def end(jobs):
     finally:
         for job in jobs:
             job.kill()
-
-
-class Runner:
-    """Runs jobs as the options of the command line say."""
-
-    def __init__(self, args, ranks=None, timeout=None):
-        self.jobs, self.ranks = args.jobs, args.ranks or ranks or 2
-        self.timeout, self.mpirun = args.timeout or timeout, args.mpirun
-        self.lmp = lammps.find(args.lmp)
-        lammps.check_mpirun(self.mpirun)
-        if os.sep in self.mpirun:
-            self.mpirun = os.path.abspath(self.mpirun)  # runs have folders of their own
-        for ends in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C; nohup still works
-            if signal.getsignal(ends) != signal.SIG_IGN:
-                signal.signal(ends, signal.default_int_handler)
-
-    def command(self, job):
-        return [*lammps.environment(), self.mpirun, "-np", str(self.ranks), str(self.lmp), *job.words()]
-
-    def show(self, jobs):
-        """what would be run"""
-        for job in jobs:
-            print(" ".join(self.command(job)))
-
-    def run(self, jobs, what, more=lambda job: []):
-        """Runs those that are not done, some at a time; returns those that failed.
-
-        more(job): jobs that follow from one that is done
-        Ctrl-C ends what runs and is passed on.
-        """
-        waiting, running, failed, over, work = list(jobs), [], [], 0, 0.0
-        start, look = time.monotonic(), 0.0
-        form = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}{postfix}"
-        with progress.bar(1, what, sys.stdout, bar_format=form) as bar:
-            try:
-                while waiting or running:
-                    while waiting and len(running) < self.jobs:
-                        job = waiting.pop(0)
-                        if job.result() is None:
-                            running.append(job)
-                        else:
-                            waiting += more(job)
-                    for job in [j for j in running if self._ended(j)]:
-                        running.remove(job)
-                        over, work = over + 1, work + job.weight
-                        if job.problem:
-                            failed.append(job)
-                        else:
-                            waiting += more(job)
-                        left = sum(j.weight for j in waiting + running)
-                        bar.write(f"[{over}/{over + len(waiting) + len(running)}] {self._line(job)}"
-                                  + (f"   about {duration((time.monotonic() - start) / work * left)} left" if left else ""))
-                    if not isinstance(bar, progress.Silent) and time.monotonic() > look:
-                        stages = [job.stage() for job in running]
-                        bar.total = work + sum(j.weight for j in waiting + running)
-                        bar.n = work + sum(part * job.weight for (part, _), job in zip(stages, running))
-                        bar.set_postfix_str("; ".join(job.name + text for (_, text), job in zip(stages, running)))
-                        look = time.monotonic() + 0.5
-                    time.sleep(0.05)
-            except KeyboardInterrupt:
-                print("interrupted: call again to go on", file=sys.stderr)
-                raise
-            finally:
-                end(running)
-        return failed
-
-    def _ended(self, job):
-        try:
-            return job.ended(self.command, self.timeout)
-        except OSError as problem:  # every other run would meet the same
-            raise HVIError(f"cannot run in {job.folder}: {problem.strerror}{f': {problem.filename}' if problem.filename else ''}; "
-                           "put that right and call again to go on") from None
-
-    def _line(self, job):
-        took = f"{time.monotonic() - job.start:.0f} s"
-        if not job.problem:
-            return f"{job.name}  ok  {took}"
-        return "\n".join([f"{job.name}  FAILED: {job.problem}{f'; {job.advice}' if job.advice else ''}  {took}", *(f"    | {line}" for line in job.last_lines()), f"    | see {job.folder}"])
 
 
 def said_of(status):

@@ -74,7 +74,7 @@ KEYS = {
 
 # its attributes are these keys; method is None only while it is read: that of the case
 Wall = dataclasses.make_dataclass("Wall", [(name, Any, key.default) if key.default is not REQUIRED else (name, Any) for name, key in WALL.items()],  # type: ignore[misc]  # either form is one that it takes
-                              frozen=True)
+                              frozen=True, namespace={"__module__": __name__})  # where pickle finds it
 
 
 @dataclasses.dataclass(frozen=True)

@@ -1,0 +1,255 @@
+# lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
+"""Runs as jobs of Slurm: arrays by sbatch, a job for each run. In its job a run is what it is without Slurm: hvi.jobs.task runs it there.
+
+A batch is one call of sbatch: a folder in DIR/.slurm whose name is that of its jobs, with
+
+    runs.yaml     [[folder, checksum of what is run there, what it had saved], ...]: the number of a run is its index in the array
+    runs.pickle   how LAMMPS is run, and the same runs as their command made them
+    job.sh        the script
+    INDEX.yaml    of a run that has failed: problem, advice;   INDEX.txt: what its job has printed
+
+Nothing else is remembered: which jobs are in the queue is asked by these names, so any later call finds those of an earlier one. There may be no
+accounting, and Slurm forgets a job minutes after its end: how a run has ended is in its own folder, or in INDEX.yaml. A job that has left neither
+was stopped from outside. It is submitted again if the run has saved more since, and has failed otherwise, so there is an end.
+"""
+
+import collections
+import contextlib
+import pathlib
+import pickle
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+from ..errors import HVIError, writing
+from ..places import PACKAGE
+from . import engine
+
+POLL = 10.0  # seconds between looks at the queue
+LOOKS = 3  # in a row that must find a job over that has left no record: other machines see files of a shared disk late
+ARRAY = 1000  # jobs of an array: what Slurm allows by default is 1001
+SECONDS = 120  # that a command of Slurm may take
+ENDED = set("BOOT_FAIL CANCELLED COMPLETED DEADLINE FAILED NODE_FAIL OUT_OF_MEMORY PREEMPTED REVOKED TIMEOUT".split())
+CUT_OFF = {"BOOT_FAIL", "NODE_FAIL", "PREEMPTED", "TIMEOUT", None}  # by no fault of the run; None: Slurm has forgotten the job
+SCRIPT = """#!/bin/sh
+# of {what}: python3 -m hvi submits this, an element of the array for each run
+export PYTHONPATH={package}${{PYTHONPATH:+:$PYTHONPATH}}
+exec {python} -m hvi.jobs.task "$SLURM_ARRAY_TASK_ID"
+"""
+
+Entry = collections.namedtuple("Entry", "job state reason")  # of the queue: number of the array, state, why it waits
+
+
+def said(words):
+    """what a command of Slurm prints; an HVIError with its message if it fails"""
+    try:
+        done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", timeout=SECONDS, check=False)
+    except FileNotFoundError:
+        raise HVIError(f"{words[0]} is not there: --engine slurm is for a machine that can submit jobs to Slurm; --engine local runs here") from None
+    except (OSError, subprocess.TimeoutExpired) as problem:
+        raise HVIError(f"{words[0]}: {problem}") from None
+    if done.returncode:
+        lines = [re.sub(rf"^{words[0]}: (error: |fatal: )?", "", line) for line in done.stderr.splitlines()]
+        raise HVIError(f"{words[0]}: {'; '.join(filter(None, lines)) or engine.said_of(done.returncode)}")
+    return done.stdout
+
+
+def checksum(job):
+    return engine.digest(engine.yaml_of(job.record).encode())
+
+
+class Batch:
+    """One call of sbatch, read from its folder"""
+
+    def __init__(self, folder):
+        self.folder, self.name = folder, folder.name
+        self.runs = [(pathlib.Path(run), of, saved) for run, of, saved in engine.read_yaml(folder / "runs.yaml")["runs"]]
+
+    @classmethod
+    def all_in(cls, folder):
+        """those that are readable; others were left by a call that was killed before it called sbatch"""
+        for path in sorted(folder.glob("hvi-*")):
+            with contextlib.suppress(TypeError, KeyError, ValueError):
+                yield cls(path)
+
+
+class Slurm:
+    """Runs are jobs of Slurm; what is submitted stays in the queue when the call ends."""
+
+    most, here = sys.maxsize, False
+
+    def __init__(self, args, local):
+        """local: the engine that the jobs use"""
+        self.local, self.folder, self.pause = local, args.runs.resolve() / ".slurm", args.poll or POLL
+        try:
+            own = shlex.split(args.sbatch or "")
+        except ValueError as problem:
+            raise HVIError(f"--sbatch {args.sbatch}: {problem}") from None
+        if own and not own[0].startswith("-"):
+            raise HVIError(f"--sbatch {args.sbatch}: options of sbatch, such as --sbatch '--mem=4G --qos=long'")
+        if (args.nodes or 1) > local.ranks:
+            raise HVIError(f"--nodes {args.nodes}: a run of {local.ranks} ranks has no use for so many: more --ranks, or fewer --nodes")
+        given = (("ntasks", local.ranks), ("nodes", args.nodes), ("time", args.time), ("partition", args.partition), ("account", args.account))
+        self.words = [*own, *(f"--{name}={value}" for name, value in given if value)]
+        self.place, self.kept = {}, set()  # {job: (name of its batch, index)}; names of batches that show why a run has failed
+        self.over = collections.Counter()  # looks that have found a job over, and no record
+        self.numbers, self.kinds, self.problem, self.next = {}, None, "", 0.0  # of Slurm's arrays by their names; what was said last; time of the next look
+        for program in ("sbatch", "squeue"):
+            said([program, "--version"])
+
+    def show(self, jobs):
+        """what would be submitted, and what each job runs"""
+        print(shlex.join(self.sbatch("hvi", len(jobs), self.folder)))
+        self.local.show(jobs)
+
+    def sbatch(self, name, number, folder):
+        """ours behind the user's: the last one counts"""
+        return ["sbatch", *self.words, "--parsable", f"--job-name={name}", f"--array=0-{number - 1}", f"--chdir={folder}", "--output=%a.txt", "--open-mode=append", "--requeue", "--export=ALL",
+                str(folder / "job.sh")]
+
+    # ------------------------------------------------------------------ into the queue
+    def begin(self, jobs, say):
+        """those that an earlier call has submitted, and that have not ended, are waited for; the others are submitted"""
+        self.adopt(jobs, say)
+        self.submit([job for job in jobs if job not in self.place], say)
+
+    def adopt(self, jobs, say):
+        wanted = {job.folder: job for job in jobs}
+        batches = [batch for batch in Batch.all_in(self.folder) if any(run in wanted for run, *_ in batch.runs)]
+        queue = self.queue([batch.name for batch in batches]) if batches else {}
+        for batch in batches:
+            active = [index for index in range(len(batch.runs)) if self.is_active(queue.get((batch.name, index)))]
+            for index in active:
+                folder, of, saved = batch.runs[index]
+                if job := wanted.get(folder):
+                    number = queue[batch.name, index].job
+                    if of != checksum(job):
+                        raise HVIError(f"{folder}: another case, or another state of this one, is still in Slurm's queue for this folder: scancel {number}_{index}, or another --runs DIR")
+                    job.mark(saved)
+                    self.take(job, batch.name, index)
+                    say(f"{job.name}: in the queue already, Slurm job {number}_{index}")
+            if not active:
+                self.forget(batch.name)
+
+    def submit(self, jobs, say):
+        for first in range(0, len(jobs), ARRAY):
+            self.submit_array(jobs[first:first + ARRAY], say)
+
+    def submit_array(self, jobs, say):
+        for job in jobs:
+            job.mark()
+        with writing(self.folder):
+            self.folder.mkdir(parents=True, exist_ok=True)
+            what = re.sub(r"[^\w.+-]", "-", jobs[0].folder.parent.name, flags=re.ASCII)[:40]
+            folder = pathlib.Path(tempfile.mkdtemp(prefix=f"hvi-{what}-", dir=self.folder))
+            (folder / "runs.pickle").write_bytes(pickle.dumps((self.local, jobs)))
+            (folder / "job.sh").write_text(SCRIPT.format(what=what, package=shlex.quote(str(PACKAGE.parent)), python=shlex.quote(sys.executable)))
+            engine.write_yaml(folder / "runs.yaml", {"runs": [[str(job.folder), checksum(job), job.saved] for job in jobs]})
+        try:
+            self.numbers[folder.name] = said(self.sbatch(folder.name, len(jobs), folder)).strip().partition(";")[0]
+        except HVIError as problem:  # the folder stays: after a timeout jobs may be in the queue nevertheless, and the next call finds them
+            stay = "; runs that are in the queue stay there: call again to go on" if self.place else ""
+            raise HVIError(f"{problem} ({shlex.join(['sbatch', *self.words])}){stay}") from None
+        for index, job in enumerate(jobs):
+            self.take(job, folder.name, index)
+        say(f"submitted: {len(jobs)} run{'s' * (len(jobs) > 1)}, Slurm job {self.numbers[folder.name]}, {folder}")
+
+    def take(self, job, name, index):
+        self.place[job], self.over[job] = (name, index), 0
+
+    def forget(self, name):
+        """the folder of a batch with nothing in the queue, and no run that this call has an eye on"""
+        if name not in self.kept and name not in {name for name, _ in self.place.values()}:
+            shutil.rmtree(self.folder / name, ignore_errors=True)
+
+    # ------------------------------------------------------------------ looks at the queue
+    @staticmethod
+    def is_active(entry):
+        return entry is not None and entry.state not in ENDED
+
+    def queue(self, names):
+        """{(name, index): Entry} of all jobs of these batches that Slurm remembers"""
+        found = {}
+        for line in said(["squeue", f"--name={','.join(names)}", "--states=all", "--array", "--noheader", "--format=%j|%K|%F|%T|%r"]).splitlines():
+            name, index, *entry = line.split("|", 4)
+            found[name, int(index)] = Entry(*entry)
+            self.numbers[name] = entry[0]
+        return found
+
+    def ended(self, jobs, say):
+        if time.monotonic() < self.next:
+            return []
+        self.next = time.monotonic() + self.pause
+        try:
+            queue = self.queue(sorted({self.place[job][0] for job in jobs}))
+        except HVIError as problem:  # the controller is away: jobs run on, and that they are not seen says nothing
+            if str(problem) != self.problem:
+                say(f"{problem}; looking again each {self.pause:g} s")
+            self.problem = str(problem)
+            return []
+        self.problem = ""
+        self.tell([queue.get(self.place[job]) for job in jobs], say)
+        over, again = [], []
+        for job in jobs:
+            entry = queue.get(self.place[job])
+            if self.is_active(entry):
+                self.over[job] = 0
+                continue
+            self.over[job] += 1
+            state = entry.state if entry else None
+            if self.has_left_record(job, state):
+                over.append(job)
+            elif self.over[job] >= LOOKS and state in CUT_OFF and job.has_saved_more():
+                say(f"{job.name}: its job was cut off ({state or 'it is not in the queue'}) and had saved more: submitted again")
+                again.append(job)
+            elif self.over[job] >= LOOKS:
+                job.problem, job.advice = self.without_record(job, state)
+                over.append(job)
+        ended = {job: self.place.pop(job)[0] for job in (*over, *again)}
+        self.kept |= {name for job, name in ended.items() if job.problem}
+        if again:
+            self.begin(again, say)
+        for name in {*ended.values()} - {name for (name, _), entry in queue.items() if self.is_active(entry)}:
+            self.forget(name)
+        return over
+
+    def has_left_record(self, job, state):
+        """whether a run whose job has ended has a result, or a failure, which is in job.problem then"""
+        name, index = self.place[job]
+        left = engine.read_yaml(self.folder / name / f"{index}.yaml")
+        if left and (state is None or state not in CUT_OFF):  # a run that is cut off with its job may take that for a failure of its own
+            job.problem, job.advice = left["problem"], left["advice"]
+            return True
+        return job.result() is not None
+
+    def without_record(self, job, state):
+        """problem and advice of such a run"""
+        name, index = self.place[job]
+        problem = f"its Slurm job ended ({state or 'it is not in the queue'}) without a result"
+        if state == "TIMEOUT":
+            return problem, "it has saved nothing new, another job would come no farther: take a longer --time"
+        if state in CUT_OFF:
+            return problem, "it has saved nothing new: call again to submit it again"
+        said_last = []
+        with contextlib.suppress(OSError):
+            said_last = [line.strip() for line in (self.folder / name / f"{index}.txt").read_text(errors="replace").splitlines() if line.strip()][-1:]
+        return problem, "; ".join([*said_last, f"see {self.folder / name}"])
+
+    def tell(self, entries, say):
+        """how many runs are in which state, when there is another state"""
+        kinds = collections.Counter(f"{entry.state} ({entry.reason})" if entry.state == "PENDING" else entry.state for entry in entries if self.is_active(entry))
+        if kinds and set(kinds) != self.kinds:
+            say("Slurm: " + ", ".join(f"{number} {kind}" for kind, number in sorted(kinds.items())))
+            self.kinds = set(kinds)
+
+    # ------------------------------------------------------------------ the end
+    def stop(self, jobs):
+        """they run on"""
+
+    def interrupted(self):
+        numbers = sorted({self.numbers[name] for name, _ in self.place.values() if name in self.numbers})
+        return f"what is in Slurm's queue runs on: call again to go on{', or ' + ' '.join(['scancel', *numbers]) if numbers else ''}"

@@ -1,0 +1,273 @@
+"""python3 -m hvi ... --engine slurm: what is submitted, how ended jobs are told apart, what a second call takes up. Slurm and LAMMPS are fakes here;
+tests/verify/test_slurm_runs.py does it with both."""
+
+import json
+import os
+import pickle
+import sys
+
+import pytest
+import yaml
+from front_runs import change, front, tries, case_folder  # noqa: F401
+from hvi import cli
+from hvi.jobs import engine, runs, slurm
+
+CASE = change("spacings_mm: [0.2, 0.4]", "spacings_mm: [0.4]")  # two runs, shifts 0 and 0.5; one spacing decides nothing
+UNDECIDED = 4
+SUBMIT = ("--engine", "slurm", "--poll", "0.01", "--ranks", "3")
+
+
+@pytest.fixture
+def fake(folder, root, monkeypatch):
+    """the folder of the fake, whose commands are first on PATH"""
+    (folder / "emi.yaml").write_text(CASE)
+    home = folder / "slurm"
+    (home / "bin").mkdir(parents=True)
+    for name in ("sbatch", "squeue"):
+        (home / "bin" / name).write_text(f"#!/bin/sh\nexec '{sys.executable}' '{root}/tests/lib/fake_slurm.py' {name} \"$@\"\n")
+        (home / "bin" / name).chmod(0o755)
+    monkeypatch.setenv("FAKE_SLURM", str(home))
+    monkeypatch.setenv("PATH", f"{home / 'bin'}:{os.environ['PATH']}")
+    return home
+
+
+def calls(fake):
+    path = fake / "calls"
+    return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+
+
+def batches(folder):
+    return sorted(path.name for path in folder.glob("runs/.slurm/*"))
+
+
+def records(folder):
+    """what is compared of two engines: verdict and table; times are the fake's, so the same"""
+    said = yaml.safe_load((folder / "verdict.yaml").read_text())
+    return {key: value for key, value in said.items() if key != "command"}, (folder / "runs.csv").read_text()
+
+
+def test_the_same_records(folder, fake, capsys):
+    """one array for the runs of a verdict, and nothing is left of it; verdict and table are those of runs on this machine"""
+    assert front("shield", *SUBMIT, "--time", "4:00:00", "--nodes", "2", "--partition", "p1", "--account", "a1", "--sbatch=--mem=4G --qos 'so long'") == UNDECIDED
+    out = capsys.readouterr().out
+    assert "submitted: 2 runs, Slurm job 1, " in out and out.count("  ok  ") == 2
+    (words,) = calls(fake)
+    name = next(word for word in words if word.startswith("--job-name=hvi-emi-")).partition("=")[2]
+    at = folder / "runs/.slurm" / name
+    assert words == ["--mem=4G", "--qos", "so long", "--ntasks=3", "--nodes=2", "--time=4:00:00", "--partition=p1", "--account=a1", "--parsable", f"--job-name={name}", "--array=0-1",
+                     f"--chdir={at}", "--output=%a.txt", "--open-mode=append", "--requeue", "--export=ALL", str(at / "job.sh")]
+    assert set(tries(folder).values()) == {1} and len(tries(folder)) == 2 and batches(folder) == []
+    said = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())["command"]
+    assert said.endswith("--engine=slurm --nodes=2 --time=4:00:00 --partition=p1 --account=a1 '--sbatch=--mem=4G --qos '\"'\"'so long'\"'\"'' --poll=0.01")
+    assert front("shield", "--runs", "local", "--ranks", "3") == UNDECIDED
+    assert records(folder / "runs/emi") == records(folder / "local/emi")
+    assert front("shield", *SUBMIT) == UNDECIDED and len(calls(fake)) == 1  # all is done
+
+
+def test_commands_share_it(folder, fake, capsys):
+    """a search submits what its last answers ask for; --jobs is the most in the queue at a time; arrays have an end"""
+    assert front("limit", "--on", "D", "--from", "3", "--to", "6", "--step", "1", *SUBMIT) == 0
+    assert len(calls(fake)) > 2 and sum(tries(folder).values()) == yaml.safe_load((folder / "runs/emi/limit-D/limit.yaml").read_text())["runs"]
+    for command in ("shield", "limit", "limits", "curve", "shots", "sweep"):
+        assert cli.parse([command, "x", *(("--on", "D") if command == "limit" else ()), "--engine", "slurm", "--time", "5"]).time == "5"
+
+
+def test_some_at_a_time(folder, fake, monkeypatch):
+    assert front("shield", *SUBMIT, "--jobs", "1") == UNDECIDED
+    assert [word for words in calls(fake) for word in words if word.startswith("--array")] == ["--array=0-0"] * 2
+    (folder / "emi.yaml").write_text(CASE.replace("[0, 0.5]", "[0, 0.25, 0.5]"))
+    monkeypatch.setattr(slurm, "ARRAY", 2)
+    assert front("shield", *SUBMIT, "--runs", "more") == UNDECIDED
+    assert [word for words in calls(fake)[2:] for word in words if word.startswith("--array")] == ["--array=0-1", "--array=0-0"]
+
+
+# ---------------------------------------------------------------------- jobs that end without a result
+def test_stopped_and_submitted_again(folder, fake, capsys, monkeypatch):
+    """as long as it saves more, and no longer; the next job goes on from there"""
+    monkeypatch.setenv("FAKE_SAVE", "shift-0.5")
+    monkeypatch.setenv("FAKE_SLEEP", "2")
+    monkeypatch.setenv("FAKE_PLAN", "stop stop run")
+    assert front("shield", *SUBMIT) == 1
+    out, err = capsys.readouterr()
+    assert out.count("_shift-0.5: its job was cut off (TIMEOUT) and had saved more: submitted again\n") == 2 and "_shift-0.0: " not in out
+    assert out.count("_shift-0.0  FAILED: its Slurm job ended (TIMEOUT) without a result; it has saved nothing new, another job would come no farther: take a longer --time") == 1
+    assert len(calls(fake)) == 3 and "no verdict: 1 of 2 runs failed" in err
+    assert (folder / "runs/emi/dx-0.4_shift-0.5/tries").read_text().split() == ["no", "yes", "yes"]
+    assert front("shield", *SUBMIT) == UNDECIDED and len(calls(fake)) == 4 and set(tries(folder).values()) == {3, 1}  # the others began anew
+    assert batches(folder) == []
+
+
+def test_saved_more(folder):
+    """only a whole restart file that is new: a job that is cut off while it writes has no right to another"""
+    (folder / "in.main").write_text("")
+    (folder / "a").mkdir()
+    job = engine.Job(engine.Input(folder / "in.main"), "a", {}, folder / "a", restart="x.restart.*")
+    engine.write_yaml(folder / "a/job.yaml", job.record)
+    first, second = (folder / f"a/x.restart.{k}" for k in (1, 2))
+    job.mark()
+    assert not job.has_saved_more()
+    first.write_bytes(engine.END)
+    assert job.has_saved_more()
+    job.mark()
+    second.write_bytes(engine.END[:5])
+    assert not job.has_saved_more()
+    second.write_bytes(engine.END)
+    os.utime(second, ns=(0, first.stat().st_mtime_ns + 10**9))
+    assert job.has_saved_more()
+
+
+@pytest.mark.parametrize("plan, says", [
+    ("CANCELLED", "its Slurm job ended (CANCELLED) without a result; see "), ("FAILED", "its Slurm job ended (FAILED) without a result; see "),
+    ("NODE_FAIL", "its Slurm job ended (NODE_FAIL) without a result; it has saved nothing new: call again to submit it again"), ("nothing", "its Slurm job ended (it is not in the queue) without a result; it has saved nothing new: call again to submit it again")])
+def test_job_without_a_record(folder, fake, capsys, monkeypatch, plan, says):
+    """one submission, one message; the next call tries again"""
+    monkeypatch.setenv("FAKE_PLAN", f"{plan} run")
+    assert front("shield", *SUBMIT) == 1
+    assert capsys.readouterr().out.count(says) == 2 and len(calls(fake)) == 1
+    assert front("shield", *SUBMIT) == UNDECIDED and len(calls(fake)) == 2 and batches(folder) == []
+
+
+def test_job_that_cannot_begin(folder, fake, capsys, monkeypatch):
+    """the last words of the job itself are shown"""
+    monkeypatch.setattr(sys, "executable", "/no/python")
+    assert front("shield", *SUBMIT) == 1
+    assert "/no/python: not found; see " in capsys.readouterr().out and len(calls(fake)) == 1
+
+
+def test_run_that_fails(folder, fake, capsys, monkeypatch):
+    """for good, with what LAMMPS has said; that other runs are done is kept, and a failure is forgotten when the run is tried again"""
+    monkeypatch.setenv("FAKE_FAIL", "dx-0.4_shift-0.0")
+    assert front("shield", *SUBMIT) == 1
+    out, err = capsys.readouterr()
+    assert "dx-0.4_shift-0.0  FAILED: exit status 1  " in out and "    | ERROR: Lost atoms (as told to)" in out and "1 of 2 runs failed" in err
+    (batch,) = batches(folder)
+    (left,) = (folder / "runs/.slurm" / batch).glob("[0-9].yaml")
+    assert len(calls(fake)) == 1 and yaml.safe_load(left.read_text()) == {"problem": "exit status 1", "advice": ""}
+    monkeypatch.delenv("FAKE_FAIL")
+    assert front("shield", *SUBMIT) == UNDECIDED and len(calls(fake)) == 2 and sum(tries(folder).values()) == 2 and batches(folder) == []
+
+
+def test_what_a_job_cannot_write(folder, fake, capsys, monkeypatch):
+    """it says so where it was called"""
+    (folder / "runs/emi").mkdir(parents=True)
+    (folder / "runs/emi/.dx-0.4_shift-0.0.lock").mkdir()
+    assert front("shield", *SUBMIT) == 1
+    assert "dx-0.4_shift-0.0  FAILED: cannot run in " in capsys.readouterr().out
+
+
+# ---------------------------------------------------------------------- calls that end before their jobs
+@pytest.fixture
+def waiting(folder, fake, capsys, monkeypatch):
+    """a call that was interrupted while its jobs wait"""
+    monkeypatch.setenv("FAKE_PLAN", "wait")
+    look = slurm.Slurm.ended
+
+    def interrupt(self, jobs, say):
+        look(self, jobs, say)
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as only:
+        only.setattr(slurm.Slurm, "ended", interrupt)
+        assert front("shield", *SUBMIT) == 130
+    out, err = capsys.readouterr()
+    assert "\nSlurm: 2 PENDING (Resources)\n" in out
+    assert "interrupted: what is in Slurm's queue runs on: call again to go on, or scancel 1\n" in err and tries(folder) == {}
+    return fake
+
+
+def test_next_call_takes_them_up(folder, waiting, capsys, monkeypatch):
+    monkeypatch.setenv("FAKE_START", "yes")
+    assert front("shield", *SUBMIT) == UNDECIDED
+    out = capsys.readouterr().out
+    assert all(f": in the queue already, Slurm job 1_{index}\n" in out for index in range(2)) and "submitted" not in out
+    assert len(calls(waiting)) == 1 and set(tries(folder).values()) == {1} and batches(folder) == []
+
+
+def test_jobs_that_end_without_a_call(folder, waiting, capsys, monkeypatch):
+    """their results are there; nothing is submitted"""
+    monkeypatch.setenv("FAKE_START", "yes")
+    os.system("squeue --name=none >/dev/null")
+    assert front("shield", *SUBMIT) == UNDECIDED and "2 runs, 2 done before, 0 to run" in capsys.readouterr().out and len(calls(waiting)) == 1
+
+
+def test_another_case_in_the_queue(folder, waiting, capsys):
+    """its jobs would write into the same folders"""
+    (folder / "emi.yaml").write_text(CASE.replace("speed_km_s: 7.1", "speed_km_s: 7"))
+    assert front("shield", *SUBMIT) == 1
+    assert "another case, or another state of this one, is still in Slurm's queue for this folder: scancel 1_0, or another --runs DIR" in capsys.readouterr().err
+    assert len(calls(waiting)) == 1
+
+
+def test_the_controller_is_away(folder, waiting, capsys, monkeypatch):
+    """a look that fails says nothing about jobs; the first one of a call does, since they might be submitted twice"""
+    (waiting / "away").write_text("")
+    assert front("shield", *SUBMIT) == 1 and "hvi: squeue: slurm_load_jobs error: Unable to contact slurm controller" in capsys.readouterr().err
+    monkeypatch.setenv("FAKE_START", "yes")
+    look, looks = slurm.Slurm.queue, []
+
+    def second_is_away(self, names):
+        looks.append(names)
+        if len(looks) == 2:
+            (waiting / "away").write_text("")
+        return look(self, names)
+
+    monkeypatch.setattr(slurm.Slurm, "queue", second_is_away)
+    assert front("shield", *SUBMIT) == UNDECIDED
+    assert capsys.readouterr().out.count("squeue: slurm_load_jobs error: Unable to contact slurm controller (connect failure); looking again each 0.01 s\n") == 1
+    assert len(calls(waiting)) == 1
+
+
+def test_left_by_a_kill(folder, fake):
+    """between folder and sbatch: what is not complete is passed over"""
+    for name, text in (("hvi-emi-1", None), ("hvi-emi-2", ""), ("hvi-emi-3", "runs: [[5]]\n")):
+        (folder / "runs/.slurm" / name).mkdir(parents=True)
+        if text is not None:
+            (folder / "runs/.slurm" / name / "runs.yaml").write_text(text)
+    assert front("shield", *SUBMIT) == UNDECIDED and len(calls(fake)) == 1
+
+
+def test_a_job_that_starts_again(folder, fake, monkeypatch):
+    """Slurm puts it back into the queue: its failure before counts no more"""
+    monkeypatch.setenv("FAKE_FAIL", "dx-0.4_shift-0.0")
+    assert front("shield", *SUBMIT) == 1
+    (batch,) = (folder / "runs/.slurm").iterdir()
+    local, jobs = pickle.loads((batch / "runs.pickle").read_bytes())
+    (index,) = [k for k, job in enumerate(jobs) if job.name == "dx-0.4_shift-0.0"]
+    assert (batch / f"{index}.yaml").exists() and isinstance(local, runs.Local) and local.ranks == 3
+    monkeypatch.delenv("FAKE_FAIL")
+    monkeypatch.setenv("SLURM_ARRAY_TASK_ID", str(index))
+    assert os.system(f"cd '{batch}' && sh job.sh >/dev/null") == 0
+    assert not (batch / f"{index}.yaml").exists() and jobs[index].result() and engine.LAST in jobs[index].result()
+
+
+# ---------------------------------------------------------------------- what is refused
+def test_refused(folder, fake, capsys, monkeypatch):
+    monkeypatch.setenv("FAKE_REFUSE", "invalid partition specified: none")
+    assert front("shield", *SUBMIT, "--partition", "none") == 1
+    assert "hvi: sbatch: invalid partition specified: none; Batch job submission failed: so it is (sbatch --ntasks=3 --partition=none)\n" in capsys.readouterr().err
+    assert len(batches(folder)) == 1 and calls(fake) == []
+    monkeypatch.delenv("FAKE_REFUSE")
+    assert front("shield", *SUBMIT) == UNDECIDED and batches(folder) == []
+
+
+@pytest.mark.parametrize("words, says", [
+    (("--nodes", "2"), "--nodes is for --engine slurm"), (("--time", "5"), "--time is for --engine slurm"), ((*SUBMIT, "--nodes", "4"), "--nodes 4: a run of 3 ranks has no use for so many"),
+    ((*SUBMIT, "--sbatch", "long"), "--sbatch long: options of sbatch, such as"), ((*SUBMIT, "--sbatch='x"), "--sbatch 'x: No closing quotation")])
+def test_wrong_options(folder, fake, capsys, words, says):
+    assert front("shield", *words) == 1 and says in capsys.readouterr().err and calls(fake) == []
+
+
+def test_no_slurm(folder, capsys, monkeypatch):
+    monkeypatch.setenv("PATH", "/nowhere")
+    assert front("shield", *SUBMIT) == 1
+    assert capsys.readouterr().err.endswith("hvi: sbatch is not there: --engine slurm is for a machine that can submit jobs to Slurm; --engine local runs here\n")
+
+
+def test_dry_run(folder, fake, capsys, monkeypatch):
+    """what would be submitted, and what each job runs; memory of this machine is no matter"""
+    assert front("limit", "--on", "D", *SUBMIT, "--dry-run") == 0
+    out = capsys.readouterr().out
+    assert "sbatch --ntasks=3 --parsable --job-name=hvi --array=0-3 " in out and out.count("/mpirun -n 3 ") == 4 and calls(fake) == []
+    monkeypatch.setattr("hvi.jobs.machine.free_memory", lambda: 1)
+    assert front("shield", "--dry-run") == 1 and "MB of memory" in capsys.readouterr().err
+    assert front("shield", *SUBMIT, "--dry-run") == 0 and "2 at a time on 3 ranks each" in capsys.readouterr().out
