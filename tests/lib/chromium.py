@@ -16,7 +16,7 @@ import tempfile
 import time
 
 WEBGL, NO_WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"), ("--disable-3d-apis",)
-PATIENCE = 240  # s for an answer: a hang is none
+PATIENCE = 900  # s for an answer on a busy machine; a hang has none
 
 
 def found():
@@ -126,8 +126,19 @@ class Chromium:
             raise RuntimeError(answer["exceptionDetails"].get("exception", {}).get("description", answer["exceptionDetails"]["text"]))
         return answer["result"].get("value")
 
-    def shot(self, path):
-        pathlib.Path(path).write_bytes(base64.b64decode(self.ask("Page.captureScreenshot", format="png")["data"]))
+    def wait_for_scene(self):
+        """until all frames of view.js are there"""
+        self.run("""(async () => {
+          for (let k = 0; k < 5000 && !document.querySelector(".scene").dataset.ready; k++) await new Promise(done => setTimeout(done, 20));
+        })()""")
+
+    def shot(self, path, of=None):
+        """A picture of the window, or of one element of the page, by its selector"""
+        clip = {}
+        if of:
+            place = self.run(f"(() => {{ const r = document.querySelector({json.dumps(of)}).getBoundingClientRect(); return {{ x: r.x, y: r.y, width: r.width, height: r.height }}; }})()")
+            clip = {"clip": {**place, "scale": 1}}
+        pathlib.Path(path).write_bytes(base64.b64decode(self.ask("Page.captureScreenshot", format="png", **clip)["data"]))
 
     def print(self, path):
         pathlib.Path(path).write_bytes(base64.b64decode(self.ask("Page.printToPDF", printBackground=True, preferCSSPageSize=True)["data"]))

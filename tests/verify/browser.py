@@ -31,10 +31,6 @@ LOOK = """(() => {
     cut: cut.map(e => e.tagName + " " + e.textContent.slice(0, 40)), live: is(".live"), still: is(".still"),
     scripts: document.querySelectorAll("script, iframe, object, embed, [onload], [onerror]").length};
 })()"""
-READY = """(async () => {
-  const root = document.querySelector(".scene");
-  for (let k = 0; k < 3000 && !root.dataset.ready; k++) await new Promise(done => setTimeout(done, 20));
-})()"""
 # looks at the scene after each thing that a reader may do: shares of the pixels that are not background, and that have changed; calls that draw, and that make something
 SCENE = """(() => {
   const root = document.querySelector(".scene"), canvas = root.querySelector("canvas"), gl = canvas.getContext("webgl2"), wait = () => new Promise(requestAnimationFrame);
@@ -146,7 +142,7 @@ def look(report, out):
     with chromium.Chromium() as browser:
         for name, width in WIDTHS.items():
             browser.open(report, width)
-            browser.run(READY)
+            browser.wait_for_scene()
             here = seen[name] = browser.run(LOOK)
             wrong += [f"{name}: {what}" for what in wrong_page(here, width)]
             browser.size(width, min(here["height"], 16000))
