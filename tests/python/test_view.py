@@ -147,14 +147,30 @@ def test_more_particles_than_a_page_has_room_for(tmp_path, monkeypatch):
     assert (x[2] - x[0])[:, 2].min() > 3.9 and whole.record["radius"] == pytest.approx(3 ** (1 / 3) * 0.62, abs=0.01)
 
 
-def test_wrong_scenes(tmp_path):
-    """no particles; more types than colors"""
+def test_range_of_pressures(tmp_path):
+    """a thousandth at each end does not make all others gray, and the legend says so; speeds go to the largest"""
+    random = np.random.default_rng(4)
+    x, p, v = random.random((4000, 3)), 1e9 * random.uniform(-1, 1, 4000), np.zeros((4000, 3))
+    p[0], v[0, 2] = 1e12, 9e3
+    fields = view.of_dump(write(tmp_path / "a.dump", [(0, x, np.ones(4000), v, p)]), Silent(), diameter=0.1).record["fields"]
+    (low, _), (middle, _), (high, _) = fields[4]["ticks"]
+    assert low == f"\u2264 -{high[2:]}" and high[:2] == "\u2265 " and 0.99 < float(high[2:]) < 1.01 and middle == "0" and fields[1]["ticks"] == [["0", 0.0], ["2.25", 0.5], ["9", 1.0]]
+
+
+def test_wrong_scenes(tmp_path, monkeypatch):
+    """no particles; more types than colors; none of the particles that would be left"""
     empty = np.zeros((0, 3))
     with pytest.raises(HVIError, match="no frame has a particle"):
         view.of_dump(write(tmp_path / "empty.dump", [(0, empty, empty[:, 0], empty, empty[:, 0])]), Silent())
     x = np.random.default_rng(3).random((300, 3))
     with pytest.raises(HVIError, match="more than 256 types"):
         view.of_dump(write(tmp_path / "types.dump", [(0, x, np.arange(300), x, x[:, 0])]), Silent())
+    monkeypatch.setattr(packed, "PARTICLES", 1)
+    with pytest.raises(HVIError, match="no ID is a multiple of 2: dump a group of at most 1 particles"):
+        path = tmp_path / "odd.dump"
+        write(path, [(0, x[:2], np.ones(2), x[:2], x[:2, 0])])
+        path.write_text(re.sub("^2 ", "3 ", path.read_text(), flags=re.M).replace("ATOMS\n3", "ATOMS\n2"))
+        view.of_dump(Dump(path), Silent())
 
 
 def test_one_particle(tmp_path):

@@ -274,8 +274,8 @@ class Report:
         """all frames, to be turned"""
         found = view.of_run(self.run, bar)
         still = tag("p", "The picture beside the verdict is of this scene. Here it can be turned, cut and gone through in time, in a browser that runs scripts and has WebGL 2.", class_="note")
-        return section("Scene in 3D", found.html(still), tag("p", f"{found.note} Drag to turn it, wheel to zoom, drag with the shift key to move it. {self.scale_note()} "
-                                                             f"Values beyond the range of the colors, a thousandth at each end, have those of its ends.", class_="note"))
+        note = f"{found.note} Drag to turn it, after a click the wheel zooms; drag with the shift key to move it. {self.scale_note()}"
+        return section("Scene in 3D", found.html(still), tag("p", note, class_="note"))
 
     def html(self, bar):
         hero, drawn = self.images(bar)

@@ -287,7 +287,11 @@ async function start(root) {
   });
   for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, event => fingers.delete(event.pointerId));
   canvas.addEventListener("contextmenu", event => event.preventDefault());
-  canvas.addEventListener("wheel", event => { event.preventDefault(); zoom(Math.exp(0.001 * event.deltaY)); }, { passive: false });
+  canvas.addEventListener("wheel", event => { // of a reader on the way down the page it stays the page's
+    if (document.activeElement !== canvas && !event.ctrlKey) return;
+    event.preventDefault();
+    zoom(Math.exp(0.001 * event.deltaY));
+  }, { passive: false });
   const KEYS = { ArrowLeft: () => look(-0.1, 0), ArrowRight: () => look(0.1, 0), ArrowUp: () => look(0, -0.1), ArrowDown: () => look(0, 0.1), "+": () => zoom(0.8), "-": () => zoom(1.25) };
   canvas.addEventListener("keydown", event => {
     if (!KEYS[event.key]) return;

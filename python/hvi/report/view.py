@@ -23,14 +23,15 @@ from .page import Html, tag
 
 SCRIPT = pathlib.Path(__file__).with_name("view.js")
 VOLUME = (0.75 / np.pi) ** (1 / 3)  # radius of a sphere of the volume of a cube
-RANGE = 0.1, 99.9  # percentiles of the values that have colors of their own
+RANGE = 0.1, 99.9  # percentiles of the values that have colors of their own, where a field has no least value
 TRIED = 4  # times as many frames as a page surely holds are packed: deflate leaves a quarter at best
 HIDES = ("none", "x >", "x <", "y >", "y <", "z >", "z <")  # of the cut
 
 
 @dataclasses.dataclass(frozen=True)
 class Field:
-    """What colors may show; values(frame): (n,); needs: columns; factor: units of the dump in unit; root: colors by the root of the value; least: lowest value, None: that of the data"""
+    """What colors may show; values(frame): (n,); needs: columns; factor: units of the dump in unit; root: colors by the root of the value
+    least, most: its range; None: that of the data, without a thousandth at each end if there is no least value either"""
 
     name: str
     needs: tuple
@@ -89,9 +90,11 @@ class View:
         for number in numbers:
             frame = dump[number]
             bar.update()
-            if len(frame):
-                left = np.flatnonzero((frame.ids if "id" in frame else np.arange(len(frame))) % stride == 0)
+            left = np.flatnonzero((frame.ids if "id" in frame else np.arange(len(frame))) % stride == 0)  # the same particles in all frames
+            if len(left):
                 kept.append((number, frame.x[left] / factor, part_of(frame)[left], [np.float32(field.values(frame)[left] / field.factor) for field in fields], when(frame)))
+        if not kept:
+            raise HVIError(f"{dump.paths[0]}: of {most} particles each {stride}. could be shown, and no ID is a multiple of {stride}: dump a group of at most {packed.PARTICLES} particles")
         numbers = [number for number, *_ in kept]
         shown = int(np.argmin(np.abs(np.subtract(numbers, first))))
         self.last = self._whole(*kept[shown][1:3])
@@ -134,7 +137,8 @@ class View:
         legends, ranges = [{"name": "part", "parts": [[k, name] for k, (name, *_) in self.parts.items()]}], []
         for k, field in enumerate(fields):
             values = np.concatenate([values[k] for _, _, _, values, _ in kept])
-            low, high = np.percentile(values[np.isfinite(values)], RANGE) if np.isfinite(values).any() else (0.0, 1.0)
+            ends = RANGE if field.least is None else (0.0, 100.0)
+            low, high = np.percentile(values[np.isfinite(values)], ends) if np.isfinite(values).any() else (0.0, 1.0)
             if field.root and field.least is None:  # on both sides of 0
                 low, high = -max(abs(low), abs(high)), max(abs(low), abs(high))
             low, high = low if field.least is None else field.least, high if field.most is None else field.most
@@ -142,7 +146,8 @@ class View:
             ranges.append((low, high))
             rows[1 + k] = colormaps[field.colors](np.arange(256), bytes=True)
             middle = low + 0.5 * (high - low) if not field.root else 0.0 if field.least is None else low + 0.25 * (high - low)
-            legends.append({"name": unit_systems.label(field.name, field.unit), "ticks": [[f"{value:.3g}", at] for value, at in ((low, 0.0), (middle, 0.5), (high, 1.0))]})
+            beyond = ("\u2264 " * bool((values < low).any()), "", "\u2265 " * bool((values > high).any()))
+            legends.append({"name": unit_systems.label(field.name, field.unit), "ticks": [[f"{sign}{value:.3g}", at] for sign, value, at in zip(beyond, (low, middle, high), (0.0, 0.5, 1.0))]})
         frames = [{**packed.pack(x, [part, *(packed.levels(v, *limits, field.root) for v, limits, field in zip(values, ranges, fields))]), "when": text}
                   for _, x, part, values, text in kept]
         return {"table": base64.b64encode(zlib.compress(rows.tobytes(), 9)).decode(), "fields": legends, "frames": frames}
@@ -241,4 +246,3 @@ def page(title, view):
     still = pages.image(stream.getvalue(), f"Particles at {view.record['frames'][view.record['first']]['when']}")
     head = [tag("div", tag("h1", title), tag("p", view.note), class_="words")]
     return pages.page(title, "scene-page", head, [tag("section", view.html(still))], script())
-
