@@ -14,6 +14,7 @@ import subprocess
 import sys
 import termios
 import time
+import types
 
 import hvi
 import numpy as np
@@ -86,6 +87,27 @@ def test_tables_of_keys(capsys):
         assert f"\n{key} " in shown and (text or key.endswith("thickness_mm"))
     page = pathlib.Path(cases.__file__).parents[3] / "doc/src/case_keys.txt"
     assert page.read_text() == shown[shown.index("key  "):].rstrip() + "\n", f"python3 -m hvi shield --help | sed -n '/^key  /,$p' > {page}"
+
+
+@pytest.mark.parametrize("particles, least, report", [(5_000, 31, 31), (20_000, 31, 31), (200_000, 15, 6), (1_100_000, 2, 2), (1_200_000, 1, 1)])
+def test_frames_stay_within_the_budget(particles, least, report):
+    """31 of 20,000 particles, fewer of more, in 500 MB; the page holds those of the plan whatever they contain"""
+    for tstop in (3.0, 21.69, 33.4, 99.95, 1000.0):
+        shield = types.SimpleNamespace(particles=lambda: particles, steps=lambda: 1000, settings={}, geometry=types.SimpleNamespace(tstop_us=tstop))
+        shield.settings["film"] = chain.film_of(shield)
+        plan = chain.size_of(shield)
+        assert least <= plan["frames"] <= chain.FRAMES + 2 and plan["frames"] * chain.ROW * particles <= chain.BUDGET or plan["frames"] == 1, f"{tstop}: {plan}"
+        assert report <= plan["frames_in_report"] <= plan["frames"] and plan["frames_MB"] <= 500 and plan["disk_MB"] > plan["frames_MB"], f"{tstop}: {plan}"
+
+
+def test_frames_end_when_it_is_enough(folder):
+    """by default; frames of the case's own interval have no end"""
+    late = "variable        late equal v_us>"
+    text = chain.shield_of(cases.read("emi.yaml"), 0, 0.0).text()
+    assert late in text and " skip v_late " in text
+    (folder / "emi.yaml").write_text(CASE + "settings: {film: 2}\n")
+    text = chain.shield_of(cases.read("emi.yaml"), 0, 0.0).text()
+    assert "skip" not in text and "every/time 2e-06" in text
 
 
 def test_own_material_without_strength(folder, capsys):

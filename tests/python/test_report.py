@@ -1,6 +1,7 @@
 """python3 -m hvi report, movie, export: one file that shows what a folder says and runs nothing of it; pictures; files for ParaView read back."""
 
 import html.parser
+import json
 import pathlib
 import re
 
@@ -11,7 +12,7 @@ from hvi import cli
 from hvi.commands import movie
 from hvi.errors import HVIError
 from hvi.io.dump import Dump
-from hvi.report import page, pictures, render
+from hvi.report import page, pictures, render, view
 from hvi.shield.run import Run, runs_of
 
 EVIL = "<script>alert(1)</script>"
@@ -102,7 +103,7 @@ class Seen(html.parser.HTMLParser):
         assert self.inside.pop() == name, f"{name} is closed where it is not open"
 
     def handle_data(self, data):
-        if "style" not in self.inside:
+        if not {"style", "script", "template"} & set(self.inside):
             self.text.append(data)
 
     def all(self, name):
@@ -116,16 +117,19 @@ def test_report(several, capsys):
     assert capsys.readouterr().out.startswith(f"report: {path}")
     text = path.read_text()
     seen = Seen(text)
-    assert not seen.inside and not {"script", "iframe", "object", "link"} & {name for name, _ in seen.elements}
+    assert not seen.inside and not {"iframe", "object", "link"} & {name for name, _ in seen.elements}
+    assert re.findall(r"<script[^>]*>(.*?)</script>", text, re.S) == [view.script()]  # the browser runs it by its checksum, and no other: tests/verify/browser.py
+    record = json.loads(html.unescape(re.search(r"<template>(.*?)</template>", text, re.S)[1]))
+    assert [name for _, name in record["fields"][0]["parts"]] == ["projectile, Al2017-T4", f"wall 1, {NAME}", "wall 2, Al6061-T6"] and len(record["frames"]) == 5
     assert not any(key.startswith("on") for _, attributes in seen.elements for key in attributes)
     pictures = seen.all("img")
     assert len(pictures) >= 12 and all(p["src"].startswith("data:image/png;base64,") and p["alt"] for p in pictures)
     assert all(a["href"].startswith("#") for a in seen.all("a")) and {a["href"][1:] for a in seen.all("a")} <= {s.get("id") for s in seen.all("section")}
-    assert "http" not in re.sub(r"base64,[^\"]*", "", text)
+    assert "http" not in re.sub(r"base64,[^\"]*|<template>.*?</template>|http-equiv", "", text.replace(view.script(), ""), flags=re.S)
     words = "".join(seen.text)
     assert words.count(EVIL) >= 4 and f"How sure: none: {EVIL}." in words and NAME in words  # reasons, case, source
     order = re.findall(r"<h[123]>([^<]*)", text)
-    wanted = ["Verdict", "Reasons", "Notes", "What the verdict cannot know", "What was run", "Side view in time", "Speeds", "Walls", "Bulge of wall 2", "Where the cloud strikes", "How near it was",
+    wanted = ["Verdict", "Reasons", "Notes", "What the verdict cannot know", "Scene in 3D", "What was run", "Side view in time", "Speeds", "Walls", "Bulge of wall 2", "Where the cloud strikes", "How near it was",
               "Ballistic-limit equations", "Resolution and ledger", "All runs", "Materials and their sources", "Settings", "Repeat it", "Versions"]
     assert order[0].startswith("Does the shield hold?") and [title for title in order if title in wanted and title != "Walls"] == [title for title in wanted if title != "Walls"]
     assert "finest run, dx-0.5 (spacing 0.5 mm)" in words and "dx-1" in words and f"python3 -m hvi shield '{NAME}.yaml'" in words

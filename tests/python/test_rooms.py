@@ -13,7 +13,7 @@ from hvi import cli
 
 GROUND = "errors places progress tables texts units version"  # modules beside the rooms that all of them may import
 BELOW = {"io": "", "material": "", "analysis": "io", "model": "io", "jobs": "material", "shield": "io material model jobs", "figures": "io material analysis shield",
-         "report": "material analysis jobs shield figures", "commands": "io material analysis model jobs shield figures report"}
+         "report": "io material analysis jobs shield figures", "commands": "io material analysis model jobs shield figures report"}
 HEAVY = "MDAnalysis PIL matplotlib meshio numpy pandas scipy tqdm yaml".split()
 
 

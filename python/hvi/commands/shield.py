@@ -8,6 +8,7 @@ import shlex
 
 from .. import tables
 from ..errors import HVIError
+from ..io import packed
 from ..jobs import engine, lammps, machine, runs
 from ..places import program, typed
 from ..shield import ble, calibration, chain, script
@@ -94,13 +95,15 @@ def plan(case, folder, args):
     plans = [chain.plan_of(chain.shield_of(case, which, case.shifts[0])) for which in range(len(case.spacings_mm))]
     n = len(case.walls)
     keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, n + 1) for what in ("particles", "layers", "areal_density_kg_m2")), "areal_density_kg_m2",
-            "tstop_us", "particles", "steps", "core_s", "memory_MB", "disk_MB"]
+            "tstop_us", "particles", "steps", "core_s", "memory_MB", "frames", "frames_MB", "frames_in_report", "disk_MB"]
     print(tables.text(("each run", *(f"dx-{dx:g}" for dx in case.spacings_mm)), [
-        (key, *(f"about {tables.number(found[key])}" if key in ("steps", "core_s", "memory_MB", "disk_MB") else found[key] for found in plans)) for key in keys]))
+        (key, *(f"about {tables.number(found[key])}" if key in ("steps", "core_s", "memory_MB", "frames", "frames_MB", "disk_MB") else found[key] for found in plans)) for key in keys]))
     core, local, ranks = sum(found["core_s"] for found in plans) * len(case.shifts), args.engine == "local", args.ranks or 2
     jobs = args.jobs or (1 if local else len(members(case)))
     print(f"{len(members(case))} runs, {len(case.shifts)} of each spacing: at most about {engine.duration(core / (jobs * ranks))}, {jobs} at a time on {ranks} ranks each, "
           "on idle cores; a run ends when its event is over")
+    most = "as settings: film says" if case.setting("film") else f"at most {chain.FRAMES + 2} of a run, and {chain.BUDGET / 1e6:.0f} MB, until tstop_us and at the end"
+    print(f"frames: {most}; of these the scene in 3D of the report has frames_in_report or more, in {packed.TEXT / 1e6:.0f} MB")
     finest = plans[-1]
     print(tables.text(("wall", "front_mm", "radius_mm", "middle_mm", "struck_at_mm"), [
         (k, case.faces()[k - 1][0], *(finest[f"wall{k}_{what}"] for what in ("radius_mm", "middle_mm", "struck_at_mm"))) for k in range(1, n + 1)]))

@@ -2,6 +2,7 @@
 """HTML in one file: elements whose texts are escaped by themselves, tables, pictures as data, the style of the page."""
 
 import base64
+import hashlib
 import html
 import io
 import re
@@ -43,21 +44,29 @@ pre { margin: 8px 0; padding: 12px 14px; background: #f6f8fa; border: 1px solid 
 pre.wrap { white-space: pre-wrap; overflow-wrap: anywhere; }
 .word { display: inline-block; border-radius: 6px; padding: 0 8px; white-space: nowrap; color: #fff; background: var(--said); font-weight: 600; }
 .key { display: flex; flex-wrap: wrap; gap: 4px 18px; margin: 0 0 12px; padding: 0; list-style: none; font-size: .9rem; } .key i { display: inline-block; width: .9em; height: .9em; border-radius: 50%; margin-right: 6px; vertical-align: -.08em; }
+.scene .live { display: none; } .scene.on .live { display: block; } .scene.on .still { display: none; }
+.stage { position: relative; } .stage canvas { display: block; width: 100%; aspect-ratio: 16 / 9; border: 1px solid var(--line); border-radius: 8px; touch-action: pan-y; cursor: grab; }
+.stage .axes { position: absolute; right: 8px; top: 8px; width: 64px; height: 64px; pointer-events: none; }
+.ruler { position: absolute; left: 14px; bottom: 12px; font-size: .85rem; pointer-events: none; } .ruler i { display: block; border-bottom: 3px solid var(--ink); }
+.bar { display: flex; flex-wrap: wrap; gap: 8px 16px; align-items: center; margin: 10px 0; font-size: .9rem; } .bar input[type=range] { flex: 1 1 120px; min-width: 0; } .bar output { min-width: 5.5em; font-variant-numeric: tabular-nums; }
+.bar button, .bar select { font: inherit; max-width: 100%; }
+.key .legend { display: inline-block; position: relative; width: min(320px, 70vw); height: 12px; margin: 0 24px 22px 14px; border-radius: 3px; vertical-align: middle; } .legend b { position: absolute; top: 14px; transform: translateX(-50%); font-weight: 400; font-size: .85rem; }
 .note { color: var(--soft); font-size: .92rem; }
 ul { padding-left: 1.2em; } li { margin: 3px 0; }
 footer { color: var(--soft); font-size: .85rem; margin-top: 22px; }
-@media (max-width: 760px) { main { padding: 0 12px 30px; } section { padding: 16px 14px 18px; } .two { grid-template-columns: minmax(0, 1fr); } .said { font-size: 1.5rem; } header.top h1 { font-size: 1.35rem; } }
+@media (max-width: 760px) { .stage canvas { aspect-ratio: 1; } main { padding: 0 12px 30px; } section { padding: 16px 14px 18px; } .two { grid-template-columns: minmax(0, 1fr); } .said { font-size: 1.5rem; } header.top h1 { font-size: 1.35rem; } }
 @media print {
   @page { size: A4; margin: 14mm; }
   body { background: #fff; font-size: 9.5pt; } main { padding: 0; max-width: none; } nav { display: none; }
   section { border: 0; border-top: 1px solid #999; border-radius: 0; padding: 10px 0; } h2, h3, .key { break-after: avoid; } tr, .tile { break-inside: avoid; }
+  .scene .live, .scene.on .live { display: none; } .scene.on .still { display: block; }
   header.top, .said, .word, .key i { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
   .tiles { grid-template-columns: repeat(6, 1fr); gap: 6px; } .tile { padding: 6px 8px; } .tile b { font-size: 1.1rem; }
   .scroll, pre { overflow: visible; } pre { font-size: 7.5pt; white-space: pre-wrap; overflow-wrap: anywhere; } table { font-size: 8pt; } th, td { padding-right: 6px; } thead th { white-space: normal; }
   .row { grid-template-columns: repeat(3, minmax(0, 1fr)); } .pair { grid-template-columns: 1fr 1fr; } .two { grid-template-columns: 1fr 1fr; } figure.tall img { max-height: 105mm; }
 }
 """
-VOID = {"meta", "img"}
+VOID = {"meta", "img", "input"}
 
 
 class Html(str):
@@ -90,12 +99,16 @@ def table(names, rows, text=None, class_=None):
     return tag("div", tag("table", *caption, tag("thead", head), tag("tbody", *body), class_=class_), class_="scroll", tabindex="0")
 
 
+def image(png, alt):
+    """A picture within the page; png: bytes of the file"""
+    return tag("img", src=f"data:image/png;base64,{base64.b64encode(png).decode()}", alt=alt)
+
+
 def picture(figure, alt, caption="", dpi=150, class_=None):
     """A figure of matplotlib, within the page"""
     stream = io.BytesIO()
     figure.savefig(stream, format="png", dpi=dpi)
-    data = base64.b64encode(stream.getvalue()).decode()
-    return tag("figure", tag("img", src=f"data:image/png;base64,{data}", alt=alt), tag("figcaption", caption), class_=class_)
+    return tag("figure", image(stream.getvalue(), alt), tag("figcaption", caption), class_=class_)
 
 
 def section(title, *children):
@@ -103,10 +116,17 @@ def section(title, *children):
     return tag("section", tag("h2", title), *children, id=name)
 
 
-def page(title, kind, head, sections):
-    """The whole text of the file; kind: a class of the style, for its color"""
+def checksum(script):
+    """of a script, as a policy of content names it"""
+    return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+
+
+def page(title, kind, head, sections, script):
+    """The whole text of the file; kind: a class of the style, for its color; script: the only one that a browser runs there, by its checksum, and nothing is loaded"""
+    policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src '{checksum(script)}'"
     titles = [re.match(r'<section id="([^"]*)"><h2>(.*?)</h2>', part) for part in sections]
     links = [tag("a", Html(found[2]), href=f"#{found[1]}") for found in titles if found]
     return ("<!DOCTYPE html>\n" + tag("html", tag("head", tag("meta", charset="utf-8"), tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
+                                                  tag("meta", http_equiv="Content-Security-Policy", content=policy),
                                                   tag("title", title), tag("style", Html(STYLE))),
-                                      tag("body", tag("header", tag("div", *head), class_="top"), tag("main", tag("nav", *links), *sections), class_=kind), lang="en") + "\n")
+                                      tag("body", tag("header", tag("div", *head), class_="top"), tag("main", *([tag("nav", *links)] if links else []), *sections), tag("script", Html(script)), class_=kind), lang="en") + "\n")

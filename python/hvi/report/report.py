@@ -20,8 +20,8 @@ from ..shield import ble, calibration, decision
 from ..shield.run import runs_of, texts
 from ..shield.script import BEGIN
 from ..version import version
-from . import pictures
 from . import page as pages
+from . import pictures, view
 from .page import Html, items, join, section, table, tag
 
 MARKS = {"holds": "\u2713", "fails": "\u2715", "undecided": "?"}
@@ -272,8 +272,15 @@ class Report:
                               f"{1e3 * summary['radius_of_half_the_energy']:.3g} mm of the axis."]), class_="mid"))
         return hero, [*found, *([section("Where the cloud strikes", *struck)] if struck else [])]
 
+    def scene(self, bar):
+        """all frames, to be turned"""
+        found = view.of_run(self.run, bar)
+        still = tag("p", "The picture beside the verdict is of this scene. Here it can be turned, cut and gone through in time, in a browser that runs scripts and has WebGL 2.", class_="note")
+        note = f"{found.note} Drag to turn it, after a click the wheel zooms; drag with the shift key to move it. {self.scale_note()}"
+        return section("Scene in 3D", found.html(still), tag("p", note, class_="note"))
+
     def html(self, bar):
         hero, drawn = self.images(bar)
-        sections = [self.summary(hero), *drawn, self.margins(), self.equations(), self.numerics(), self.materials(), self.settings(), self.repeat(),
+        sections = [self.summary(hero), self.scene(bar), *drawn, self.margins(), self.equations(), self.numerics(), self.materials(), self.settings(), self.repeat(),
                     tag("footer", f"Made {datetime.date.today().isoformat()} by python3 -m hvi report, lammps-hvi {version()}. No part of this page is loaded from elsewhere.")]
-        return pages.page(f"{self.name}: {self.verdict}", self.verdict, self.head(), sections)
+        return pages.page(f"{self.name}: {self.verdict}", self.verdict, self.head(), sections, view.script())

@@ -55,7 +55,7 @@ SETTINGS = {
     "back": Key(number(least=0, sane=(0, 1e7)), 0, "mm that are modelled in front of wall 1; 0: half of the way to the last wall, at least 20"),
     "edge": Key(choice("free", "clamp", "absorb"), "free", "outermost rim of the walls"),
     "rim": Key(number(above=0, sane=(1e-6, 1e7)), 5, "its width, mm"),
-    "film": Key(number(sane=(1e-6, 1e6)), 0, "us between frames for pictures and movies; 0: 20 frames, or as many as 300 MB hold; below 0: none"),
+    "film": Key(number(sane=(1e-6, 1e6)), 0, "us between frames for pictures, the scene in 3D and movies; 0: 31 until the time that is enough, or as many as 500 MB hold; below 0: none"),
     "layers": Key(several(number(whole=True, sane=(1, 1e6))), None, "of particles through each wall, a value for each"),
 }
 

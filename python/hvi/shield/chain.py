@@ -15,6 +15,7 @@ import warnings
 import numpy as np
 
 from ..errors import HVIError, HVIWarning
+from ..io import packed
 from ..jobs import engine
 from . import record, script, verdict
 from . import case as cases
@@ -23,7 +24,7 @@ CHAIN = "chain.yaml"
 LEG = 4e8  # particle-steps between restart files: some minutes of a core
 LEGS = 50  # at most
 MOST = 2**31 - 1  # particles
-FRAMES, BUDGET = 20, 3e8  # frames of a film, and bytes that they may have all together
+FRAMES, BUDGET = 30, 5e8  # intervals between the frames of a film, and bytes that all frames of a run may have, where the case says nothing
 ROW = 150  # bytes of a particle in a dump,
 RECORD = 600  # in a restart file,
 BYTES = 6100  # in memory: 8,218 MB were measured for 1.35e6 particles, of a single plate at 0.125 mm
@@ -48,12 +49,19 @@ def shield_of(case, which, shift):
     found = script.Shield(case, which, shift, {name: case.setting(name) for name in cases.SETTINGS})
     if found.particles() > MOST:
         raise HVIError(f"{case.name}: spacings_mm: {case.spacings_mm[which]:g} mm makes some {found.particles():.3g} particles, more than LAMMPS can number: are lengths in mm?")
-    film = found.settings["film"]
-    if film == 0:
-        frames = max(4, min(FRAMES, int(BUDGET / (ROW * found.particles()))))
-        film = float(f"{found.geometry.tstop_us / frames:.2g}")
-    found.settings["film"] = max(film, 0)
+    if found.settings["film"] == 0:
+        found.settings["film"] = film_of(found)
+    found.settings["film"] = max(found.settings["film"], 0)
     return found
+
+
+def film_of(shield):
+    """us between frames where the case leaves it open: as many as the budget holds until the time that is enough, 0 if that is none; three digits, rounded up"""
+    steps = min(FRAMES, int(BUDGET / (ROW * shield.particles())) - 2)  # and the frames of the begin and of the end
+    if steps < 1:
+        return 0
+    digit = 10.0 ** math.floor(math.log10(shield.geometry.tstop_us / steps) - 2)
+    return float(f"{math.ceil(shield.geometry.tstop_us / steps / digit) * digit:.3g}")
 
 
 def legs(shield):
@@ -179,8 +187,9 @@ def write_plan(shield, folder):
 def size_of(shield):
     """about what a run takes: from geometry alone, before anything is made or read"""
     count, steps, film = shield.particles(), STEPS * shield.steps(), shield.settings["film"]
-    frames = shield.geometry.tstop_us / film + 2 if film else 1
+    frames = (math.floor(shield.geometry.tstop_us / film) + 1 if film else 0) + 1  # and shield.dump
     return {"particles": round(count), "steps": round(steps), "core_s": float(f"{count * steps / SPEED:.3g}"), "memory_MB": round(35 + BYTES * count / 1e6),
+            "frames": frames, "frames_MB": round(frames * ROW * count / 1e6, 1), "frames_in_report": min(frames, packed.frames_of(count)),
             "disk_MB": round((frames * ROW + 4 * RECORD) * count / 1e6, 1)}
 
 

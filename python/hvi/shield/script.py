@@ -348,7 +348,11 @@ class Shield:
         film = self.settings["film"]  # us between frames
         if film:
             text("dump", f"film {matter} custom {10**9} film.*.dump ${{columns}}")
-            text("dump_modify", f"film every/time {number(1e-6 * film)} first yes pad 9 ${{names}}")
+            skip = ""
+            if self.case.setting("film") == 0:  # as many as have room on the disk
+                text("variable", f"late equal v_us>{number(self.geometry.tstop_us)}", "no frames after the time that is enough but the last, of the end")
+                skip = " skip v_late"
+            text("dump_modify", f"film every/time {number(1e-6 * film)} first yes pad 9{skip} ${{names}}")
         text("thermo", f"{self.seldom}")
         text("thermo_style", f"custom step v_us dt atoms f_move c_walls[{self.n}][2] c_walls[{self.n}][4] c_book[9]")
         text("thermo_modify", "lost ignore", "what is thrown back leaves the box; the ledger counts it")
