@@ -15,8 +15,9 @@ import subprocess
 import tempfile
 import time
 
-WEBGL, NO_WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"), ("--disable-3d-apis",)
-PATIENCE = 900  # s for an answer on a busy machine; a hang has none
+WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+NO_WEBGL = ("--disable-3d-apis",)
+PATIENCE = 300  # s for an answer on a busy machine; a hang has none
 
 
 def found():
