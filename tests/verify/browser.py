@@ -85,7 +85,7 @@ def steps_of(scene):
     for k, name in [*enumerate(scene["colors"])][::-1]:
         if len(scene["colors"]) > 1:
             yield f"colored by {name}", f"hvi.set('color', {k}, 'change')"
-    yield "cut in another way", "hvi.set('cut', hvi.control('cut').value === 'none' ? 'z >' : 'none', 'change')"
+    yield "cut in another way", "hvi.set('cut', hvi.control('cut').value === 'none' ? (hvi.control('place').value = 250, 'x <') : 'none', 'change')"  # a quarter of what there is
     if not scene["whole"]:
         yield "without mirror images", "hvi.control('mirror').click()"
 
