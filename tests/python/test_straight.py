@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import yaml
 from hvi import cli, errors
-from hvi.shield import chain, record, script, verdict
+from hvi.shield import chain, decision, record, script, verdict
 from hvi.shield import case as cases
 
 CASE = """projectile: {diameter_mm: 3, material: Al2017-T4}
@@ -46,6 +46,17 @@ def test_lines_of_a_further_wall(tmp_path, thickness, gap, material, more):
     wall = f"  - {{thickness_mm: {thickness}, material: {material}, gap_mm: {gap}}}\n"
     two, three = (len(chain.shield_of(read(tmp_path / "c.yaml", CASE.replace("spacings_mm", new + "spacings_mm")), 0, 0.0).text().splitlines()) for new in ("", wall))
     assert three - two == more and two <= 73
+
+
+def test_frames(tmp_path):
+    """those of a case go on as long as the run may, and the plan has room for them; a search, which would remove them, writes none"""
+    own = read(tmp_path / "c.yaml", CASE.replace("tstop: 8", "film: 0.5"))
+    shield = chain.shield_of(own, 0, 0.0)
+    assert shield.latest_us > shield.geometry.tstop_us and chain.size_of(shield)["frames"] == math.floor(shield.latest_us / 0.5) + 2
+    patterns = ["cloud*.dump", "film.*.dump"]
+    for case, frames in ((read(tmp_path / "c.yaml"), False), (own, True)):
+        assert ("every/time" in decision.job(case, (0, 0.0), tmp_path, "x", remove=patterns).shield.text()) is frames
+        assert "every/time" in decision.job(case, (0, 0.0), tmp_path, "x").shield.text()
 
 
 @pytest.mark.parametrize("change", [("", ""), ("gap_mm: 8", "gap_mm: 8, core_mm: 3, spacings_mm: [0.5]"), ("tstop: 8", "tstop: 8, debris: yes")], ids=["uniform", "core", "debris"])

@@ -212,6 +212,18 @@ def test_command(tmp_path, capsys, monkeypatch):
     assert pathlib.Path("a.html").read_text() == pathlib.Path("b.html").read_text()
 
 
+def test_the_color_is_the_one_asked_for(tmp_path):
+    """not another whose name begins alike; of a folder, too"""
+    flight(tmp_path / "a.dump")
+    text = (tmp_path / "a.dump").read_text()
+    (tmp_path / "b.dump").write_text(text.replace(" damage spalled", " s spalled"))
+    for path, word, name in (("a.dump", "damage", "damage, 1: failed or spalled"), ("b.dump", "s", "s"), ("a.dump", "velocity", "speed (km/s)"), ("a.dump", "spalled", "spalled")):
+        assert cli.main(["view", str(tmp_path / path), "--color", word, "--output", str(tmp_path / "v.html")]) == 0
+        page_text = html.unescape((tmp_path / "v.html").read_text())
+        scene = json.loads(re.search(r"<template>(.*?)</template>", page_text, re.S).group(1))
+        assert scene["fields"][scene["color"]]["name"] == name, word
+
+
 def test_in_a_browser(tmp_path):
     """draws, turns, goes through time, takes colors, cuts, at two widths; prints and stands still without WebGL. A page that does none of it is found"""
     if not chromium.found():

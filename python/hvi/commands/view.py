@@ -22,7 +22,7 @@ EXAMPLES = """  python3 -m hvi view runs/emi
   python3 -m hvi view debris.dump --data debris.data --axis z --plane 4.05e-3 \\
       --color fragment --bonds bonds.dump --figure pieces"""
 
-COLORS = {"type": "part", "velocity": "speed", "T": "temperature", "p": "pressure", "damage": "damage"}  # of the page: how the names of its fields begin
+COLORS = {"type": "part", "velocity": "speed", "T": "temperature", "p": "pressure", "damage": "damage"}  # of the page: first words of its fields
 
 
 def add_arguments(parser):
@@ -72,7 +72,7 @@ def page(args):
     dump = dumps.opened(args, run.frames().paths) if run else dumps.read(args)
     with progress.bar(len(dump), "frames") as bar:
         look = look_of(args, dump.number(args.frame), "y >" if run else "none")
-        found = view.of_run(run, bar, look, dump) if run else view.of_dump(dump, bar, look, args.diameter, more_of(args))
+        found = view.of_run(run, bar, look, dump, more_of(args)) if run else view.of_dump(dump, bar, look, args.diameter, more_of(args))
     out = pathlib.Path(args.output or (first / "view.html" if run else first.with_name(first.name.removesuffix(".gz").removesuffix(".dump") + ".html")))
     text = view.page(run.name if run else first.name, found)
     with writing(out):

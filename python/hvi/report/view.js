@@ -255,8 +255,9 @@ async function start(root) {
   // time
   let playing = 0;
   const step = async () => {
+    const mine = playing; // stopped and begun again in between, another goes on
     await show((state.frame + 1) % scene.frames.length);
-    if (playing) playing = setTimeout(step, state.frame === scene.frames.length - 1 ? 1500 : 150);
+    if (playing && playing === mine) playing = setTimeout(step, state.frame === scene.frames.length - 1 ? 1500 : 150);
   };
   const stop = () => { clearTimeout(playing); playing = 0; control("play").textContent = "play"; };
   control("play").addEventListener("click", () => {

@@ -57,7 +57,7 @@ def fields_of(frame):
 
 @dataclasses.dataclass(frozen=True)
 class Look:
-    """How a scene is first seen. eye, up: directions; frame: number in the dump, from 0; cut: of HIDES, at 0; color: how the name of the field begins"""
+    """How a scene is first seen. eye, up: directions; frame: number in the dump, from 0; cut: of HIDES, at 0; color: the name of a field, or its first word"""
 
     eye: tuple = pictures.OBLIQUE[0]
     up: tuple = pictures.OBLIQUE[1]
@@ -82,7 +82,8 @@ class View:
         first = dump.number(look.frame)
         fields = [*fields_of(dump[first]), *more]
         lacking = [name for field in more for name in field.needs if name not in dump[first]]
-        color = next((k for k, name in enumerate(["part", *(field.name for field in fields)]) if name.startswith(look.color)), None)
+        names = ["part", *(field.name for field in fields)]
+        color = next((k for k in reversed(range(len(names))) if look.color in (names[k], names[k].split()[0].rstrip(","))), None)  # a column that was asked for is the last
         if lacking or color is None:
             raise HVIError(f"{dump[first].where} has no column for the color {look.color}; it has: {' '.join(dump[first].columns)}")
         stride, numbers = packed.stride_of(most), _some(len(dump), TRIED * packed.frames_of(most, 1 + len(fields)), first)
@@ -213,15 +214,15 @@ def _controls():
 
 
 # ---------------------------------------------------------------------- of what
-def of_run(run, bar, look=Look(cut="y >"), dump=None):
-    """The View of a Run of a shield, in mm; dump: of its frames, if it is not as the run says; the fine middle of a wall and its outer part are two parts"""
+def of_run(run, bar, look=Look(cut="y >"), dump=None, more=()):
+    """The View of a Run of a shield, in mm; dump: of its frames, if it is not as the run says; more: Fields beside the usual ones; the fine middle of a wall and its outer part are two parts"""
     bodies, radii, outers = run.bodies(), run.radii(), run.outers()
 
     def part(kind):
         name = f"{pictures.body_name(bodies[kind])}, {stem(run.materials[bodies[kind]])}"
         return name + ", outer part" * (kind in outers), pictures.color(bodies[kind]), 1e-3 * radii[kind]
 
-    return View(dump or run.frames(), lambda frame: frame.numbers("type").astype(int), part, bar, look, factor=1e-3, unit="mm")
+    return View(dump or run.frames(), lambda frame: frame.numbers("type").astype(int), part, bar, look, more, 1e-3, "mm")
 
 
 def of_dump(dump, bar, look=Look(), diameter=None, more=()):

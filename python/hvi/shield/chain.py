@@ -187,7 +187,8 @@ def write_plan(shield, folder):
 def size_of(shield):
     """about what a run takes: from geometry alone, before anything is made or read"""
     count, steps, film = shield.particles(), STEPS * shield.steps(), shield.settings["film"]
-    frames = (math.floor(shield.geometry.tstop_us / film) + 1 if film else 0) + 1  # and shield.dump
+    until = shield.latest_us if shield.case.setting("film") else shield.geometry.tstop_us  # those of a case go on to the end
+    frames = (math.floor(until / film) + 1 if film else 0) + 1  # and shield.dump
     return {"particles": round(count), "steps": round(steps), "core_s": float(f"{count * steps / SPEED:.3g}"), "memory_MB": round(35 + BYTES * count / 1e6),
             "frames": frames, "frames_MB": round(frames * ROW * count / 1e6, 1), "frames_in_report": min(frames, packed.frames_of(count)),
             "disk_MB": round((frames * ROW + 4 * RECORD) * count / 1e6, 1)}

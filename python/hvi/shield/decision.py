@@ -1,6 +1,7 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """Does the wall hold?  One case at several spacings and shifts of the lattice, one verdict."""
 
+import dataclasses
 import itertools
 
 from ..errors import HVIError
@@ -21,6 +22,9 @@ def member_name(case, member):
 
 
 def job(case, member, folder, name=None, remove=()):
+    """remove: patterns of files that nobody needs when the run is done; frames among them are not written at all unless the case asks for them"""
+    if any(pattern.startswith("film") for pattern in remove) and not case.setting("film"):
+        case = dataclasses.replace(case, settings={**case.settings, "film": -1})
     weight = (case.spacings_mm[0] / case.spacings_mm[member[0]]) ** 4  # particles and steps
     return chain.Job(case, *member, name or member_name(case, member), folder, weight=weight, remove=remove)
 
