@@ -105,7 +105,7 @@ def test_fix_goes_and_comes_back(lmp, tmp_path, material, nranks):
     material.write_text(MATERIAL.format(sigma_p=0.2))
     text = start(state(seed=27), tmp_path, material, steps=10, more="compute book all hvi/energy\nthermo_style custom step atoms c_book[1] c_book[29]\n")
     text += "unfix jc\nrun 5\ngroup old type 1 2\ncreate_atoms 1 random 700 5 NULL overlap 0.3 maxtry 500\ngroup new subtract all old\n"
-    text += "set group new sph/rho 1.0 sph/e 0.0\n" 
+    text += "set group new sph/rho 1.0 sph/e 0.0\n"
     text += "compute p all hvi/atom p\ndump p all custom 1 fluid id c_p\ndump_modify p format float %.17g sort id\nrun 0\nundump p\nuncompute p\n"
     text += "fix jc all hvi/johnson-cook spall pressure\n"
     r = lmp(text + OUT.format("fresh") + "run 10\n" + OUT.format("f"), nranks=nranks)
