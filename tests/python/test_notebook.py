@@ -1,5 +1,7 @@
 """hvi in notebooks: case in, verdict out; DataFrames; help(); the script of Howto_python runs."""
 
+import os
+import pathlib
 import pydoc
 import re
 import signal
@@ -101,7 +103,7 @@ def test_help():
         said = getattr(hvi, name).__doc__
         assert said and len(said) > 30, name
     code = "import sys; sys.modules['MDAnalysis'] = None; import hvi, pydoc; assert 'class Dump' in pydoc.plain(pydoc.render_doc(hvi)); hvi.open"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env={**os.environ, "PYTHONPATH": str(pathlib.Path(hvi.__file__).parents[1])})
     assert done.returncode == 1 and done.stderr.splitlines()[-1] == "hvi.errors.NotThere: hvi.open needs MDAnalysis: Debian's python3-mdanalysis, or pip install MDAnalysis"
 
 

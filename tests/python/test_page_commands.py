@@ -24,7 +24,7 @@ NOT_HERE = (
     (r"^(apt-get|git)\b|pip install|-m venv|venv/bin/", "needs a network, or root; pip and venv: tests/python/test_package.py"),
     (r"CASE|mine\.csv|mine\.yaml|SEED|KIND|more\.csv|/path/to|\$HOME|\$HVI|\$SCRATCH|part\.inp|FILE", "names are the user's"),
     (r"debris\.dump|cloud1\.dump|film\.\d", "of the output of a run: tests/python/test_hvi_command.py, test_report.py have others"),
-    (r"-m hvi (report|movie|export|judge|compare)", "of the folder of a run: tests/python/test_report.py, tests/verify/test_shield.py"),
+    (r"-m hvi (report|movie|export|judge|compare|view runs/)", "of the folder of a run: tests/python/test_report.py, tests/verify/test_shield.py"),
     (r"-m hvi (shield|limit|curve|shots|limits)\b(?!.*(--dry-run|--equations|--write))", "minutes or more: short ones in tests/verify/test_shield.py, tests/python"),
     (r"-m hvi calibrate \S+\.yaml", "of the runs of a search: tests/python/test_calibration.py"),
     (r"-m hvi doctor|build/hvi doctor", "tests/python/test_doctor.py"),

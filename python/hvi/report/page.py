@@ -121,12 +121,12 @@ def checksum(script):
     return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
 
 
-def page(title, kind, head, sections, script):
-    """The whole text of the file; kind: a class of the style, for its color; script: the only one that a browser runs there, by its checksum, and nothing is loaded"""
-    policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src '{checksum(script)}'"
+def page(title, kind, head, sections, script=""):
+    """The whole text of the file; kind: a class of the style, for its color; script: the only one that a browser runs there, by its checksum, if any; nothing is loaded"""
+    policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src '{checksum(script) if script else 'none'}'"
     titles = [re.match(r'<section id="([^"]*)"><h2>(.*?)</h2>', part) for part in sections]
     links = [tag("a", Html(found[2]), href=f"#{found[1]}") for found in titles if found]
     return ("<!DOCTYPE html>\n" + tag("html", tag("head", tag("meta", charset="utf-8"), tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
                                                   tag("meta", http_equiv="Content-Security-Policy", content=policy),
                                                   tag("title", title), tag("style", Html(STYLE))),
-                                      tag("body", tag("header", tag("div", *head), class_="top"), tag("main", *([tag("nav", *links)] if links else []), *sections), tag("script", Html(script)), class_=kind), lang="en") + "\n")
+                                      tag("body", tag("header", tag("div", *head), class_="top"), tag("main", *([tag("nav", *links)] if links else []), *sections), *([tag("script", Html(script))] if script else []), class_=kind), lang="en") + "\n")
