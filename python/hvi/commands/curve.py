@@ -65,6 +65,8 @@ def main(args):
     if args.dry_run:
         runner.show(first)
         return 0
+    for ending in ("yaml", "csv", "png"):  # of an earlier call
+        (folder / f"curve.{ending}").unlink(missing_ok=True)
 
     def more(job):
         return next(limit for limit in limits.values() if job.name in limit.jobs).more(job)
