@@ -49,8 +49,9 @@ def test_shields_side_by_side(three, capsys, monkeypatch):
     assert float(rows["emi"]["areal_density_kg_m2"]) == pytest.approx(found["areal_density_kg_m2"], abs=1e-3) and float(rows["emi"]["core_s"]) == pytest.approx(found["core_s"], abs=0.1)
     assert float(rows["emi"]["hole_mm"]) == 5 and float(rows["triple"]["hole_mm"]) == 0 and rows["single"]["hole_mm"] == "" and rows["emi"]["runs"] == "2"
     limit = yaml.safe_load((three / "runs/emi/limit-thickness2/limit.yaml").read_text())
-    assert float(rows["emi"]["limit_rear_mm"]) == limit["limit"] and float(rows["emi"]["over_limit_rear"]) == pytest.approx(1.2 / limit["limit"]) and rows["triple"]["limit_rear_mm"] == ""
-    assert rows["emi"]["limit_rear_holds"] == limit["holds"] and float(rows["emi"]["search_core_s"]) > limit["core_s"]
+    assert float(rows["emi"]["limit_rear_mm"]) == limit["limit"] and limit["holds"].startswith("from ") and rows["triple"]["limit_rear_mm"] == ""
+    assert float(rows["emi"]["over_limit_rear"]) == pytest.approx(1.2 / float(limit["holds"].split()[1]))
+    assert rows["emi"]["limit_rear_holds"] == limit["holds"] and rows["emi"]["limit_rear_spacing_mm"] == "0.2" and float(rows["emi"]["search_core_s"]) > limit["core_s"]
     assert "left out: runs/emi/limit-D_gap2-80: of other values than the case's" in out and "limit_D_mm" not in names
     assert [line.split()[1:] for line in out.splitlines() if line.split()[:1] == ["intermediate_mm"]] == [["-", "0.5", "-"]]
     drawn = shields(answer.bars_of([answer.read(name) for name in ("runs/emi", "runs/triple", "single.yaml")]), answer.curves_of([answer.read(name) for name in ("runs/emi", "runs/triple")]))
@@ -60,10 +61,15 @@ def test_shields_side_by_side(three, capsys, monkeypatch):
     assert [text.get_text() for text in curves.get_legend().get_texts()] == ["emi", "triple"]
 
 
-def test_limits_that_hold_below_and_above():
-    """above 1 is the safe side, whichever side holds"""
-    assert answer.over_limit({"limit": 2.0, "own": 1.0, "holds": "from 2.1"}) == 0.5 and answer.over_limit({"limit": 2.0, "own": 1.0, "holds": "up to 1.9"}) == 2.0
-    assert answer.over_limit({"limit": None, "own": 1.0}) is None and answer.over_limit({"limit": 40.0, "own": 0, "holds": "from 45"}) is None  # of an angle
+@pytest.mark.parametrize("own, holds, over", [(1.0, "from 2.5", 0.4), (2.5, "from 2.5", 1.0), (2.2, "from 2.5", 0.88), (1.0, "up to 1.6", 1.6), (1.6, "up to 1.6", 1.0), (2.0, "up to 1.6", 0.8),
+                                              (0, "from 45", None)])
+def test_limits_that_hold_below_and_above(own, holds, over):
+    """1 is where all runs hold, whichever side holds: between there and the limit, the middle of 2, the case is undecided, which is no margin; of an angle of 0 there is no ratio"""
+    assert answer.over_limit({"limit": 2.0, "own": own, "holds": holds}) == (over and pytest.approx(over))
+
+
+def test_no_limit_no_margin():
+    assert answer.over_limit({"limit": None, "own": 1.0}) is None
 
 
 def test_roles():
@@ -85,9 +91,57 @@ def test_answer_of_a_folder(three):
 def test_another_state_of_the_case(three, capsys):
     """a case that was changed since does not take the answer of before; neither spacings nor frames for pictures change it"""
     (three / "emi.yaml").write_text(ONE.replace("gap_mm: 60", "gap_mm: 50"))
-    assert cli.main(["compare", "emi.yaml", "triple.yaml"]) == 1 and "runs/emi is of another state of emi.yaml: call python3 -m hvi shield" in capsys.readouterr().err
+    assert cli.main(["compare", "emi.yaml", "triple.yaml"]) == 1 and "runs/emi is of another state of emi.yaml, or of files that it names: call python3 -m hvi shield" in capsys.readouterr().err
     (three / "emi.yaml").write_text(ONE.replace("spacings_mm: [0.2, 0.4]", "spacings_mm: [0.3, 0.4]\nsettings: {film: 2}"))
     assert cli.main(["compare", "emi.yaml", "triple.yaml"]) == 0
+
+
+FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
+
+
+def write_stl(path, side):
+    """a tetrahedron with three right angles at a corner, mm"""
+    corners = ["0 0 0", f"{side} 0 0", f"0 {side} 0", f"0 0 {side}"]
+    facets = [f"facet normal 0 0 0\nouter loop\n{''.join(f'vertex {corners[k]}{chr(10)}' for k in face)}endloop\nendfacet\n" for face in FACES]
+    path.write_text(f"solid body\n{''.join(facets)}endsolid body\n")
+
+
+@pytest.mark.parametrize("change_of_files", ["material", "projectile", "name"])
+def test_files_of_the_case_that_have_changed(folder, root, capsys, change_of_files):
+    """a verdict, a limit and a curve are of the files that the case named then: another material of the same name, another body of the same name, another name of the body"""
+    text = ONE.replace("diameter_mm: 5", "shape: file\n  file: ball.stl").replace("material: Al6061-T6", "material: mine")
+    (folder / "emi.yaml").write_text(text)
+    write_stl(folder / "ball.stl", 6)
+    material = (root / "potentials/Al6061-T6.hvi").read_text()
+    (folder / "mine.hvi").write_text(material)
+    assert front("shield") in (0, 3)
+    assert front("limit", "--on", "thickness2", "--from", "1", "--to", "4", "--step", "1") in (0, 4) and front("curve", "--speeds", "6:7:2", "--on", "thickness2", "--from", "1", "--to", "4", "--step", "1") in (0, 4)
+    found = answer.read("emi.yaml")
+    assert list(found.limits) == ["limit-thickness2"] and list(found.curves) == ["curve-thickness2"] and not found.left_out
+    assert answer.read("runs/emi").limits == found.limits
+    if change_of_files == "material":
+        (folder / "mine.hvi").write_text(material + "# another\n")
+    elif change_of_files == "projectile":
+        write_stl(folder / "ball.stl", 7)
+    else:
+        (folder / "ball.stl").rename(folder / "other.stl")
+        (folder / "emi.yaml").write_text(text.replace("ball.stl", "other.stl"))
+    with pytest.raises(HVIError, match="runs/emi is of another state of emi.yaml, or of files that it names: call python3 -m hvi shield"):
+        answer.read("emi.yaml")
+    (folder / "runs/emi/verdict.yaml").unlink()
+    found = answer.read("emi.yaml")
+    assert not found.limits and not found.curves and found.left_out == ("limit-thickness2", "curve-thickness2")
+
+
+def test_limits_of_an_older_version(folder):
+    """which does not say of which files they are"""
+    (folder / "emi.yaml").write_text(ONE)
+    assert front("limit", "--on", "thickness2", "--from", "1.2", "--to", "4.2", "--step", "1") == 0
+    path = folder / "runs/emi/limit-thickness2/limit.yaml"
+    said = yaml.safe_load(path.read_text())
+    assert set(said["files"]) == {"Al2024-T3.hvi", "Al6061-T6.hvi"} and list(answer.read("emi.yaml").limits) == ["limit-thickness2"]
+    path.write_text(yaml.safe_dump({key: value for key, value in said.items() if key != "files"}))
+    assert answer.read("emi.yaml").left_out == ("limit-thickness2",)
 
 
 def test_wrong_shields(three, capsys):

@@ -77,8 +77,23 @@ def test_curve(folder, capsys, monkeypatch):
     assert front(*words) == 0 and begun(folder) == before
     assert front("curve", "--speeds", "3:7:2", "--from", "3", "--to", "7", "--step", "0.2") == 4
     assert "no limit at 3 km/s: an end of the range" in capsys.readouterr().out
-    assert front("curve", "--speeds", "5:7:2", "--on", "thickness2", "--from", "1.2", "--to", "3.2", "--step", "0.8") in (0, 4)
-    assert "equations: none: the equations are for a diameter" in capsys.readouterr().out
+    assert front("curve", "--speeds", "5:7:2", "--on", "thickness2", "--from", "1.2", "--to", "3.2", "--step", "0.8") == 4  # at 5 km/s 1.2 mm hold
+    out = capsys.readouterr().out
+    assert "equations: none: the equations are for a diameter" in out and "no limit at 5 km/s: an end of the range" in out and "no limit at 7 km/s" not in out
+
+
+def test_curve_of_an_earlier_call(folder, capsys, monkeypatch):
+    """does not stay where a later one with other speeds fails; a dry run leaves it"""
+    monkeypatch.setenv("FAKE_POWER", "1")
+    (folder / "emi.yaml").write_text(ONE)
+    where = folder / "runs/emi/curve-D"
+    words = ["--from", "3", "--to", "7", "--step", "1"]
+    assert front("curve", "--speeds", "6:7:2", *words) == 0 and front("curve", "--speeds", "5:6:2", *words, "--dry-run") == 0
+    of_it = {where / f"curve.{ending}" for ending in ("yaml", "csv", "png")}
+    assert of_it <= set(where.iterdir())
+    monkeypatch.setenv("FAKE_FAIL", "v-5")
+    assert front("curve", "--speeds", "5:6:2", *words) == 1 and "no curve: " in capsys.readouterr().err
+    assert not of_it & set(where.iterdir())
 
 
 ONE = change("shifts: [0, 0.5]", "shifts: [0]")

@@ -1,5 +1,6 @@
 """hvi in notebooks: case in, verdict out; DataFrames; help(); the script of Howto_python runs."""
 
+import concurrent.futures
 import os
 import pathlib
 import pydoc
@@ -43,6 +44,35 @@ def test_verdict_of_a_mapping(folder):
     assert [answer.verdict for answer in found.values()] == ["fails", "holds"] and found[2.4].case.walls[1].thickness_mm == 2.4
     assert found[1.2].areal_densities[1] == pytest.approx(0.5 * found[2.4].areal_densities[1]) and (folder / "mine/wall-2.4/verdict.yaml").is_file()
     assert found[1.2].margins["hole_mm"] == 5 and found[2.4].margins["hole_mm"] == 0
+
+
+def test_verdict_with_numbers_of_numpy(folder):
+    """as a loop over numpy.linspace has them; a value of another kind is named"""
+    case = yaml.safe_load(ONE)
+    case["walls"][1]["thickness_mm"], case["speed_km_s"], case["shifts"], case["spacings_mm"] = np.float64(2.4), np.float32(7), (np.int64(0),), np.array([0.2, 0.4])
+    found = ask(case, name="numpy")
+    assert found.verdict == "holds" and found.case.walls[1].thickness_mm == 2.4 and [run.dx for run in found.runs] == [0.2, 0.4] and found.case.speed_km_s == 7
+    with pytest.raises(hvi.HVIError, match="the case has a value that is neither number, text, list nor mapping: .*PosixPath"):
+        ask({**case, "settings": {"pair": folder}}, name="numpy")
+
+
+def test_verdict_leaves_files_of_the_user(folder):
+    """RUNS/NAME.yaml is written again only if hvi.verdict() has written it; one with the same case stays as it is"""
+    case = yaml.safe_load(ONE)
+    assert ask(case, name="again", runs=".").verdict == "fails"
+    case["walls"][1]["thickness_mm"] = 2.4
+    assert ask(case, name="again", runs=".").verdict == "holds"
+    (folder / "emi.yaml").write_text(ONE)
+    with pytest.raises(hvi.HVIError, match=r"emi.yaml is there, not written by hvi.verdict\(\), and of another case: take another name"):
+        ask(case, name="emi", runs=".")
+    assert ask(yaml.safe_load(ONE), name="emi", runs=".").verdict == "fails" and (folder / "emi.yaml").read_text() == ONE
+
+
+def test_verdict_in_a_thread(folder):
+    """where Python sets no handlers of signals"""
+    (folder / "emi.yaml").write_text(ONE)
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        assert pool.submit(ask, "emi.yaml").result().verdict == "fails"
 
 
 @pytest.mark.parametrize("how, message", [

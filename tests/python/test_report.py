@@ -1,5 +1,6 @@
 """python3 -m hvi report, movie, export: one file that shows what a folder says and runs nothing of it; pictures; files for ParaView read back."""
 
+import gzip
 import html.parser
 import json
 import pathlib
@@ -371,6 +372,41 @@ def test_export_of_boxes(tmp_path, box):
     np.testing.assert_allclose(new.box.vectors, old.box.vectors)
     np.testing.assert_allclose(new.box.origin, old.box.origin)
     assert new.box.periodic == old.box.periodic and new.x[0, 0] > 2 and list(new["element"]) == ["ball", "myplate"] and list(new["mass"]) == [1, 3] and new.units == "lj" and new.time is None
+
+
+LJ = "ITEM: UNITS\nlj\nITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n-1 1\n-2 2\n-3 3\nITEM: ATOMS id type x y z\n1 1 0.5 0 0\n2 2 0 1 0\n"
+OVITO = ["--to", "ovito", "--mirror", "none"]
+
+
+def test_export_leaves_what_it_reads(tmp_path, capsys):
+    """a dump by the name of what would be written, plain, packed, linked, or of another frame, stays whole; so does what was there if the export fails"""
+    dump, packed = tmp_path / "x.lammpstrj", tmp_path / "y.lammpstrj.gz"
+    dump.write_text(LJ)
+    packed.write_bytes(gzip.compress(LJ.encode()))
+    (tmp_path / "y.lammpstrj").write_text("of another run")
+    for name, out in (("x.lammpstrj", "x.ovito.lammpstrj"), ("y.lammpstrj.gz", "y.ovito.lammpstrj")):
+        assert cli.main(["export", name, *OVITO]) == 0 and f"exported: {out}, 1 frames" in capsys.readouterr().out and len(Dump(out, mirror="none")[0]) == 2
+    (tmp_path / "z.lammpstrj").symlink_to(dump)
+    (tmp_path / "z.pvd").symlink_to(dump)
+    (tmp_path / "v.0000.vtu").symlink_to(dump)
+    (tmp_path / "w.dump").write_text(LJ.replace("\n7\n", "\n5\n"))
+    for words in (["x.lammpstrj", *OVITO, "--out", "x"], ["x.lammpstrj", *OVITO, "--out", "z.lammpstrj"], ["x.lammpstrj", "--mirror", "none", "--out", "z"], ["x.lammpstrj", "--mirror", "none", "--out", "v"],
+                  ["w.dump", "x.lammpstrj", *OVITO, "--out", "x"]):
+        assert cli.main(["export", *words]) == 1 and "is read here and cannot be written: give another --out" in capsys.readouterr().err, words
+    assert dump.read_text() == LJ and (tmp_path / "y.lammpstrj").read_text() == "of another run"
+    (tmp_path / "w.dump").write_text(LJ + LJ.replace("\n7\n", "\n8\n").replace("2 2 0", "1 2 0"))  # the second frame has a particle twice
+    (tmp_path / "w.lammpstrj").write_text("of an earlier call")
+    assert cli.main(["export", "w.dump", *OVITO]) == 1 and (tmp_path / "w.lammpstrj").read_text() == "of an earlier call" and not list(tmp_path.glob("*.new"))
+
+
+def test_export_of_names_that_do_not_fit(tmp_path, capsys):
+    """types with labels keep them; a name is never empty, which would shift columns"""
+    (tmp_path / "a.dump").write_text(LJ.replace("1 1 0.5", "1 Al 0.5").replace("2 2 0", "2 Cu 0"))
+    for to in ([], ["--to", "ovito"]):
+        assert cli.main(["export", "a.dump", "--mirror", "none", *to, "--names", "ball", "plate"]) == 1
+        assert "--names: types have labels already in a.dump, such as Al: leave --names out" in capsys.readouterr().err
+        assert cli.main(["export", "a.dump", "--mirror", "none", *to, "--names", "ball", " "]) == 1 and "--names: a name is empty" in capsys.readouterr().err
+    assert cli.main(["export", "a.dump", *OVITO]) == 0 and list(Dump("a.lammpstrj", mirror="none")[0]["type"]) == ["Al", "Cu"]
 
 
 def test_texts_are_escaped():

@@ -65,6 +65,8 @@ def main(args):
     if args.dry_run:
         runner.show(first)
         return 0
+    for ending in ("yaml", "csv", "png"):  # of an earlier call
+        (folder / f"curve.{ending}").unlink(missing_ok=True)
 
     def more(job):
         return next(limit for limit in limits.values() if job.name in limit.jobs).more(job)
@@ -104,7 +106,8 @@ def report(case, on, over, limits, folder, jobs):
         print(f"equations: {known}")
     print(f"low to high: up to there all runs hold, from there all fail; cost: {len(jobs)} runs, {sum(job.result().get('core_s', 0) for job in jobs):g} core-seconds")
     tables.write_csv(folder / "curve.csv", columns, cells)
-    running.save(folder / "curve.yaml", {"on": on, "unit": unit, "over": over.name, "case": case.mapping(), "points": [{key: value for key, value in line.items() if value == value} for line in rows],
+    running.save(folder / "curve.yaml", {"on": on, "unit": unit, "over": over.name, "case": case.mapping(), "files": next(iter(limits.values())).files,
+                                         "points": [{key: value for key, value in line.items() if value == value} for line in rows],
                                          "core_s": round(sum(job.result().get("core_s", 0) for job in jobs), 1)})
     points = [(line[over.name], line["limit"], line["low"], line["high"]) for line in rows if math.isfinite(line["limit"])]
     curves = {} if isinstance(known, str) else equations(case, over, fine)

@@ -2,6 +2,7 @@
 """python3 -m hvi export: dumps as VTU files for ParaView, a PVD file of all with their times; or as one dump for OVITO. Units are in the names, types have names, halves and quarters are whole."""
 
 import base64
+import os
 import pathlib
 import re
 from xml.sax.saxutils import quoteattr
@@ -27,7 +28,7 @@ QUANTITY = {"mass": "mass", "fragsize": "distance", "h": "distance"}
 def add_arguments(parser):
     parser.add_argument("files", nargs="+", metavar="DUMP|DIR", help="dump files of one run, or a folder as of hvi report")
     parser.add_argument("--to", choices=("paraview", "ovito"), default="paraview", help="paraview: a VTU file for each frame and a PVD file; ovito: one dump of all frames (default: paraview)")
-    parser.add_argument("--out", metavar="NAME", help="NAME.pvd, and NAME.0000.vtu ... beside it; or NAME.lammpstrj (default: the name of the dump; in a folder: shield)")
+    parser.add_argument("--out", metavar="NAME", help="NAME.pvd, and NAME.0000.vtu ... beside it; or NAME.lammpstrj (default: the name of the dump, of X.lammpstrj X.ovito.lammpstrj; in a folder: shield)")
     parser.add_argument("--names", nargs="+", default=[], metavar="NAME", help="of types 1, 2, ... (default: in a folder projectile, wall 1, ... with their materials)")
     parser.add_argument("--part", action="store_true", help="of a half or quarter model only the part that was computed, not the whole")
     dumps.add_reading(parser)
@@ -111,9 +112,14 @@ def write_frame(stream, frame, names):
 def sources(args):
     """(Dump, default name, {type: name}) of the options"""
     first = pathlib.Path(args.files[0])
+    if not all(name.strip() for name in args.names):
+        raise HVIError("--names: a name is empty: give each type one, in the order of their numbers")
     names = dict(enumerate(args.names, 1))
     if not first.is_dir():
-        return dumps.opened(args, args.files), first.name.removesuffix(".gz").removesuffix(".dump"), names
+        name = first.name.removesuffix(".gz").removesuffix(".dump")
+        if args.to == "ovito" and name.endswith(".lammpstrj"):  # it would be the dump itself, or the one that was packed
+            name = name.removesuffix(".lammpstrj") + ".ovito"
+        return dumps.opened(args, args.files), name, names
     if len(args.files) > 1:
         raise HVIError("give one folder, or the dumps of one run")
     run = runs_of(first)[1][0]
@@ -124,31 +130,49 @@ def frames_of(dump, args):
     """all frames, whole or as they are, with a bar"""
     with progress.bar(len(dump), "frames") as bar:
         for frame in dump:
+            if args.names and "type" in frame and frame["type"].dtype.kind == "U":
+                raise HVIError(f"--names: types have labels already in {dump.paths[0]}, such as {frame['type'][0]}: leave --names out")
             yield frame if args.part else frame.whole()
             bar.update()
+
+
+def check_other(path, dump, args):
+    """Refuses to write a file that is read: the frames of a dump are read while others are written"""
+    for source in (*dump.paths, *([args.data] if args.data else [])):
+        if path.exists() and path.samefile(source):
+            raise HVIError(f"{path} is read here and cannot be written: give another --out")
 
 
 def to_paraview(dump, args, out, names):
     """the name of the file to open"""
     out, rows = out.with_suffix("") if out.suffix == ".pvd" else out, []
+    opens = out.with_name(out.name + ".pvd")
+    check_other(opens, dump, args)
     for k, frame in enumerate(frames_of(dump, args)):
         path = out.with_name(f"{out.name}.{k:04d}.vtu")
+        check_other(path, dump, args)
         write_vtu(path, frame, names)
         time = float(k) if frame.time is None else frame.time
         rows.append(f'    <DataSet timestep="{time:.12g}" part="0" file={quoteattr(path.name)}/>')
     text = "\n".join(['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">', "  <Collection>", *rows, "  </Collection>", "</VTKFile>", ""])
-    path = out.with_name(out.name + ".pvd")
-    path.write_text(text)
-    return path
+    opens.write_text(text)
+    return opens
 
 
 def to_ovito(dump, args, out, names):
     """the name of the file"""
     path = out if out.suffix == ".lammpstrj" else out.with_name(out.name + ".lammpstrj")
     words = {kind: re.sub(r"\s+", "", name.replace(", ", "_")) for kind, name in names.items()}  # a column of words between blanks
-    with open(path, "w", encoding="utf-8") as stream:
-        for frame in frames_of(dump, args):
-            write_frame(stream, frame, words)
+    new = path.with_name(path.name + ".new")  # a whole dump or none
+    for written in (path, new):
+        check_other(written, dump, args)
+    try:
+        with open(new, "w", encoding="utf-8") as stream:
+            for frame in frames_of(dump, args):
+                write_frame(stream, frame, words)
+        os.replace(new, path)
+    finally:
+        new.unlink(missing_ok=True)
     return path
 
 

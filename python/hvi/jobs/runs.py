@@ -12,6 +12,7 @@ interrupted() (the message after Ctrl-C) and
 import os
 import signal
 import sys
+import threading
 import time
 
 from .. import progress
@@ -65,9 +66,14 @@ class Local:
         return "call again to go on"
 
 
+def end_signals():
+    """signals that end a call; none outside the main thread, where Python sets no handlers"""
+    return (signal.SIGTERM, signal.SIGHUP) if threading.current_thread() is threading.main_thread() else ()
+
+
 def as_interrupts():
     """SIGTERM and SIGHUP end a call as Ctrl-C does; nohup still works"""
-    for ends in (signal.SIGTERM, signal.SIGHUP):
+    for ends in end_signals():
         if signal.getsignal(ends) != signal.SIG_IGN:
             signal.signal(ends, signal.default_int_handler)
 

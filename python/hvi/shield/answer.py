@@ -15,7 +15,7 @@ from .run import runs_of, texts
 
 NOT_RUN = "not run"
 MARGINS = ("hole_mm", "apart_mass_mg", "bulge_over_thickness", "deepest_failed_layer", "layers", "rear_plastic_strain")  # of a run; the largest is the worst, layers are the same in all of a spacing
-NOT_OF_THE_SHOT = "spacings_mm", "shifts", "file"  # keys of a case that differ between its runs: each has one spacing, and the file of that
+NOT_OF_THE_SHOT = "spacings_mm", "shifts", "file"  # keys of a case that differ between its runs: each has one spacing, and the file of that, which is compared by its checksum
 
 
 @dataclasses.dataclass(frozen=True)
@@ -91,12 +91,17 @@ def shot_of(mapping):
     return found
 
 
+def is_of(case, mapping, files):
+    """is the case the same shot as a Case.mapping(), and are all its files among those Case.checksums()? A run has one of the particle files of its case"""
+    return shot_of(case.mapping()) == shot_of(mapping) and case.checksums().items() <= files.items()
+
+
 def searched(folder, kind, case):
-    """({folder: mapping} of kind.yaml in the folders kind-* that are of this case, [names of those that are not, or of an older version that does not say])"""
+    """({folder: mapping} of kind.yaml in the folders kind-* that are of this case and its files, [names of those that are not, or of an older version that does not say])"""
     found, other = {}, []
     for path in sorted(folder.glob(f"{kind}-*/{kind}.yaml")):
         mapping = engine.read_yaml(path) or {}
-        if isinstance(mapping.get("case"), dict) and shot_of(mapping["case"]) == shot_of(case.mapping()):
+        if all(isinstance(mapping.get(key), dict) for key in ("case", "files")) and is_of(case, mapping["case"], mapping["files"]):
             found[path.parent.name] = mapping
         else:
             other.append(path.parent.name)
@@ -136,8 +141,8 @@ def read(path, runs="runs"):
         if not found:
             raise HVIError(f"{folder} has limits or curves only: give the case itself, CASE.yaml, and --runs {folder.parent}")
         case = dataclasses.replace(found[0].case, name=folder.resolve().name)
-    elif found and shot_of(found[0].case.mapping()) != shot_of(case.mapping()):
-        raise HVIError(f"{folder} is of another state of {path}: call python3 -m hvi shield {path} again, or give the folder itself")
+    elif not all(is_of(run.case, case.mapping(), case.checksums()) for run in found):
+        raise HVIError(f"{folder} is of another state of {path}, or of files that it names: call python3 -m hvi shield {path} again, or give the folder itself")
     limits, curves = (searched(folder, kind, case) for kind in ("limit", "curve"))
     return Answer(case.name, folder, case, str(said.get("verdict", NOT_RUN)), tuple(texts(said, "reasons")), tuple(texts(said, "notes")), tuple(found), said, limits[0], curves[0],
                   tuple(limits[1] + curves[1]))
@@ -161,11 +166,11 @@ def by_role(word, case, most):
 
 
 def over_limit(found):
-    """the case's value over its limit, above 1 where it is on the safe side: a wall over the least that holds, the largest diameter that holds over the diameter"""
-    limit, own = found.get("limit"), found.get("own")
-    if not limit or not own:
+    """how far the case is on the safe side, 1 or more where all runs hold: a wall over the least that holds in all of them, the largest diameter that does over the diameter; None without a limit"""
+    if found.get("limit") is None or not found.get("own"):
         return None
-    return own / limit if str(found["holds"]).startswith("from") else limit / own
+    side, _, edge = found["holds"].rpartition(" ")
+    return found["own"] / float(edge) if side == "from" else float(edge) / found["own"]
 
 
 def row(answer, most):
@@ -180,7 +185,7 @@ def row(answer, most):
         name = by_role(limit["varied"], case, most)
         unit = limit["unit"].replace("/", "_").replace("degrees", "deg")
         found.update({f"limit_{name}_{unit}": "not found" if limit["limit"] is None else limit["limit"], f"limit_{name}_holds": limit.get("holds"), f"limit_{name}_fails": limit.get("fails"),
-                      f"over_limit_{name}": over_limit(limit)})
+                      f"limit_{name}_spacing_mm": min(limit["case"]["spacings_mm"]), f"over_limit_{name}": over_limit(limit)})
     if answer.runs:
         found["spacing_mm"] = answer.runs[0].dx
     found.update(areal_density_kg_m2=round(sum(answer.areal_densities), 3), runs=len(answer.runs), core_s=round(answer.core_s, 1), search_core_s=round(answer.search_core_s, 1),

@@ -13,8 +13,9 @@ from typing import Any
 import yaml
 
 from .. import texts
-from ..errors import HVIError, HVIWarning
-from ..material import laws
+from ..errors import HVIError, HVIWarning, reading
+from ..jobs import engine
+from ..material import laws, library
 from . import elements, geometry, projectile
 from .projectile import material
 from .reader import REQUIRED, Key, Reader, choice, fields, lammps_words, number, several, word
@@ -145,6 +146,14 @@ class Case:
                  "spacings_mm": list(self.spacings_mm), "shifts": list(self.shifts), "not_modelled": list(self.not_modelled),
                  "settings": {name: list(value) if isinstance(value, tuple) else value for name, value in self.settings.items()}}
         return {name: value for name, value in found.items() if value not in ([], {})}
+
+    def checksums(self):
+        """{name: checksum} of the files that mapping() names: materials, as texts, since runs have copies of these, and files of the projectile; HVIError if one is gone"""
+        found = {pathlib.Path(name).name: library.find(name).read_text(errors="replace").encode() for name in (self.material, *(wall.material for wall in self.walls))}
+        for path in self.projectile.files:
+            with reading(path):
+                found[pathlib.Path(path).name] = pathlib.Path(path).read_bytes()
+        return {name: engine.digest(data) for name, data in found.items()}
 
     def file(self, which):
         """of the projectile at spacing number which"""

@@ -77,7 +77,7 @@ class Limit:
         self.case, self.folder, self.on, self.name = case, folder, on, name  # name: what names of runs begin with
         self.quantity = quantity.find(case, on, "--on")
         self.key, self.wall, self.unit = self.quantity.key, self.quantity.wall, self.quantity.unit
-        self.own = self.quantity.of(case)
+        self.own, self.files = self.quantity.of(case), case.checksums()
         usual = ANGLES if on == "angle" else (0.5 * self.own, 2 * self.own, 0.05 * self.own)
         low, high, step = (value if given is None else given for given, value in zip((low, high, step), usual))
         if low >= high or step > high - low:
@@ -153,7 +153,7 @@ class Limit:
     def answer(self):
         """The mapping of limit.yaml; limit is None where it is not in the range, reasons say why."""
         borders = {member: (s.borders()[0], s.borders()[3]) for member, s in self.searches.items()}
-        result = {"on": self.quantity.title, "unit": self.unit, "limit": None, "varied": self.on, "own": self.own, "case": self.case.mapping()}
+        result = {"on": self.quantity.title, "unit": self.unit, "limit": None, "varied": self.on, "own": self.own, "case": self.case.mapping(), "files": self.files}
         outside = [f"{decision.member_name(self.case, member)}: " + ", ".join(f"{s.said[place]} at {self.values[place]:g} {self.unit}" for place in sorted(s.said))
                    for member, s in self.searches.items() if None in borders[member]]
         if outside:
