@@ -397,6 +397,9 @@ def test_export_leaves_what_it_reads(tmp_path, capsys):
     (tmp_path / "w.dump").write_text(LJ + LJ.replace("\n7\n", "\n8\n").replace("2 2 0", "1 2 0"))  # the second frame has a particle twice
     (tmp_path / "w.lammpstrj").write_text("of an earlier call")
     assert cli.main(["export", "w.dump", *OVITO]) == 1 and (tmp_path / "w.lammpstrj").read_text() == "of an earlier call" and not list(tmp_path.glob("*.new"))
+    (tmp_path / "folder.lammpstrj").mkdir()
+    capsys.readouterr()
+    assert cli.main(["export", "x.lammpstrj", *OVITO, "--out", "folder"]) == 1 and "cannot write folder.lammpstrj: Is a directory" in capsys.readouterr().err
 
 
 def test_export_of_names_that_do_not_fit(tmp_path, capsys):

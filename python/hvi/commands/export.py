@@ -184,7 +184,7 @@ def main(args):
     try:
         path = (to_ovito if args.to == "ovito" else to_paraview)(dump, args, out, names)
     except OSError as problem:
-        raise HVIError(f"cannot write {problem.filename or out}: {problem.strerror}") from None
+        raise HVIError(f"cannot write {problem.filename2 or problem.filename or out}: {problem.strerror}") from None
     unit = unit_systems.name("distance", dump.units)
     print(f"exported: {path}, {len(dump)} frames, lengths in {unit}, times in {unit_systems.name('time', dump.units) if dump.time(0) is not None else 'frames'}"
           + (f"; types: {'; '.join(f'{kind} {what}' for kind, what in names.items())}" if names else ""))
