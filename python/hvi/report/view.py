@@ -7,6 +7,7 @@ import io
 import json
 import pathlib
 import zlib
+from typing import Optional
 
 import matplotlib.image
 import numpy as np
@@ -39,8 +40,8 @@ class Field:
     unit: str = ""
     factor: float = 1.0
     root: bool = False
-    least: float = None
-    most: float = None
+    least: Optional[float] = None
+    most: Optional[float] = None
     colors: str = "viridis"
 
 
