@@ -339,8 +339,10 @@ def test_what_a_run_went_on_from(folder, monkeypatch, command, kept):
     """stays where the job was ended by Slurm before it came farther: that says nothing against the file"""
     (folder / "in.main").write_text("")
     (folder / "a").mkdir()
+    monkeypatch.setenv("SLURM_JOB_ID", "1")
     for inside in (True, False):
-        monkeypatch.setenv("SLURM_JOB_ID", "1") if inside else monkeypatch.delenv("SLURM_JOB_ID", raising=False)
+        if not inside:
+            monkeypatch.delenv("SLURM_JOB_ID")
         job = engine.Job(engine.Input(folder / "in.main"), "a", {}, folder / "a", restart="x.restart.*")
         engine.write_yaml(folder / "a/job.yaml", job.record)
         (folder / "a/x.restart.1").write_bytes(engine.END)

@@ -9,9 +9,10 @@ A batch is one call of sbatch: a folder in DIR/.slurm whose name is that of its 
     number        of the array, once sbatch has said it
     INDEX.yaml    of a run that has failed: problem, advice;   INDEX.txt: what its job has printed
 
-One call at a time looks for batches and submits: it holds a lock on DIR/.slurm/lock. Nothing else is remembered: which jobs are in the queue is asked by these names, so any later call finds those of an earlier one. There may be no
-accounting, and Slurm forgets a job minutes after its end: how a run has ended is in its own folder, or in INDEX.yaml. A job that has left neither
-was stopped from outside. It is submitted again if the run has saved more since, and has failed otherwise, so there is an end.
+One call at a time looks for batches and submits: it holds a lock on DIR/.slurm/lock. Nothing else is remembered: which jobs are in the queue is asked
+by these names, so any later call finds those of an earlier one. There may be no accounting, and Slurm forgets a job minutes after its end: how a run
+has ended is in its own folder, or in INDEX.yaml. A job that has left neither was stopped from outside. It is submitted again if the run has saved more
+since, and has failed otherwise, so there is an end.
 """
 
 import collections
@@ -154,15 +155,14 @@ class Slurm:
 
     @contextlib.contextmanager
     def alone(self):
-        """while another call submits, it waits: a batch that is not in the queue yet looks like one that is over"""
+        """while another call submits, this call waits: a batch that is not in the queue yet looks like one that is over"""
         with writing(self.folder):
             self.folder.mkdir(parents=True, exist_ok=True)
-            lock = os.open(self.folder / "lock", os.O_RDWR | os.O_CREAT, 0o666)
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX)
+            lock = open(self.folder / "lock", "w")
+        with lock:
+            with writing(self.folder):
+                fcntl.flock(lock, fcntl.LOCK_EX)
             yield
-        finally:
-            os.close(lock)
 
     def report(self, what, problem, say):
         """once, not at each look"""
