@@ -66,14 +66,14 @@ def options(name=None):
 
 
 def join_negative(arguments):
-    """--plane -1e-3 as --plane=-1e-3: argparse takes the number for an option"""
+    """--plane -1e-3 as --plane=-1e-3, --sbatch --mem=4G as --sbatch=--mem=4G: argparse takes the value for an option"""
     joined = []
     for word in arguments:
         try:
             negative = word.startswith("-") and float(word) <= 0.0
         except ValueError:
             negative = False
-        if negative and joined and joined[-1].startswith("--") and "=" not in joined[-1]:
+        if negative and joined and joined[-1].startswith("--") and "=" not in joined[-1] or word.startswith("-") and joined[-1:] == ["--sbatch"]:
             joined[-1] += "=" + word
         else:
             joined.append(word)

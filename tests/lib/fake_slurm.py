@@ -9,7 +9,8 @@ FAKE_PLAN: words, of which each call of sbatch takes the next one, and later cal
     STATE    jobs have never run, and ended so
     nothing  jobs are accepted, and forgotten
 
-FAKE_REFUSE: message with which sbatch refuses; a file "away" in the folder: squeue finds no controller, and removes the file.
+FAKE_REFUSE: message with which sbatch refuses; a file "away" or "busy" in the folder: squeue or sbatch finds no controller, and removes the file. squeue
+begins with a remark, as the wrappers of some sites do.
 """
 
 import json
@@ -52,6 +53,9 @@ def sbatch(words):
         return
     if "FAKE_REFUSE" in os.environ:
         sys.exit(f"sbatch: error: {os.environ['FAKE_REFUSE']}\nsbatch: error: Batch job submission failed: so it is")
+    if (HOME / "busy").exists():
+        (HOME / "busy").unlink()
+        sys.exit("sbatch: error: Batch job submission failed: Unable to contact slurm controller (connect failure)")
     number = len(CALLS.read_text().splitlines()) if CALLS.exists() else 0
     with open(CALLS, "a") as out:
         out.write(json.dumps(words) + "\n")
@@ -75,7 +79,7 @@ def squeue(words):
         sys.exit("slurm_load_jobs error: Unable to contact slurm controller (connect failure)")
     (names,) = (word.split("=")[1].split(",") for word in words if word.startswith("--name="))
     rows = [line.split("|") for line in text_of(QUEUE).splitlines()]
-    print("".join("|".join(row) + "\n" for row in rows if row[0] in names), end="")
+    print("squeue of this site | maintenance on Monday\n" + "".join("|".join(row) + "\n" for row in rows if row[0] in names), end="")
     if "FAKE_START" in os.environ:
         for number in sorted({row[2] for row in rows if row[3] == "PENDING"}):
             waiting = [row for row in rows if row[2:4] == [number, "PENDING"]]

@@ -1,14 +1,16 @@
 """python3 -m hvi ... --engine slurm: what is submitted, how ended jobs are told apart, what a second call takes up. Slurm and LAMMPS are fakes here;
 tests/verify/test_slurm_runs.py does it with both."""
 
+import fcntl
 import json
 import os
 import pickle
 import sys
+import time
 
 import pytest
 import yaml
-from front_runs import change, front, tries, case_folder  # noqa: F401
+from front_runs import change, front, tries, wait_for, case_folder  # noqa: F401
 from hvi import cli
 from hvi.jobs import engine, runs, slurm
 
@@ -37,7 +39,7 @@ def calls(fake):
 
 
 def batches(folder):
-    return sorted(path.name for path in folder.glob("runs/.slurm/*"))
+    return sorted(path.name for path in folder.glob("runs/.slurm/hvi-*"))
 
 
 def records(folder):
@@ -147,6 +149,12 @@ def test_run_that_fails(folder, fake, capsys, monkeypatch):
     assert front("shield", *SUBMIT) == UNDECIDED and len(calls(fake)) == 2 and sum(tries(folder).values()) == 2 and batches(folder) == []
 
 
+def test_paths_with_spaces(folder, root, fake, monkeypatch):
+    """in the user's PYTHONPATH"""
+    monkeypatch.setenv("PYTHONPATH", f"{root / 'python'}:/no such/folder")
+    assert front("shield", *SUBMIT) == UNDECIDED
+
+
 def test_what_a_job_cannot_write(folder, fake, capsys, monkeypatch):
     """it says so where it was called"""
     (folder / "runs/emi").mkdir(parents=True)
@@ -226,11 +234,127 @@ def test_left_by_a_kill(folder, fake):
     assert front("shield", *SUBMIT) == UNDECIDED and len(calls(fake)) == 1
 
 
+def test_another_case_has_run_since(folder, waiting, monkeypatch):
+    """without Slurm, which does not ask the queue: a job that starts then leaves what it finds"""
+    (folder / "emi.yaml").write_text(CASE.replace("speed_km_s: 7.1", "speed_km_s: 7"))
+    assert front("shield", "--ranks", "3") == UNDECIDED
+    before = {path: path.read_bytes() for path in folder.glob("runs/emi/*/*")}
+    monkeypatch.setenv("FAKE_START", "yes")
+    slurm.said(["squeue", "--name=none"])
+    assert {path: path.read_bytes() for path in folder.glob("runs/emi/*/*")} == before
+    for path in (folder / "runs/.slurm" / batches(folder)[0] / f"{index}.yaml" for index in range(2)):
+        assert yaml.safe_load(path.read_text())["problem"].endswith(": another case has run here since this job was submitted")
+
+
+def test_another_case_has_run_before(folder, fake):
+    """a job takes the place of what was there when it was submitted"""
+    assert front("shield", "--ranks", "3") == UNDECIDED
+    (folder / "emi.yaml").write_text(CASE.replace("speed_km_s: 7.1", "speed_km_s: 7"))
+    assert front("shield", *SUBMIT) == UNDECIDED
+    assert all(yaml.safe_load(path.read_text())["variables"]["v0"] == 7000 for path in folder.glob("runs/emi/*/job.yaml"))
+
+
+def test_one_call_submits_at_a_time(folder, fake, monkeypatch):
+    """a batch that is not in the queue yet must not look like one that is over"""
+    usual, free = slurm.said, []
+
+    def said(words):
+        if "--version" not in words and words[0] == "sbatch":
+            with open(folder / "runs/.slurm/lock") as lock:
+                try:
+                    fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                    free.append(True)
+                except BlockingIOError:
+                    free.append(False)
+        return usual(words)
+
+    monkeypatch.setattr(slurm, "said", said)
+    assert front("shield", *SUBMIT) == UNDECIDED and free == [False]
+    with open(folder / "runs/.slurm/lock") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)  # it is left
+
+
+@pytest.mark.parametrize("answered, age, left", [(False, 60, 1), (False, 7200, 0), (True, 60, 0)])
+def test_batch_without_an_answer(folder, fake, monkeypatch, answered, age, left):
+    """of a sbatch that timed out: jobs may turn up in the queue for an hour"""
+    monkeypatch.setenv("FAKE_REFUSE", "Socket timed out")
+    assert front("shield", *SUBMIT) == 1
+    monkeypatch.delenv("FAKE_REFUSE")
+    batch = folder / "runs/.slurm" / batches(folder)[0]
+    if answered:
+        (batch / "number").write_text("1")
+    os.utime(batch, (time.time() - age,) * 2)
+    assert front("shield", *SUBMIT) == UNDECIDED and batches(folder) == [batch.name] * left
+
+
+def test_the_controller_is_away_in_a_search(folder, fake, capsys, monkeypatch):
+    """what it could not take is submitted at a later look"""
+    begin, begins = slurm.Slurm.begin, []
+
+    def second_is_away(self, jobs, say):
+        begins.append(len(jobs))
+        if len(begins) == 2:
+            (fake / "busy").write_text("")
+        begin(self, jobs, say)
+
+    monkeypatch.setattr(slurm.Slurm, "begin", second_is_away)
+    assert front("limit", "--on", "D", "--from", "3", "--to", "6", "--step", "1", *SUBMIT) == 0
+    out = capsys.readouterr().out
+    assert out.count("sbatch: Batch job submission failed: Unable to contact slurm controller") == 1 and out.count("; trying again each 0.01 s\n") == 1 and len(begins) > 2
+    assert out.count("  ok  ") == sum(begins) == sum(tries(folder).values()) and batches(folder) == []
+
+
+def test_refused_again_and_again(folder, fake, capsys, monkeypatch):
+    """said once of each program, and one folder for all tries"""
+    send, sends = slurm.Slurm.send, []
+
+    def four_are_away(self, say):
+        sends.append(len(batches(folder)))
+        if 2 <= len(sends) <= 5:
+            (fake / ("busy" if len(sends) < 5 else "away")).write_text("")
+        send(self, say)
+
+    monkeypatch.setattr(slurm.Slurm, "send", four_are_away)
+    assert front("shield", *SUBMIT, "--jobs", "1") == UNDECIDED
+    out = capsys.readouterr().out
+    assert [out.count(f"\n{program}: ") for program in ("sbatch", "squeue")] == [1, 1] and out.count("trying again") == 2 and sends == [0, 0, 1, 1, 1, 1] and len(calls(fake)) == 2 and batches(folder) == []
+
+
+def test_lines_of_runs_that_are_over(folder, waiting, capsys, monkeypatch):
+    """are printed though another one, found in the same look, cannot be submitted again"""
+    monkeypatch.setenv("FAKE_START", "yes")
+    monkeypatch.setenv("FAKE_REFUSE", "no more")
+    monkeypatch.setattr(slurm, "LOOKS", 1)
+    usual = slurm.Slurm.has_left_record
+    monkeypatch.setattr(slurm.Slurm, "has_left_record", lambda self, job, state: job.name != "dx-0.4_shift-0.0" and usual(self, job, state))
+    monkeypatch.setattr(slurm, "CUT_OFF", {"COMPLETED"})
+    monkeypatch.setattr(engine.Job, "has_saved_more", lambda job: True)
+    assert front("shield", *SUBMIT) == 1
+    out, err = capsys.readouterr()
+    assert "dx-0.4_shift-0.0: its job was cut off (COMPLETED) and had saved more: submitted again\n" in out and "dx-0.4_shift-0.5  ok  " in out and "hvi: sbatch: no more; " in err
+
+
+@pytest.mark.parametrize("command, kept", [("kill -TERM $$", True), ("exit 143", True), ("kill -KILL $$", True), ("exit 137", True), ("exit 1", False)])
+def test_what_a_run_went_on_from(folder, monkeypatch, command, kept):
+    """stays where the job was ended by Slurm before it came farther: that says nothing against the file"""
+    (folder / "in.main").write_text("")
+    (folder / "a").mkdir()
+    monkeypatch.setenv("SLURM_JOB_ID", "1")
+    for inside in (True, False):
+        if not inside:
+            monkeypatch.delenv("SLURM_JOB_ID")
+        job = engine.Job(engine.Input(folder / "in.main"), "a", {}, folder / "a", restart="x.restart.*")
+        engine.write_yaml(folder / "a/job.yaml", job.record)
+        (folder / "a/x.restart.1").write_bytes(engine.END)
+        wait_for(lambda: job.ended(lambda job: ["sh", "-c", command], None))
+        assert job.problem and job.resumed and bool(job.restart_files()) == (kept and inside)
+
+
 def test_a_job_that_starts_again(folder, fake, monkeypatch):
     """Slurm puts it back into the queue: its failure before counts no more"""
     monkeypatch.setenv("FAKE_FAIL", "dx-0.4_shift-0.0")
     assert front("shield", *SUBMIT) == 1
-    (batch,) = (folder / "runs/.slurm").iterdir()
+    (batch,) = (folder / "runs/.slurm").glob("hvi-*")
     local, jobs = pickle.loads((batch / "runs.pickle").read_bytes())
     (index,) = [k for k, job in enumerate(jobs) if job.name == "dx-0.4_shift-0.0"]
     assert (batch / f"{index}.yaml").exists() and isinstance(local, runs.Local) and local.ranks == 3
@@ -245,16 +369,31 @@ def test_refused(folder, fake, capsys, monkeypatch):
     monkeypatch.setenv("FAKE_REFUSE", "invalid partition specified: none")
     assert front("shield", *SUBMIT, "--partition", "none") == 1
     assert "hvi: sbatch: invalid partition specified: none; Batch job submission failed: so it is (sbatch --ntasks=3 --partition=none)\n" in capsys.readouterr().err
-    assert len(batches(folder)) == 1 and calls(fake) == []
+    (batch,) = batches(folder)
+    assert calls(fake) == []
     monkeypatch.delenv("FAKE_REFUSE")
-    assert front("shield", *SUBMIT) == UNDECIDED and batches(folder) == []
+    assert front("shield", *SUBMIT) == UNDECIDED and batches(folder) == [batch]  # its jobs may be in the queue all the same
 
 
 @pytest.mark.parametrize("words, says", [
     (("--nodes", "2"), "--nodes is for --engine slurm"), (("--time", "5"), "--time is for --engine slurm"), ((*SUBMIT, "--nodes", "4"), "--nodes 4: a run of 3 ranks has no use for so many"),
-    ((*SUBMIT, "--sbatch", "long"), "--sbatch long: options of sbatch, such as"), ((*SUBMIT, "--sbatch='x"), "--sbatch 'x: No closing quotation")])
+    ((*SUBMIT, "--sbatch", "long"), "--sbatch long: options of sbatch, such as"), ((*SUBMIT, "--sbatch='x"), "--sbatch 'x: No closing quotation"),
+    ((*SUBMIT, "--sbatch=--mem=4G --wait"), "--sbatch='--mem=4G --wait': leave out --wait: hvi itself waits for its jobs"), ((*SUBMIT, "--sbatch", "-W"), "--sbatch=-W: leave out -W: ")])
 def test_wrong_options(folder, fake, capsys, words, says):
     assert front("shield", *words) == 1 and says in capsys.readouterr().err and calls(fake) == []
+
+
+def test_value_that_looks_like_an_option():
+    """one word after --sbatch is its value"""
+    assert cli.parse(["shield", "x", "--sbatch", "--mem=4G", "--ranks", "3"]).sbatch == "--mem=4G"
+    assert cli.parse(["shield", "x", "--sbatch=--mem=4G", "--time", "5"]).sbatch == "--mem=4G"
+
+
+def test_defaults_of_the_user(monkeypatch):
+    """which would hide jobs, or make sbatch wait; those of how to submit stay"""
+    for name in ("SQUEUE_USERS", "SQUEUE_STATES", "SBATCH_WAIT", "SBATCH_QOS"):
+        monkeypatch.setenv(name, "x")
+    assert sorted(line for line in slurm.said(["env"]).splitlines() if line.startswith(("SQUEUE_", "SBATCH_"))) == ["SBATCH_QOS=x"]
 
 
 def test_no_slurm(folder, capsys, monkeypatch):

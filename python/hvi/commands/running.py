@@ -29,7 +29,7 @@ def add_runs(parser):
     group.add_argument("--time", metavar="LIMIT", help="time limit of a job as sbatch takes it, such as 4:00:00 (default: that of the partition)")
     group.add_argument("--partition", metavar="NAME", help="partition of the jobs")
     group.add_argument("--account", metavar="NAME", help="account that they are charged to")
-    group.add_argument("--sbatch", metavar="'OPTIONS'", help="further options of sbatch, such as '--mem=4G --qos=long'")
+    group.add_argument("--sbatch", metavar="'OPTIONS'", help="further options of sbatch, such as --sbatch='--mem=4G --qos=long'")
     group.add_argument("--poll", type=positive, metavar="S", help="seconds between looks at the queue (default: 10)")
 
 

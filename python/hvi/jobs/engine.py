@@ -26,6 +26,7 @@ from ..material.library import potentials
 
 RESULT, LAST = "result.yaml", "package_version"  # what a run is for, and the last key in it: it is there if the file is complete
 PATIENCE = 10  # seconds that mpirun has to end its ranks
+ENDED_BY_SLURM = {-signal.SIGTERM, -signal.SIGKILL, 128 + signal.SIGTERM, 128 + signal.SIGKILL}  # exit statuses of mpirun
 DAY = 86400  # seconds
 FULL = 100_000  # bytes: less is a full disk
 END = b"LammpS RestartT\0"  # of a restart file
@@ -166,6 +167,7 @@ class Job:
             self.record["files"] = files
         self.process, self.lock, self.start, self.problem, self.advice, self.asked = None, None, None, "", "", False
         self.resumed, self.saved = False, []  # if it went on, and from what
+        self.before = None  # checksum of the record in its folder when a call began
 
     def _files(self):
         """checksums of the files that variables name: materials, plates"""
@@ -188,6 +190,12 @@ class Job:
         """True if it was started before, with these variables, input and files"""
         return read_yaml(self.folder / "job.yaml") == self.record
 
+    def there(self):
+        """checksum of the record in its folder, which may be that of another case; None without one"""
+        with contextlib.suppress(OSError):
+            return digest((self.folder / "job.yaml").read_bytes())
+        return None
+
     def restart_files(self):
         """what the run left to go on from, newest last"""
         found = self.folder.glob(self.restart) if self.restart and self.begun() else []
@@ -202,8 +210,9 @@ class Job:
         return any([str(path), path.stat().st_mtime_ns] not in self.saved for path in self.restart_files()[-1:])
 
     def mark(self, saved=None):
-        """a call begins: time, problem and what is saved count from now; saved: of a call that has begun already"""
+        """a call begins: time, problem, what is saved and the record that is there count from now; saved: of a call that has begun already"""
         self.start, self.problem, self.advice, self.saved = time.monotonic(), "", "", self._saved() if saved is None else saved
+        self.before = self.there()
 
     def words(self):
         """LAMMPS's options"""
@@ -286,7 +295,8 @@ class Job:
             self.problem = self.finish()
         if self.problem and shutil.disk_usage(self.folder).free < FULL:
             self.advice = "the disk is full"
-        if self.problem and self.resumed and status is not None and self._saved() == self.saved:
+        cut_off = status in ENDED_BY_SLURM and "SLURM_JOB_ID" in os.environ  # with its job: that says nothing about the file
+        if self.problem and self.resumed and status is not None and not cut_off and self._saved() == self.saved:
             for path in self.restart_files()[-1:]:  # it came no farther: what it went on from may be what is wrong, the next try takes the one before, or begins anew
                 path.unlink()
         for pattern in [] if self.problem else self.remove:

@@ -6,15 +6,19 @@ A batch is one call of sbatch: a folder in DIR/.slurm whose name is that of its 
     runs.yaml     [[folder, checksum of what is run there, what it had saved], ...]: the number of a run is its index in the array
     runs.pickle   how LAMMPS is run, and the same runs as their command made them
     job.sh        the script
+    number        of the array, once sbatch has said it
     INDEX.yaml    of a run that has failed: problem, advice;   INDEX.txt: what its job has printed
 
-Nothing else is remembered: which jobs are in the queue is asked by these names, so any later call finds those of an earlier one. There may be no
-accounting, and Slurm forgets a job minutes after its end: how a run has ended is in its own folder, or in INDEX.yaml. A job that has left neither
-was stopped from outside. It is submitted again if the run has saved more since, and has failed otherwise, so there is an end.
+One call at a time looks for batches and submits: it holds a lock on DIR/.slurm/lock. Nothing else is remembered: which jobs are in the queue is asked
+by these names, so any later call finds those of an earlier one. There may be no accounting, and Slurm forgets a job minutes after its end: how a run
+has ended is in its own folder, or in INDEX.yaml. A job that has left neither was stopped from outside. It is submitted again if the run has saved more
+since, and has failed otherwise, so there is an end.
 """
 
 import collections
 import contextlib
+import fcntl
+import os
 import pathlib
 import pickle
 import re
@@ -31,35 +35,48 @@ from . import engine
 
 POLL = 10.0  # seconds between looks at the queue
 LOOKS = 3  # in a row that must find a job over that has left no record: other machines see files of a shared disk late
+HOUR = 3600  # seconds that a batch is kept without a number: sbatch did not answer, and its jobs may still turn up in the queue
 ARRAY = 1000  # jobs of an array: what Slurm allows by default is 1001
 SECONDS = 120  # that a command of Slurm may take
 ENDED = set("BOOT_FAIL CANCELLED COMPLETED DEADLINE FAILED NODE_FAIL OUT_OF_MEMORY PREEMPTED REVOKED TIMEOUT".split())
 CUT_OFF = {"BOOT_FAIL", "NODE_FAIL", "PREEMPTED", "TIMEOUT", None}  # by no fault of the run; None: Slurm has forgotten the job
 SCRIPT = """#!/bin/sh
 # of {what}: python3 -m hvi submits this, an element of the array for each run
-export PYTHONPATH={package}${{PYTHONPATH:+:$PYTHONPATH}}
+export PYTHONPATH={package}"${{PYTHONPATH:+:$PYTHONPATH}}"
 exec {python} -m hvi.jobs.task "$SLURM_ARRAY_TASK_ID"
 """
 
 Entry = collections.namedtuple("Entry", "job state reason")  # of the queue: number of the array, state, why it waits
 
 
+class Refused(HVIError):
+    """A command of Slurm failed; the message is its own"""
+
+
 def said(words):
-    """what a command of Slurm prints; an HVIError with its message if it fails"""
+    """what a command of Slurm prints; Refused with its message if it fails"""
+    # the user's defaults would hide jobs, or wait until all have ended
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("SQUEUE_") and name != "SBATCH_WAIT"}
     try:
-        done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", timeout=SECONDS, check=False)
+        done = subprocess.run(words, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", timeout=SECONDS, check=False)
     except FileNotFoundError:
         raise HVIError(f"{words[0]} is not there: --engine slurm is for a machine that can submit jobs to Slurm; --engine local runs here") from None
     except (OSError, subprocess.TimeoutExpired) as problem:
-        raise HVIError(f"{words[0]}: {problem}") from None
+        raise Refused(f"{words[0]}: {problem}") from None
     if done.returncode:
         lines = [re.sub(rf"^{words[0]}: (error: |fatal: )?", "", line) for line in done.stderr.splitlines()]
-        raise HVIError(f"{words[0]}: {'; '.join(filter(None, lines)) or engine.said_of(done.returncode)}")
+        raise Refused(f"{words[0]}: {'; '.join(filter(None, lines)) or engine.said_of(done.returncode)}")
     return done.stdout
 
 
 def checksum(job):
     return engine.digest(engine.yaml_of(job.record).encode())
+
+
+def is_old(folder):
+    with contextlib.suppress(OSError):
+        return time.time() - folder.stat().st_mtime > HOUR
+    return True
 
 
 class Batch:
@@ -90,14 +107,17 @@ class Slurm:
         except ValueError as problem:
             raise HVIError(f"--sbatch {args.sbatch}: {problem}") from None
         if own and not own[0].startswith("-"):
-            raise HVIError(f"--sbatch {args.sbatch}: options of sbatch, such as --sbatch '--mem=4G --qos=long'")
+            raise HVIError(f"--sbatch {args.sbatch}: options of sbatch, such as --sbatch='--mem=4G --qos=long'")
+        if {"-W", "--wait"} & set(own):
+            raise HVIError(f"--sbatch={shlex.quote(args.sbatch)}: leave out {'--wait' if '--wait' in own else '-W'}: hvi itself waits for its jobs")
         if (args.nodes or 1) > local.ranks:
             raise HVIError(f"--nodes {args.nodes}: a run of {local.ranks} ranks has no use for so many: more --ranks, or fewer --nodes")
         given = (("ntasks", local.ranks), ("nodes", args.nodes), ("time", args.time), ("partition", args.partition), ("account", args.account))
         self.words = [*own, *(f"--{name}={value}" for name, value in given if value)]
         self.place, self.kept = {}, set()  # {job: (name of its batch, index)}; names of batches that show why a run has failed
         self.over = collections.Counter()  # looks that have found a job over, and no record
-        self.numbers, self.kinds, self.problem, self.next = {}, None, "", 0.0  # of Slurm's arrays by their names; what was said last; time of the next look
+        self.unsent, self.drafts, self.has_sent = [], {}, False  # jobs to be submitted; {jobs: folder of their batch, which sbatch has refused}; whether it has taken any
+        self.numbers, self.kinds, self.problems, self.next = {}, None, {}, 0.0  # of Slurm's arrays by their names; what was said last; time of the next look
         for program in ("sbatch", "squeue"):
             said([program, "--version"])
 
@@ -113,9 +133,42 @@ class Slurm:
 
     # ------------------------------------------------------------------ into the queue
     def begin(self, jobs, say):
-        """those that an earlier call has submitted, and that have not ended, are waited for; the others are submitted"""
-        self.adopt(jobs, say)
-        self.submit([job for job in jobs if job not in self.place], say)
+        self.unsent += jobs
+        self.send(say)
+
+    def send(self, say):
+        """Those that an earlier call has submitted, and that have not ended, are waited for; the others are submitted.
+
+        A refusal ends a call that has submitted nothing: its options may be wrong. Later ones may be of the moment: the next look tries again.
+        """
+        try:
+            with self.alone():
+                self.adopt(self.unsent, say)
+                self.submit([job for job in self.unsent if job not in self.place], say)
+        except Refused as problem:
+            if not self.has_sent:
+                raise
+            self.report("submitting", f"{problem}; trying again each {self.pause:g} s", say)
+        else:
+            self.problems.pop("submitting", None)
+        self.unsent = [job for job in self.unsent if job not in self.place]
+
+    @contextlib.contextmanager
+    def alone(self):
+        """while another call submits, this call waits: a batch that is not in the queue yet looks like one that is over"""
+        with writing(self.folder):
+            self.folder.mkdir(parents=True, exist_ok=True)
+            lock = open(self.folder / "lock", "w")
+        with lock:
+            with writing(self.folder):
+                fcntl.flock(lock, fcntl.LOCK_EX)
+            yield
+
+    def report(self, what, problem, say):
+        """once, not at each look"""
+        if self.problems.get(what) != problem:
+            say(problem)
+        self.problems[what] = problem
 
     def adopt(self, jobs, say):
         wanted = {job.folder: job for job in jobs}
@@ -139,21 +192,31 @@ class Slurm:
         for first in range(0, len(jobs), ARRAY):
             self.submit_array(jobs[first:first + ARRAY], say)
 
-    def submit_array(self, jobs, say):
+    def draft(self, jobs):
+        """folder of a new batch"""
         for job in jobs:
             job.mark()
         with writing(self.folder):
-            self.folder.mkdir(parents=True, exist_ok=True)
             what = re.sub(r"[^\w.+-]", "-", jobs[0].folder.parent.name, flags=re.ASCII)[:40]
             folder = pathlib.Path(tempfile.mkdtemp(prefix=f"hvi-{what}-", dir=self.folder))
             (folder / "runs.pickle").write_bytes(pickle.dumps((self.local, jobs)))
             (folder / "job.sh").write_text(SCRIPT.format(what=what, package=shlex.quote(str(PACKAGE.parent)), python=shlex.quote(sys.executable)))
             engine.write_yaml(folder / "runs.yaml", {"runs": [[str(job.folder), checksum(job), job.saved] for job in jobs]})
+        return folder
+
+    def submit_array(self, jobs, say):
+        folder = self.drafts.get(tuple(jobs))
+        if folder is None or folder.name in self.numbers or not folder.exists():  # numbers: its jobs were in the queue nevertheless
+            folder = self.drafts[tuple(jobs)] = self.draft(jobs)
         try:
-            self.numbers[folder.name] = said(self.sbatch(folder.name, len(jobs), folder)).strip().partition(";")[0]
-        except HVIError as problem:  # the folder stays: after a timeout jobs may be in the queue nevertheless, and the next call finds them
-            stay = "; runs that are in the queue stay there: call again to go on" if self.place else ""
-            raise HVIError(f"{problem} ({shlex.join(['sbatch', *self.words])}){stay}") from None
+            number = self.numbers[folder.name] = said(self.sbatch(folder.name, len(jobs), folder)).strip().partition(";")[0]
+        except Refused as problem:  # the folder stays: after a timeout jobs may be in the queue nevertheless, and the next look or call finds them
+            stay = "; runs that are in the queue stay there: call again to go on" if self.place and not self.has_sent else ""
+            raise Refused(f"{problem} ({shlex.join(['sbatch', *self.words])}){stay}") from None
+        del self.drafts[tuple(jobs)]
+        self.has_sent = True
+        with writing(folder):
+            (folder / "number").write_text(number)
         for index, job in enumerate(jobs):
             self.take(job, folder.name, index)
         say(f"submitted: {len(jobs)} run{'s' * (len(jobs) > 1)}, Slurm job {self.numbers[folder.name]}, {folder}")
@@ -163,8 +226,9 @@ class Slurm:
 
     def forget(self, name):
         """the folder of a batch with nothing in the queue, and no run that this call has an eye on"""
-        if name not in self.kept and name not in {name for name, _ in self.place.values()}:
-            shutil.rmtree(self.folder / name, ignore_errors=True)
+        folder = self.folder / name
+        if name not in self.kept and name not in {name for name, _ in self.place.values()} and (name in self.numbers or (folder / "number").exists() or is_old(folder)):
+            shutil.rmtree(folder, ignore_errors=True)
 
     # ------------------------------------------------------------------ looks at the queue
     @staticmethod
@@ -175,23 +239,28 @@ class Slurm:
         """{(name, index): Entry} of all jobs of these batches that Slurm remembers"""
         found = {}
         for line in said(["squeue", f"--name={','.join(names)}", "--states=all", "--array", "--noheader", "--format=%j|%K|%F|%T|%r"]).splitlines():
-            name, index, *entry = line.split("|", 4)
-            found[name, int(index)] = Entry(*entry)
-            self.numbers[name] = entry[0]
+            words = line.split("|", 4)
+            if len(words) == 5 and words[1].isdigit():  # else no job of an array, but a remark of the site
+                name, index, *entry = words
+                found[name, int(index)] = Entry(*entry)
+                self.numbers[name] = entry[0]
         return found
 
     def ended(self, jobs, say):
         if time.monotonic() < self.next:
             return []
         self.next = time.monotonic() + self.pause
+        if self.unsent:
+            self.send(say)
+        jobs = [job for job in jobs if job in self.place]
+        if not jobs:
+            return []
         try:
             queue = self.queue(sorted({self.place[job][0] for job in jobs}))
-        except HVIError as problem:  # the controller is away: jobs run on, and that they are not seen says nothing
-            if str(problem) != self.problem:
-                say(f"{problem}; looking again each {self.pause:g} s")
-            self.problem = str(problem)
+        except Refused as problem:  # the controller is away: jobs run on, and that they are not seen says nothing
+            self.report("looking", f"{problem}; looking again each {self.pause:g} s", say)
             return []
-        self.problem = ""
+        self.problems.pop("looking", None)
         self.tell([queue.get(self.place[job]) for job in jobs], say)
         over, again = [], []
         for job in jobs:
@@ -211,8 +280,7 @@ class Slurm:
                 over.append(job)
         ended = {job: self.place.pop(job)[0] for job in (*over, *again)}
         self.kept |= {name for job, name in ended.items() if job.problem}
-        if again:
-            self.begin(again, say)
+        self.unsent += again  # at the next look: a refusal must not hide which runs are over
         for name in {*ended.values()} - {name for (name, _), entry in queue.items() if self.is_active(entry)}:
             self.forget(name)
         return over
