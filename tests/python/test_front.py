@@ -93,7 +93,7 @@ def test_tables_of_keys(capsys):
 def test_frames_stay_within_the_budget(particles, least, report):
     """31 of 20,000 particles, fewer of more, in 500 MB; the page holds those of the plan whatever they contain"""
     for tstop in (3.0, 21.69, 33.4, 99.95, 1000.0):
-        shield = types.SimpleNamespace(particles=lambda: particles, steps=lambda: 1000, settings={}, geometry=types.SimpleNamespace(tstop_us=tstop))
+        shield = types.SimpleNamespace(particles=lambda: particles, steps=lambda: 1000, settings={}, case=types.SimpleNamespace(setting=lambda _: 0), geometry=types.SimpleNamespace(tstop_us=tstop))
         shield.settings["film"] = chain.film_of(shield)
         plan = chain.size_of(shield)
         assert least <= plan["frames"] <= chain.FRAMES + 2 and plan["frames"] * chain.ROW * particles <= chain.BUDGET or plan["frames"] == 1, f"{tstop}: {plan}"
