@@ -149,12 +149,6 @@ def test_run_that_fails(folder, fake, capsys, monkeypatch):
     assert front("shield", *SUBMIT) == UNDECIDED and len(calls(fake)) == 2 and sum(tries(folder).values()) == 2 and batches(folder) == []
 
 
-def test_paths_with_spaces(folder, root, fake, monkeypatch):
-    """in the user's PYTHONPATH"""
-    monkeypatch.setenv("PYTHONPATH", f"{root / 'python'}:/no such/folder")
-    assert front("shield", *SUBMIT) == UNDECIDED
-
-
 def test_what_a_job_cannot_write(folder, fake, capsys, monkeypatch):
     """it says so where it was called"""
     (folder / "runs/emi").mkdir(parents=True)
