@@ -1,6 +1,7 @@
 """Small runs under valgrind: no read of memory that was not written or is not there. Sanitizers see the latter only."""
 
 import shutil
+import signal
 import subprocess
 
 import pytest
@@ -18,7 +19,7 @@ def watched(lmp_exe, tmp_path):
     if not valgrind:
         pytest.skip("no valgrind (Debian: apt-get install valgrind)")
     tried = subprocess.run([valgrind, "-q", lmp_exe, "-h"], capture_output=True, text=True)
-    if "nrecognised instruction" in tried.stderr:
+    if tried.returncode == -signal.SIGILL:
         pytest.skip("this valgrind does not know all instructions of this processor: make build PORTABLE=yes BUILD=build-portable, then HVI_LMP=build-portable/lmp")
     assert tried.returncode == 0, tried.stderr
     script = tmp_path / "lmp"
