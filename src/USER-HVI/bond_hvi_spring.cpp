@@ -20,6 +20,7 @@
 #include "fix_hvi_ledger.h"
 #include "force.h"
 #include "hvi_anew.h"
+#include "hvi_cite.h"
 #include "hvi_compat.h"
 #include "hvi_restart.h"
 #include "memory.h"
@@ -42,6 +43,7 @@ BondHVISpring::BondHVISpring(LAMMPS *lmp) :
 {
   partial_flag = 1;
   born_matrix_enable = 1;
+  HVI::cite(lmp->citeme, HVI::CITE_WATSON);
 }
 
 /* ---------------------------------------------------------------------- */

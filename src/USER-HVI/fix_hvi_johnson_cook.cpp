@@ -18,6 +18,7 @@
 #include "fix_hvi_store.h"
 #include "force.h"
 #include "group.h"
+#include "hvi_cite.h"
 #include "hvi_laws.h"
 #include "hvi_material.h"
 #include "hvi_vector.h"
@@ -84,6 +85,7 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
 {
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
   read_options(narg, arg);
+  if (options.damage) HVI::cite(lmp->citeme, HVI::CITE_JOHNSON_COOK);
   begin();
   vector_flag = 1;
   size_vector = atom->ntypes;

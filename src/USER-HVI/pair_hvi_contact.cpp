@@ -18,6 +18,7 @@
 #include "fix_hvi_lists.h"
 #include "force.h"
 #include "hvi_anew.h"
+#include "hvi_cite.h"
 #include "hvi_interface.h"
 #include "hvi_restart.h"
 #include "memory.h"
@@ -45,6 +46,7 @@ PairHVIContact::PairHVIContact(LAMMPS *lmp) :
   writedata = 1;
   respa_enable = 0;
   born_matrix_enable = 1;
+  HVI::cite(lmp->citeme, HVI::CITE_WATSON);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -22,6 +22,7 @@
 #include "fix_hvi_sph.h"
 #include "force.h"
 #include "hvi_anew.h"
+#include "hvi_cite.h"
 #include "hvi_kernel.h"
 #include "hvi_material_file.h"
 #include "hvi_mesh.h"
@@ -271,6 +272,7 @@ void PairHVISPH::settings(int narg, char **arg)
                  "symmetric, dim of the box, constant h, energy yes, no interface dissipation");
     laws.symmetric = 1;
   }
+  HVI::cite(lmp->citeme, set.density ? HVI::CITE_ZISIS : nullptr);
   laws.norm = kernel->norm[laws.dim - 1];
   no_virial_fdotr_compute = set.mirror.planes ? 1 : 0;    // planes push, too
   set.text =

@@ -72,3 +72,15 @@ def test_picture(lmp):
     r = lmp("region b block 0 1 0 1 0 1\ncreate_box 1 b\ncreate_atoms 1 single 0.5 0.5 0.5\nmass 1 1\n"
             "pair_style zero 0.3\npair_coeff * *\nwrite_dump all image x.png type type\n")
     assert (r.cwd / "x.png").read_bytes()[1:4] == b"PNG"
+
+
+def test_citations(lmp, tmp_path, root):
+    """what -cite lists: the package once, and the paper of each method that the input asks for"""
+    sph = "units si\natom_style sph\nregion box block 0 1 0 1 0 1\ncreate_box 1 box\npair_style hvi/sph cubic{}\n"
+    solid = sph.format(" dissipation riemann") + f"pair_coeff 1 1 file {root}/potentials/Al6061-T6.hvi spacing 0.1\nfix 1 all hvi/sph\n"
+    dem = "units si\natom_style bond\nregion box block 0 1 0 1 0 1\ncreate_box 1 box bond/types 1\npair_style hvi/contact\nbond_style hvi/spring\n"
+    for text, papers in ((sph.format(""), []), (sph.format(" interface 0.3"), ["Zisis2013"]),
+                         (solid, []), (solid + "fix 2 all hvi/johnson-cook damage yes\n", ["JohnsonCook1985"]), (dem, ["Watson2017"]), (dem + "clear\n" + sph.format(""), ["Watson2017"])):
+        lmp(text, extra=["-cite", "cite.bib"])
+        keys = re.findall(r"^@\w+\{(.*?),$", (tmp_path / "cite.bib").read_text(), re.M)
+        assert sorted(key for key in keys if key in ("lammps-hvi", "Watson2017", "Zisis2013", "JohnsonCook1985")) == sorted(["lammps-hvi", *papers]), text
