@@ -4,13 +4,14 @@
 #   make demo-dem                  likewise, a debris cloud of discrete elements
 #   make test    the same; then all tests
 #   make         build only: build/lmp, build/lmp-stock, build/hviplugin.so, build/hvi (the command line)
-#   make verify  the long form of the standard shocks (all methods and resolutions, report with pictures), of solids and of hard cases; long tests
+#   make verify  all that takes long, part by part: shocks, solids, hard cases with reports and pictures; tests marked long: tests/verify/whole.py
 #   make fuzz    fuzzers of all readers and of LAMMPS inputs, MINUTES=10 of each: see tests/fuzz/README.md
 #   make bench   speed against error, the short form (bench-full: all of it): build/bench/speed-error.html
 #   make mutate  mutants of the library against its unit tests, on from tests/unit/mutants.csv (MUTATE_ARGS)
 #   make check                     static checks: warnings of two compilers, clang-tidy, cppcheck, flake8, mypy, LAMMPS's coding standard
 #   make force-styles              LAMMPS's own testers of forces and fixes, with our styles: tests/force-styles
 #   make numbers                   tables of pages from doc/records, and which of these are old; RUN="NAME [ROW]" runs a record again: doc/numbers.py
+#   make dist                      source archive of the last commit and its checksum, in build
 #   make doc | sanitize | clean
 #
 # LAMMPS_VERSION=20250204|20260704   which pinned LAMMPS          LAMMPS_SOURCE_DIR=DIR   your own LAMMPS source tree
@@ -37,7 +38,7 @@ TOP := $(CURDIR)
 OUT = $(abspath $(BUILD))
 export CMAKE_BUILD_PARALLEL_LEVEL = $(JOBS)
 
-.PHONY: all build demo demo-dem test verify doc numbers bench bench-full mutate sanitize clean fuzz check force-styles
+.PHONY: all build demo demo-dem test verify doc numbers bench bench-full mutate sanitize clean fuzz check force-styles dist
 all: build
 
 # configures quietly; what went wrong is told in one line
@@ -80,17 +81,7 @@ test:
 verify:
 	@cmake/deps.sh build test browser slurm
 	@$(MAKE) build
-	@python=$$(cmake/find-python.sh numpy scipy matplotlib pytest) && \
-	  cmake/env.sh $$python tests/verify/shocks.py --lmp $(OUT)/lmp --out $(OUT)/verify --ranks $(RANKS) $(VERIFY_ARGS) && \
-	  cmake/env.sh $$python tests/verify/solids.py --lmp $(OUT)/lmp --out $(OUT)/verify $(SOLIDS_ARGS) && \
-	  cmake/env.sh $$python tests/verify/states.py --lmp $(OUT)/lmp --out $(OUT)/verify $(STATES_ARGS) && \
-	  cmake/env.sh $$python tests/verify/expansion.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
-	  cmake/env.sh $$python tests/verify/interface.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
-	  cmake/env.sh $$python tests/verify/hard.py --lmp $(OUT)/lmp --out $(OUT)/verify && \
-	  ctest --test-dir $(BUILD) --output-on-failure -C long -L long -j $(JOBS) && export PYTHONPATH=$(TOP)/python && \
-	  { cmake/env.sh $$python -m hvi shield $(DEMO)/cases/quick.yaml --lmp $(OUT)/lmp --runs $(OUT)/verify --jobs $(RANKS) --ranks 1; code=$$?; \
-	    [ $$code = 0 ] || [ $$code = 3 ] || [ $$code = 4 ] || exit $$code; } && \
-	  $$python -m hvi report $(OUT)/verify/quick && $$python tests/verify/browser.py $(OUT)/verify/quick/report.html $(OUT)/verify/browser
+	@python=$$(cmake/find-python.sh numpy scipy matplotlib pytest yaml tqdm) && $$python tests/verify/whole.py --build $(OUT) --ranks $(RANKS) $(WHOLE_ARGS)
 
 sanitize:
 	@$(MAKE) test BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON
@@ -133,6 +124,10 @@ bench bench-full:
 	@$(MAKE) build
 	@python=$$(cmake/find-python.sh numpy scipy matplotlib yaml pytest MDAnalysis) && \
 	  cmake/env.sh $$python bench/run.py --size $(if $(filter bench-full,$@),full,short) --build $(OUT) --out $(OUT)/bench $(BENCH_ARGS)
+
+dist:
+	@mkdir -p $(BUILD) && name=lammps-hvi-$$(sed -n 's/.*HVI_VERSION\[\] = "\(.*\)";/\1/p' src/USER-HVI/hvi_version.h) && \
+	  git archive --prefix=$$name/ --format=tar.gz -o $(BUILD)/$$name.tar.gz HEAD && cd $(BUILD) && sha256sum $$name.tar.gz | tee $$name.tar.gz.sha256
 
 clean:
 	rm -rf build build-mutate build-sanitize build-portable $(BUILD)
