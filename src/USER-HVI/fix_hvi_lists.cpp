@@ -187,8 +187,9 @@ double FixHVILists::least_bins(bool shrinks) const
 
 void FixHVILists::set_bins(double least, double least_sort)
 {
-  if (neighbor->binsizeflag != put.wide || neighbor->binsize_user != put.bin)
-    given = {neighbor->binsizeflag, neighbor->binsize_user, given.sort_bin};
+  const double bin = neighbor->binsizeflag ? neighbor->binsize_user : 0.0;    // else it is not set
+  if (neighbor->binsizeflag != put.wide || bin != put.bin)
+    given = {neighbor->binsizeflag, bin, given.sort_bin};
   if (atom->userbinsize != put.sort_bin) given.sort_bin = atom->userbinsize;
 
   const double half = force->pair ? 0.5 * (force->pair->cutforce + neighbor->skin) : 0.0;
