@@ -32,7 +32,8 @@ TESTS = ("pairs", "densities", "fem_mechanics", "sph_forces", "restart", "collec
 def cells():
     """[(name, compiler, version, form, sanitize, sizes), ...]"""
     builds = [(c, v, False, "smallbig") for c, v in itertools.product(COMPILERS, VERSIONS)]
-    builds += [("g++", "20250204", True, "smallbig"), ("g++", "20250204", False, "bigbig"), ("clang++", "20260704", False, "bigbig")]
+    builds += [("g++", "20250204", True, "smallbig"), ("g++", "20250204", False, "bigbig"), ("clang++", "20260704", False, "bigbig"),
+               ("g++", "20250204", False, "smallsmall")]  # which 4 Jul 2026 does not have
     for compiler, version, sanitize, sizes in builds:
         for form in FORMS if not sanitize else FORMS[:1]:  # the stock program has no sanitizers to load the plugin with
             name = "-".join([compiler, version, *["sanitize"] * sanitize, *[sizes] * (sizes != "smallbig"), *["plugin"] * (form == "plugin")])
@@ -70,8 +71,9 @@ def make(folder, compiler, version, sanitize, sizes, jobs, more):
     real = subprocess.run([re.search(r"^CMAKE_CXX_COMPILER:\w+=(.*)$", cache, re.M)[1], "--version"], text=True, capture_output=True).stdout
     if ("clang" in real) != ("clang" in compiler):
         return "was built by " + real.splitlines()[0], warnings
-    tags = subprocess.run([ROOT / "cmake/env.sh", folder / "lmp", "-h"], text=True, capture_output=True).stdout
-    if ("tagint:   64-bit" in tags) != (sizes == "bigbig"):
+    said = subprocess.run([ROOT / "cmake/env.sh", folder / "lmp", "-h"], text=True, capture_output=True).stdout
+    bits = tuple(re.search(rf"sizeof\({name}\): *(\d+)-bit", said)[1] for name in ("tagint", "bigint"))
+    if bits != {"smallsmall": ("32", "32"), "smallbig": ("32", "64"), "bigbig": ("64", "64")}[sizes]:
         return f"has not the integers of {sizes}", warnings
     return "", warnings
 
