@@ -1,5 +1,6 @@
 """Small runs under valgrind: no read of memory that was not written or is not there. Sanitizers see the latter only."""
 
+import pathlib
 import shutil
 import signal
 import subprocess
@@ -9,7 +10,7 @@ from whole_runs import VARIABLES, WHOLE_RUNS
 
 pytestmark = pytest.mark.long
 FOUND = 99
-SUPPRESSIONS = "/usr/share/openmpi/openmpi-valgrind.supp"  # of Open MPI itself
+SUPPRESSIONS = ["/usr/share/openmpi/openmpi-valgrind.supp", pathlib.Path(__file__).with_name("valgrind.supp")]  # of Open MPI itself
 
 
 @pytest.fixture
@@ -23,7 +24,7 @@ def watched(lmp_exe, tmp_path):
         pytest.skip("this valgrind does not know all instructions of this processor: make build PORTABLE=yes BUILD=build-portable, then HVI_LMP=build-portable/lmp")
     assert tried.returncode == 0, tried.stderr
     script = tmp_path / "lmp"
-    script.write_text(f'#!/bin/sh\nexec {valgrind} -q --error-exitcode={FOUND} --suppressions={SUPPRESSIONS} --log-file=valgrind.%p.log {lmp_exe} "$@"\n')
+    script.write_text(f'#!/bin/sh\nexec {valgrind} -q --error-exitcode={FOUND} {" ".join(f"--suppressions={s}" for s in SUPPRESSIONS)} --log-file=valgrind.%p.log {lmp_exe} "$@"\n')
     script.chmod(0o755)
     return script
 
