@@ -51,6 +51,12 @@ def test_records_are_ascii_and_depend_on_files_that_are_there():
     assert lost == []
 
 
+def test_rows_that_were_run_say_their_commit():
+    """of a run whose commit was not noted: up to the one that brought its numbers"""
+    without = [f"{name} row {k}" for name, record in numbers.records(ROOT)[0].items() for k, row in enumerate(record.rows, 1) if row["command"] and not row["commit"]]
+    assert without == []
+
+
 def test_filled_in_both_languages(tree):
     assert call(tree) == 0
     assert (tree / "page.md").read_text() == (
