@@ -15,7 +15,10 @@ A record is doc/records/NAME.jsonl: a head, then one line per row of the table.
 
 Optional keys of a row, for --run: "folder", where the command is typed, from the root of the repository, if it does not begin with "cd FOLDER &&"; "keys", where
 numbers are found: "FILE:KEY" with KEY as in a.b.0 (YAML, JSON; of a CSV file ROW.COLUMN, ROW from 0), optionally " * FACTOR"; "run:core_s" and "run:wall_s" are the
-core-seconds and the seconds of the command. A value of the table has the digits that it has in the record. In a page:
+core-seconds and the seconds of the command. A value of the table has the digits that it has in the record.
+
+"commit" is the state of the code that was run: a commit, "abc1234-dirty" with changes that were not committed, or "up to abc1234" where it was not noted: the commit
+that brought the numbers into the repository, so that the run is of it or of an earlier one. It is empty for values that others have measured. In a page:
 
     <!-- numbers NAME -->             .. numbers NAME
     <!-- /numbers -->                 .. /numbers
@@ -78,6 +81,8 @@ class Record:
         for k, row in enumerate(self.rows, 2):
             if not isinstance(row, dict) or not {"command", "commit", "machine", "load", "row"} <= set(row) <= KNOWN:
                 raise Wrong(f"{self.where} line {k}: keys must be command, commit, machine, load, row and optionally folder, keys")
+            if not re.fullmatch(r"((up to )?[0-9a-f]{7,40}(-dirty)?)?", row["commit"]):
+                raise Wrong(f"{self.where} line {k}: commit must be as abc1234, abc1234-dirty, up to abc1234 or empty, not {row['commit']!r}")
             if row["load"] not in ("idle", "busy", ""):
                 raise Wrong(f"{self.where} line {k}: load must be idle, busy or empty, not {row['load']!r}")
             if unknown := set(row["row"]) - set(self.columns) or set(row.get("keys", ())) - set(row["row"]):
@@ -89,8 +94,12 @@ class Record:
         self.path.write_text("".join(written(line) + "\n" for line in (self.head, *self.rows)))
 
     def several(self, key):
-        """whether rows that were run differ in it; a row without a command is what others have measured"""
-        return len({row[key] for row in self.rows if row["command"]}) > 1
+        """whether rows that were run differ in it"""
+        return len({row[key] for row in self.ran()}) > 1
+
+    def ran(self):
+        """rows that were run here, not those that others have measured"""
+        return [row for row in self.rows if row["command"] or row["commit"]]
 
     def table(self):
         """heads and cells; what differs between rows of commit, machine and load has a column"""
@@ -100,7 +109,7 @@ class Record:
 
     def origin(self):
         """the line below the table"""
-        first = next((row for row in self.rows if row["command"]), self.rows[0])
+        first = next(iter(self.ran()), self.rows[0])
         same = [f"commit {first['commit']}" if first["commit"] and not self.several("commit") else "",
                 *(first[key] for key in ("machine", "load") if not self.several(key))]
         text = ", ".join(filter(None, same))
@@ -228,11 +237,11 @@ def stale(root):
     for name, record in records(root)[0].items():
         paths = [f":(glob){path}" for path in record.head["depends"]] if record else []
         said = {}
-        for commit in dict.fromkeys(row["commit"] for row in record.rows) if paths else ():
-            sure = commit.removesuffix("-dirty")
+        for commit in dict.fromkeys(row["commit"] for row in record.ran()) if paths else ():
+            sure = re.sub(r"^up to |-dirty$", "", commit)
             later = git(root, "rev-list", "--count", f"{sure}..HEAD", "--", *paths) if sure else None
-            said[commit] = ("no commit is said" if not commit else f"commit {commit} is unknown here" if later is None else
-                            f"{later} commit{'s' if later != '1' else ''} of what it depends on since {commit}" if int(later) or sure != commit else "")
+            said[commit] = ("no commit is said" if not commit else f"commit {sure} is unknown here" if later is None else
+                            f"{later} commit{'s' if later != '1' else ''} of what it depends on since {commit.removeprefix('up to ')}" if int(later) or commit.endswith("-dirty") else "")
         if text := "; ".join(filter(None, said.values())):
             lines.append(f"{name}: {text}")
     return lines

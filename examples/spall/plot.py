@@ -133,6 +133,8 @@ def convergence():
         rows.append([str(n), f"{v['spacing_um']:.1f}", f"{last:.1f}", change, f"{v['spall_strength_GPa']:.3f}", f"{v['strain_rate_per_s']:.2g}",
                      f"{v['largest_tension_GPa']:.2f}", f"{v['spall_plane_mm']:.2f}", f"{v['failed_particles']:.0f}", f"{1e-3 * v['void_work_J_m2']:.1f}", f"{p['pull_back_m_s']:.1f}",
                      f"{p['spall_strength_GPa']:.3f}", f"{p['spall_plane_mm']:.2f}"])
+    a, b, c = (v["pull_back_m_s"] for v, _ in got["voids"][-3:])
+    rows.append([f"limit (Aitken, of {NS[-3]} to {NS[-1]})", "", f"{c - (c - b)**2 / (c - 2 * b + a):.1f}", *[""] * (len(rows[0]) - 3)])
     table(rows)
 
 
@@ -144,10 +146,12 @@ def rates(shots):
     a.loglog(e, [1e-9 * voids.law(k, q)[0] for q in e], "k-", lw=0.8, label="matter stretched at a constant rate")
     rows = [["flyer / target mm"] + [f"{s}, {n} per flyer: {w}" for s, n in (("voids", 64), ("voids", 128), ("principal", 128)) for w in ("sigma* GPa", "rate /s")]
             + ["largest -p, 128, GPa", "file's sigma at that rate", "sigma* of it", "stretched at that rate"]]
+    powers = []
     for s, n, mark in (("voids", 64, "o"), ("voids", 128, "s"), ("principal", 128, "^")):
         runs = [read(f"h{h}-{n}-{s}")[0] for h in THICK]
         x, y = (np.array([r[q] for r in runs]) for q in ("strain_rate_per_s", "spall_strength_GPa"))
-        a.loglog(x, y, mark + "-", color=COLOR[s], mfc="none" if n == 64 else COLOR[s], label=f"{s}, {n} per flyer: m {np.polyfit(np.log(x), np.log(y), 1)[0]:.3f}")
+        powers.append(f"{np.polyfit(np.log(x), np.log(y), 1)[0]:.3f}")
+        a.loglog(x, y, mark + "-", color=COLOR[s], mfc="none" if n == 64 else COLOR[s], label=f"{s}, {n} per flyer: m {powers[-1]}")
     for name, mark, f in (("34 um", "D", "6061-20"), ("47 um", "v", "6061-80")):
         own = [s for s in shots if s["name"].startswith(f)]
         a.loglog([float(s["rate"]) for s in own], [float(s["sigma"]) for s in own], mark, color="C2", mfc="none", label=f"measured, 6061 of {name}")
@@ -162,6 +166,7 @@ def rates(shots):
         cells = [c for r in (v, w, p) for c in (f"{r['spall_strength_GPa']:.3f}", f"{r['strain_rate_per_s']:.2g}")]
         rows.append([f"{h} / {2 * float(h):g}", *cells, f"{w['largest_tension_GPa']:.2f}", f"{scale:.3f}", f"{w['spall_strength_GPa'] / scale:.2f}",
                      f"{1e-9 * voids.law(k, w['strain_rate_per_s'])[0]:.3f}"])
+    rows.append(["power of the rate", *(cell for power in powers for cell in (power, "")), *[""] * 4])
     table(rows)
 
 
@@ -188,7 +193,7 @@ def measured(shots):
             ax[1].loglog(given, sigma, "s", color=color, mfc="none")
             ax[1].loglog(given, w["spall_strength_GPa"], "o" if spalls else "x", color=color)
         found.setdefault(s["target"], []).append((sigma, w["spall_strength_GPa"] if pulls else np.nan, spalls, given,
-                                                  more["spall_strength_GPa"] if more["record"] == "ok" else np.nan))
+                                                  more["spall_strength_GPa"] if more["record"] == "ok" else np.nan, q["peak_GPa"] / float(s["peak"])))
         file = 1e-9 * k["sigma"] * (rate / k["rate"]) ** k["m"]
         mark = " (\\*)" if s["note"] == "v" else " (\\*\\*)" if s["note"] == "p" else ""
 
@@ -213,7 +218,7 @@ def measured(shots):
     ax[0].set(xlim=(0.7, 4), ylim=(0.4, 4), xlabel="sigma* measured (GPa)", ylabel="computed, 128 per flyer (GPa)")
     e = np.geomspace(3e4, 1e6, 20)
     for name in found:
-        if any(g == g for *_, g, _ in found[name]):
+        if any(given == given for _, _, _, given, _, _ in found[name]):
             k, (label, color) = voids.constants(pathlib.Path(root), name), METAL[name]
             ax[1].loglog(e, 1e-9 * k["sigma"] * (e / k["rate"]) ** k["m"], "--", lw=0.8, color=color)
             ax[1].plot([], [], "s", color=color, mfc="none", label=f"{label}: measured")
@@ -227,13 +232,13 @@ def measured(shots):
             plain(axis, (0.4, 0.6, 0.8, 1, 1.5, 2, 3, 4))
     fig.savefig("shots.png", dpi=110)
     table(rows, "found.csv")
-    summary = [["metal", "shots", "with a pull-back", "parted", "of the measured: mean", "least", "most", "scatter about the mean", "measured: most of the least", "phi_c", "sigma raised by", "parted then", "of the measured then"]]
+    summary = [["metal", "shots", "with a pull-back", "parted", "of the measured: mean", "least", "most", "scatter about the mean", "measured: most of the least", "peak, of the published", "phi_c", "sigma raised by", "parted then", "of the measured then"]]
     for name, values in found.items():
-        sigma, got, parted, _, more = np.array(values).T
+        sigma, got, parted, _, more, peak = np.array(values).T
         of, then = (got / sigma)[got == got], (more / sigma)[more == more]
         phi_c = voids.constants(pathlib.Path(root), name)["phi_c"]
         summary.append([METAL[name][0], str(len(sigma)), str(len(of)), f"{parted.sum():.0f}", *(f"{x:.2f}" for x in (of.mean(), of.min(), of.max(), of.std() / of.mean())),
-                        f"{sigma.max() / sigma.min():.2f}", f"{phi_c:.3f}", f"{100 * raised(name) - 100:.0f} %",
+                        f"{sigma.max() / sigma.min():.2f}", f"{peak.min():.2f} to {peak.max():.2f}", f"{phi_c:.3f}", f"{100 * raised(name) - 100:.0f} %",
                         str(len(then)), f"{then.mean():.2f}" if len(then) else "-"])
     table(summary)
 

@@ -51,6 +51,12 @@ def test_records_are_ascii_and_depend_on_files_that_are_there():
     assert lost == []
 
 
+def test_rows_that_were_run_say_their_commit():
+    """of a run whose commit was not noted: up to the one that brought its numbers"""
+    without = [f"{name} row {k}" for name, record in numbers.records(ROOT)[0].items() for k, row in enumerate(record.rows, 1) if row["command"] and not row["commit"]]
+    assert without == []
+
+
 def test_filled_in_both_languages(tree):
     assert call(tree) == 0
     assert (tree / "page.md").read_text() == (
@@ -87,6 +93,7 @@ def again(tree):
     (lambda tree: edit(tree / "page.md", "<!-- /numbers -->", ""), "page.md: block holes has no end"),
     (lambda tree: edit(tree / "page.md", "<!-- numbers holes -->", ""), "page.md line 11: an end without a beginning"),
     (lambda tree: edit(tree / "doc/records/holes.jsonl", "idle", "quiet"), "holes.jsonl line 2: load must be idle, busy or empty, not 'quiet'"),
+    (lambda tree: edit(tree / "doc/records/holes.jsonl", "abc1234", "before abc1234"), "holes.jsonl line 2: commit must be as abc1234, abc1234-dirty, up to abc1234 or empty, not 'before abc1234'"),
     (lambda tree: edit(tree / "doc/records/holes.jsonl", '"hole mm": 18.90', '"hole": 18.90'), "holes.jsonl line 2: no column 'hole'"),
     (lambda tree: edit(tree / "doc/records/holes.jsonl", '"title"', '"titel"'), "holes.jsonl: line 1 must have title, depends and columns"),
     (lambda tree: edit(tree / "doc/records/holes.jsonl", "18.90}", "18.90"), "holes.jsonl line 2:"),
@@ -127,6 +134,18 @@ def test_stale(tree, commits, capsys):
     assert capsys.readouterr().out == f"speeds: 1 commit of what it depends on since {commits[1]}; no commit is said\n"
     edit(tree / "doc/records/holes.jsonl", commits[2], "abc1234")
     assert call(tree, "--stale") == 0 and "holes: commit abc1234 is unknown here\n" in capsys.readouterr().out
+    edit(tree / "doc/records/holes.jsonl", "abc1234", f"up to {commits[0]}")
+    assert call(tree, "--stale") == 0 and f"holes: 1 commit of what it depends on since {commits[0]}\n" in capsys.readouterr().out
+    edit(tree / "doc/records/holes.jsonl", commits[0], commits[2])
+    assert call(tree, "--stale") == 0 and "holes" not in capsys.readouterr().out
+
+
+def test_a_row_of_others_has_no_commit(tree, commits, capsys):
+    """it makes no column of commits, and is not old"""
+    row = ROW % (commits[2], "idle")
+    (tree / "doc/records/holes.jsonl").write_text(HEAD + '{"command": "", "commit": "", "machine": "", "load": "", "row": {"what": "measured", "hole mm": 19.1}}\n' + row.replace("cd case && sh run.sh", ""))
+    assert call(tree) == 0 and f"| - | measured | 19.1 |\n| 0.50 | a\\|b *c | 18.90 |\n\nCommit {commits[2]}, 2 cores, idle\n" in (tree / "page.md").read_text()
+    assert call(tree, "--stale") == 0 and "holes" not in capsys.readouterr().out
 
 
 def test_run_again(tree, commits, capsys):

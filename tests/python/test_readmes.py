@@ -84,6 +84,20 @@ def test_variables(folder):
     assert sorted(set(re.findall(r"-var (\w+)", text)) - names) == []
 
 
+def prose(folder):
+    """a README without its blocks of numbers"""
+    return re.sub(r"^<!-- numbers \S+ -->\n.*?^<!-- /numbers -->\n", "", (folder / "README.md").read_text(), flags=re.S | re.M)
+
+
+def test_short():
+    """details belong in tables.md beside it, numbers of runs in doc/records"""
+    texts = {folder.name: prose(folder) for folder in EXAMPLES}
+    assert not any("numbers -->" in text for text in texts.values())
+    assert {name: lines for name, text in texts.items() if (lines := text.count("\n")) > 70} == {}
+    words = {name: len(text.split()) for name, text in texts.items()}
+    assert sum(words.values()) <= 8000, words
+
+
 @pytest.mark.parametrize("wrong, name", [("../../build/lmp -in in.nothing", "layered-shock"), ("lmp -in in.layers", "layered-shock"),
                                          ("../../build/lmp -in in.layers -var gaps 1", "layered-shock"), ("../../build/lmp -in in.layers &", "layered-shock"), ("python3 draw.py", "layered-shock"),
                                          ("export LAMMPS_POTENTIALS=$PWD/potentials", "spall")])
