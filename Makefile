@@ -78,10 +78,12 @@ test:
 	@$(MAKE) build
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
 
+PORTABLE_BUILD = $(BUILD)-portable
 verify:
-	@cmake/deps.sh build test browser slurm
+	@cmake/deps.sh build test browser slurm machines
 	@$(MAKE) build
-	@python=$$(cmake/find-python.sh numpy scipy matplotlib pytest yaml tqdm) && $$python tests/verify/whole.py --build $(OUT) --ranks $(RANKS) $(WHOLE_ARGS)
+	@$(MAKE) build BUILD=$(PORTABLE_BUILD) PORTABLE=yes
+	@export HVI_LMP_PORTABLE=$(abspath $(PORTABLE_BUILD))/lmp && python=$$(cmake/find-python.sh numpy scipy matplotlib pytest yaml tqdm) && $$python tests/verify/whole.py --build $(OUT) --ranks $(RANKS) $(WHOLE_ARGS)
 
 sanitize:
 	@$(MAKE) test BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Makes sure that the Debian packages of the named groups are installed: deps.sh build [test] [check] [doc] [browser] [slurm] [fuzz]
+# Makes sure that the Debian packages of the named groups are installed: deps.sh build [test] [check] [doc] [browser] [slurm] [machines] [fuzz]
 # Installs only what is missing, and says the command before; changes nothing when all is there. DEPS=no skips it all.
 set -uo pipefail
 [ "${DEPS:-}" = no ] && exit 0
@@ -11,6 +11,7 @@ test="libgtest-dev python3-pytest python3-pandas python3-setuptools python3-whee
 demo="$python"
 browser="chromium" # of make verify; large
 slurm="slurm-wlm munge" # of make verify, which starts its own daemons
+machines="valgrind qemu-user" # of make verify: memory, and machines without AVX
 fuzz="clang libclang-rt-14-dev" # libFuzzer; in Debian 12 clang is 14
 check="clang clang-tidy cppcheck flake8 mypy libyaml-dev libgmock-dev $test"
 doc="python3-sphinx python3-sphinx-rtd-theme"

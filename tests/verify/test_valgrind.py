@@ -1,5 +1,6 @@
 """Small runs under valgrind: no read of memory that was not written or is not there. Sanitizers see the latter only."""
 
+import os
 import pathlib
 import shutil
 import signal
@@ -19,12 +20,13 @@ def watched(lmp_exe, tmp_path):
     valgrind = shutil.which("valgrind")
     if not valgrind:
         pytest.skip("no valgrind (Debian: apt-get install valgrind)")
-    tried = subprocess.run([valgrind, "-q", lmp_exe, "-h"], capture_output=True, text=True)
+    portable = os.environ.get("HVI_LMP_PORTABLE", str(lmp_exe))
+    tried = subprocess.run([valgrind, "-q", portable, "-h"], capture_output=True, text=True)
     if tried.returncode == -signal.SIGILL:
-        pytest.skip("this valgrind does not know all instructions of this processor: make build PORTABLE=yes BUILD=build-portable, then HVI_LMP=build-portable/lmp")
+        pytest.skip("this valgrind does not know all instructions of this processor: make build PORTABLE=yes BUILD=build-portable, then HVI_LMP_PORTABLE=build-portable/lmp")
     assert tried.returncode == 0, tried.stderr
     script = tmp_path / "lmp"
-    script.write_text(f'#!/bin/sh\nexec {valgrind} -q --error-exitcode={FOUND} {" ".join(f"--suppressions={s}" for s in SUPPRESSIONS)} --log-file=valgrind.%p.log {lmp_exe} "$@"\n')
+    script.write_text(f'#!/bin/sh\nexec {valgrind} -q --error-exitcode={FOUND} {" ".join(f"--suppressions={s}" for s in SUPPRESSIONS)} --log-file=valgrind.%p.log {portable} "$@"\n')
     script.chmod(0o755)
     return script
 

@@ -31,8 +31,8 @@ namespace HVI {
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
-inline bool sph_fluid(int i, const SphPlace &pi, const SphState *state, int n, const SphRows &laws,
-                      SphNear &near, SphRates *rates, SphRates &total)
+static inline bool sph_fluid(int i, const SphPlace &pi, const SphState *state, int n,
+                             const SphRows &laws, SphNear &near, SphRates *rates, SphRates &total)
 {
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
   const SphMeanKernel<Kernel, SCENE> kernel(laws, pi);

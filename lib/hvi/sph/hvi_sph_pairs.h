@@ -37,7 +37,8 @@ struct alignas(64) SphNear {
 
 // whole vectors: fill up with particles out of reach, to which nothing happens
 
-template <class Kernel> inline int sph_fill_up(int i, const SphPlace &pi, int n, SphNear &near)
+template <class Kernel>
+static inline int sph_fill_up(int i, const SphPlace &pi, int n, SphNear &near)
 {
   const int nlanes = (n + LANES - 1) & ~(LANES - 1);
   for (int m = n; m < nlanes; m++) {

@@ -19,7 +19,7 @@ namespace HVI {
 // its density, w_j/w_i: see PairHVISPH::find_weights()
 
 template <int SCENE>
-inline void sph_spacings(const SphRows &laws, const Vec &body_j, Vec &ratio, Vec &weight)
+static inline void sph_spacings(const SphRows &laws, const Vec &body_j, Vec &ratio, Vec &weight)
 {
   ratio = weight = Vec{} + 1.0;
   if (SCENE & SPH_SPACINGS)
@@ -38,8 +38,9 @@ inline void sph_spacings(const SphRows &laws, const Vec &body_j, Vec &ratio, Vec
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
-inline void sph_slopes(int i, const SphPlace &pi, const SphState *state, int n, const SphRows &laws,
-                       SphNear &near, SphSlopes *slopes, SphSlopes &total)
+static inline void sph_slopes(int i, const SphPlace &pi, const SphState *state, int n,
+                              const SphRows &laws, SphNear &near, SphSlopes *slopes,
+                              SphSlopes &total)
 {
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
   const SphTwoKernels<Kernel, SCENE> kernels(laws, pi);
@@ -152,8 +153,9 @@ HVI_INLINE void sph_impedances(double rho_i, double c_i, const Vec &rho_j, const
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
-inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state, const SphSlopes *slopes,
-                        int n, const SphRows &laws, SphNear &near, SphRates *rates, SphRates &total)
+static inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state,
+                               const SphSlopes *slopes, int n, const SphRows &laws, SphNear &near,
+                               SphRates *rates, SphRates &total)
 {
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
   const SphTwoKernels<Kernel, SCENE> kernels(laws, pi);

@@ -76,9 +76,9 @@ struct SphBonds {
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
-inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int n,
-                          const SphRows &laws, SphNear &near, SphGradV *gradv, SphGradV *contact,
-                          SphGradV &total)
+static inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int n,
+                                 const SphRows &laws, SphNear &near, SphGradV *gradv,
+                                 SphGradV *contact, SphGradV &total)
 {
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
   const SphTwoKernels<Kernel, SCENE> kernels(laws, pi);
@@ -152,8 +152,8 @@ inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int 
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
-inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n, const SphRows &laws,
-                      SphNear &near, SphRates &total)
+static inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, int n,
+                             const SphRows &laws, SphNear &near, SphRates &total)
 {
   // where the solid is compressed, extrapolation goes with 1/(1 + COMPRESSION |tr L| r/c): any overshoot
   // of a shock would unload the solid from its yield surface

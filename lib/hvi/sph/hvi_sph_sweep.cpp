@@ -19,6 +19,9 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
+
+extern template class std::vector<int>;    // at the end of the file, but not for AVX2
 
 namespace HVI {
 
@@ -50,11 +53,13 @@ namespace {
 
   void outside(const SphWork &work, int i, const int *jlist, int jnum, std::vector<int> &free)
   {
-    free.clear();
+    int n = 0;
+    free.resize(jnum);
     for (int jj = 0; jj < jnum; jj++) {
       const int j = jlist[jj] & NEIGHBOR_INDEX;
-      if (!work.in_elements_together(i, j)) free.push_back(j);
+      if (!work.in_elements_together(i, j)) free[n++] = j;
     }
+    free.resize(n);
   }
 
   /* ----------------------------------------------------------------------
@@ -282,14 +287,43 @@ namespace {
      ...);
     return made;
   }
+
+  std::unique_ptr<SphSweeps> make_in_vectors(const std::string &kernel, int scene)
+  {
+    if (kernel == Cubic::name) return make<Cubic>(scene, Scenes());
+    if (kernel == Gauss::name) return make<Gauss>(scene, Scenes());
+    return nullptr;
+  }
 }    // namespace
 
+/* ----------------------------------------------------------------------
+   Builds for any machine have this file twice: as it is, and with HVI_SWEEPS_AVX2 for machines with
+   AVX2.  All code in here is internal to the file, so that neither takes functions of the other.
+------------------------------------------------------------------------- */
+
+std::unique_ptr<SphSweeps> make_avx2_sph_sweeps(const std::string &kernel, int scene);
+
+#if defined(HVI_SWEEPS_AVX2)
+std::unique_ptr<SphSweeps> make_avx2_sph_sweeps(const std::string &kernel, int scene)
+{
+  return make_in_vectors(kernel, scene);
+}
+#else
 std::unique_ptr<SphSweeps> make_sph_sweeps(const std::string &kernel, int scene)
 {
   std::unique_ptr<SphSweeps> made;
-  if (kernel == Cubic::name) made = make<Cubic>(scene, Scenes());
-  if (kernel == Gauss::name) made = make<Gauss>(scene, Scenes());
+#if defined(HVI_HAS_AVX2_SWEEPS)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    made = make_avx2_sph_sweeps(kernel, scene);
+  else
+#endif
+    made = make_in_vectors(kernel, scene);
   return made ? std::move(made) : make_sph_reference(kernel, scene);
 }
+#endif
 
 }    // namespace HVI
+
+#if !defined(HVI_SWEEPS_AVX2)
+template class std::vector<int>;
+#endif
