@@ -103,7 +103,7 @@ def test_entries_are_what_lammps_says(lmp, units):
 def test_page_names_the_entries(root):
     """the table of the page, row by row, has the entries that the tests know, in their order"""
     page = (root / "doc/src/compute_hvi_energy.rst").read_text()
-    rows = re.findall(r"^   \* - (\d+)(?: - (\d+))?\n     - (.*)\n     - (energy|none|mass\*velocity|mass)$", page, re.M)
+    rows = re.findall(r"^   (\d+)(?: - (\d+))?\| (.*)\| (energy|none|mass\*velocity|mass)$", page, re.M)
     names = [name for first, last, name, _ in rows for _ in range(int(first), int(last or first) + 1)]
     units = [unit for first, last, _, unit in rows for _ in range(int(first), int(last or first) + 1)]
     assert [int(row[0]) for row in rows][0] == 1 and len(names) == len(LEDGER) == 32
