@@ -53,16 +53,16 @@ def test_before_it_runs(root, reader, tmp_path):
     assert (tmp_path / "runs/my/sketch.png").is_file()
 
 
-@pytest.mark.parametrize("number, steps, energy", [(0, 100, 1e-5), (1, 40, 5e-4), (2, 1000, 1e-4)], ids=["solid", "liquid", "dem"])
+@pytest.mark.parametrize("number, steps, energy", [(0, 100, 1e-5), (1, 40, 5e-4)], ids=["solid", "liquid"])
 def test_inputs_run(lmp, root, number, steps, energy):
     """the straight inputs, cut short: no warning, something is struck, and the energy balance is kept"""
     inputs = [text.strip() for text in blocks(root, "LAMMPS")]
-    assert len(inputs) == 3 and all(len(text.split("\n")) < 30 for text in inputs)
+    assert len(inputs) == 2 and all(len(text.split("\n")) < 30 for text in inputs)
     text, count = re.subn(r"^run +\d+$", f"thermo {steps}\nrun {steps}", inputs[number], flags=re.M)
     assert count == 1
     r = lmp(text, env={"LAMMPS_POTENTIALS": str(root / "potentials")})
     assert r.warnings == [] and abs(r.thermo["c_book[9]"] - 1).max() < energy
-    struck = {0: lambda t: t["c_cloud[6]"][-1] > 0, 1: lambda t: t["c_most"][-1] > 1e7, 2: lambda t: t["Bonds"][-1] < t["Bonds"][0]}[number]
+    struck = {0: lambda t: t["c_cloud[6]"][-1] > 0, 1: lambda t: t["c_most"][-1] > 1e7}[number]
     assert struck(r.thermo)
 
 
