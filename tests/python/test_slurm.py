@@ -5,7 +5,9 @@ import fcntl
 import json
 import os
 import pickle
+import shutil
 import sys
+import threading
 import time
 
 import pytest
@@ -150,11 +152,14 @@ def test_run_that_fails(folder, fake, capsys, monkeypatch):
 
 
 def test_what_a_job_cannot_write(folder, fake, capsys, monkeypatch):
-    """it says so where it was called"""
+    """it says so where it was called; what the call itself cannot write is said before anything is submitted"""
     (folder / "runs/emi").mkdir(parents=True)
-    (folder / "runs/emi/.dx-0.4_shift-0.0.lock").mkdir()
+    (folder / "runs/emi/dx-0.4_shift-0.0").write_text("")
     assert front("shield", *SUBMIT) == 1
     assert "dx-0.4_shift-0.0  FAILED: cannot run in " in capsys.readouterr().out
+    (folder / "more/emi/.dx-0.4_shift-0.0.lock").mkdir(parents=True)
+    assert front("shield", *SUBMIT, "--runs", "more") == 1
+    assert f"cannot write {folder}/more/emi/.dx-0.4_shift-0.0.lock: Is a directory" in capsys.readouterr().err and len(calls(fake)) == 1
 
 
 # ---------------------------------------------------------------------- calls that end before their jobs
@@ -196,7 +201,9 @@ def test_another_case_in_the_queue(folder, waiting, capsys):
     """its jobs would write into the same folders"""
     (folder / "emi.yaml").write_text(CASE.replace("speed_km_s: 7.1", "speed_km_s: 7"))
     assert front("shield", *SUBMIT) == 1
-    assert "another case, or another state of this one, is still in Slurm's queue for this folder: scancel 1_0, or another --runs DIR" in capsys.readouterr().err
+    assert "another case, or another state of this one, is still in Slurm's queue for this folder: scancel 1, or another --runs DIR" in capsys.readouterr().err
+    (folder / "emi.yaml").write_text(CASE.replace("speed_km_s: 7.1", "speed_km_s: 7").replace("[0, 0.5]", "[0.5]"))
+    assert front("shield", *SUBMIT) == 1 and "scancel 1_1, or another" in capsys.readouterr().err
     assert len(calls(waiting)) == 1
 
 
@@ -237,7 +244,39 @@ def test_another_case_has_run_since(folder, waiting, monkeypatch):
     slurm.said(["squeue", "--name=none"])
     assert {path: path.read_bytes() for path in folder.glob("runs/emi/*/*")} == before
     for path in (folder / "runs/.slurm" / batches(folder)[0] / f"{index}.yaml" for index in range(2)):
-        assert yaml.safe_load(path.read_text())["problem"].endswith(": another case has run here since this job was submitted")
+        assert yaml.safe_load(path.read_text())["problem"].endswith(": a later call has asked for this run since this job was submitted")
+
+
+def test_changed_and_changed_back(folder, waiting, monkeypatch):
+    """a job that no later call has taken up leaves the run alone, also of the same case, and what another process is at; one that has been taken up runs"""
+    (folder / "emi.yaml").write_text(CASE.replace("speed_km_s: 7.1", "speed_km_s: 7"))
+    assert front("shield", "--ranks", "3") == UNDECIDED
+    batch = folder / "runs/.slurm" / batches(folder)[0]
+    local, jobs = pickle.loads((batch / "runs.pickle").read_bytes())
+    assert jobs[0].take()  # another process is at the run when the job starts, and its folder is empty yet
+    shutil.rmtree(jobs[0].folder)
+    later = threading.Timer(1.0, jobs[0].leave)
+    later.start()
+    before = {path: path.read_bytes() for path in folder.glob("runs/emi/*/*")}
+    assert os.system(f"cd '{batch}' && SLURM_ARRAY_TASK_ID=0 sh job.sh >/dev/null") != 0
+    later.join()
+    assert {path: path.read_bytes() for path in folder.glob("runs/emi/*/*")} == before and (batch / "0.yaml").exists()
+    (folder / "emi.yaml").write_text(CASE)
+    monkeypatch.setenv("FAKE_START", "yes")
+    assert front("shield", *SUBMIT) == UNDECIDED and len(calls(waiting)) == 1
+    assert all(yaml.safe_load(path.read_text())["variables"]["v0"] == 7100 for path in folder.glob("runs/emi/*/job.yaml"))
+    assert batches(folder) == []
+
+
+def test_two_jobs_of_a_run(folder, waiting, monkeypatch):
+    """the second was submitted when the first, of a sbatch that had not answered, was not in the queue yet: the first one leaves the run to it"""
+    (folder / "slurm/queue").write_text("")
+    first = folder / "runs/.slurm" / batches(folder)[0]
+    (first / "number").unlink()
+    monkeypatch.setenv("FAKE_PLAN", "nothing")
+    monkeypatch.setattr(slurm, "LOOKS", 1)
+    assert front("shield", *SUBMIT) == 1
+    assert os.system(f"cd '{first}' && SLURM_ARRAY_TASK_ID=0 sh job.sh >/dev/null") != 0 and (first / "0.yaml").exists() and tries(folder) == {}
 
 
 def test_another_case_has_run_before(folder, fake):

@@ -9,8 +9,9 @@ A batch is one call of sbatch: a folder in DIR/.slurm whose name is that of its 
     number        of the array, once sbatch has said it
     INDEX.yaml    of a run that has failed: problem, advice;   INDEX.txt: what its job has printed
 
-One call at a time looks for batches and submits: it holds a lock on DIR/.slurm/lock. Nothing else is remembered: which jobs are in the queue is asked
-by these names, so any later call finds those of an earlier one. There may be no accounting, and Slurm forgets a job minutes after its end: how a run
+One call at a time looks for batches and submits: it holds a lock on DIR/.slurm/lock. Which jobs are in the queue is asked by these names, so any later call
+finds those of an earlier one. The last call that asks for a run writes the name of its batch into the run's lock file (engine.Job.claim): a job of another
+batch that starts later leaves the run alone. There may be no accounting, and Slurm forgets a job minutes after its end: how a run
 has ended is in its own folder, or in INDEX.yaml. A job that has left neither was stopped from outside. It is submitted again if the run has saved more
 since, and has failed otherwise, so there is an end.
 """
@@ -173,20 +174,31 @@ class Slurm:
     def adopt(self, jobs, say):
         wanted = {job.folder: job for job in jobs}
         batches = [batch for batch in Batch.all_in(self.folder) if any(run in wanted for run, *_ in batch.runs)]
+        for batch, folder in ((batch, folder) for batch in batches for folder, of, _ in batch.runs if folder in wanted and of == checksum(wanted[folder])):
+            wanted[folder].claim(batch.name)  # before the look: its job may start right after it
         queue = self.queue([batch.name for batch in batches]) if batches else {}
+        own, others, where = [], [], None  # [(job, batch, index, what it had saved), ...]; jobs of another case, as scancel takes them, and the folder of one
         for batch in batches:
-            active = [index for index in range(len(batch.runs)) if self.is_active(queue.get((batch.name, index)))]
+            active, wrong = [index for index in range(len(batch.runs)) if self.is_active(queue.get((batch.name, index)))], []
             for index in active:
                 folder, of, saved = batch.runs[index]
-                if job := wanted.get(folder):
-                    number = queue[batch.name, index].job
-                    if of != checksum(job):
-                        raise HVIError(f"{folder}: another case, or another state of this one, is still in Slurm's queue for this folder: scancel {number}_{index}, or another --runs DIR")
-                    job.mark(saved)
-                    self.take(job, batch.name, index)
-                    say(f"{job.name}: in the queue already, Slurm job {number}_{index}")
+                if folder in wanted and of == checksum(wanted[folder]):
+                    own.append((wanted[folder], batch.name, index, saved))
+                elif folder in wanted:
+                    wrong.append(index)
+                    where = folder
+            if wrong:
+                number = queue[batch.name, wrong[0]].job
+                others += [number] if wrong == active else [f"{number}_{index}" for index in wrong]
             if not active:
                 self.forget(batch.name)
+        if others:
+            raise HVIError(f"{where}: another case, or another state of this one, is still in Slurm's queue for this folder: scancel {' '.join(others)}, or another --runs DIR")
+        for job, name, index, saved in own:
+            job.mark(saved)
+            job.claim(name)  # of several batches with this run the last one in the queue
+            self.take(job, name, index)
+            say(f"{job.name}: in the queue already, Slurm job {queue[name, index].job}_{index}")
 
     def submit(self, jobs, say):
         for first in range(0, len(jobs), ARRAY):
@@ -194,11 +206,12 @@ class Slurm:
 
     def draft(self, jobs):
         """folder of a new batch"""
-        for job in jobs:
-            job.mark()
         with writing(self.folder):
             what = re.sub(r"[^\w.+-]", "-", jobs[0].folder.parent.name, flags=re.ASCII)[:40]
             folder = pathlib.Path(tempfile.mkdtemp(prefix=f"hvi-{what}-", dir=self.folder))
+            for job in jobs:
+                job.mark()
+                job.claim(folder.name)
             (folder / "runs.pickle").write_bytes(pickle.dumps((self.local, jobs)))
             (folder / "job.sh").write_text(SCRIPT.format(what=what, package=shlex.quote(str(PACKAGE.parent)), python=shlex.quote(sys.executable)))
             engine.write_yaml(folder / "runs.yaml", {"runs": [[str(job.folder), checksum(job), job.saved] for job in jobs]})
