@@ -353,6 +353,40 @@ def test_refused_again_and_again(folder, fake, capsys, monkeypatch):
     assert [out.count(f"\n{program}: ") for program in ("sbatch", "squeue")] == [1, 1] and out.count("trying again") == 2 and sends == [0, 0, 1, 1, 1, 1] and len(calls(fake)) == 2 and batches(folder) == []
 
 
+def test_refused_for_good(folder, fake, capsys, monkeypatch):
+    """after a while a call ends with Slurm's own words; the next call goes on"""
+    monkeypatch.setattr(slurm, "PATIENCE", 0.3)
+    ended = slurm.Slurm.ended
+
+    def then_no_more(self, jobs, say):
+        monkeypatch.setenv("FAKE_REFUSE", "QOSMaxSubmitJobPerUserLimit")
+        return ended(self, jobs, say)
+
+    with monkeypatch.context() as only:
+        only.setattr(slurm.Slurm, "ended", then_no_more)
+        assert front("shield", *SUBMIT, "--jobs", "1") == 1
+    out, err = capsys.readouterr()
+    problem = "sbatch: QOSMaxSubmitJobPerUserLimit; Batch job submission failed: so it is (sbatch --ntasks=3)"
+    assert out.count(f"{problem}; trying again each 0.01 s\n") == 1 and out.count("  ok  ") == 1
+    assert f"hvi: {problem}; the same for 0 s: put that right and call again to go on; what is done is kept, and what is in the queue runs on\n" in err
+    monkeypatch.delenv("FAKE_REFUSE")
+    assert front("shield", *SUBMIT) == UNDECIDED and len(calls(fake)) == 2
+
+
+def test_time_that_counts(monkeypatch):
+    """not that while its own jobs are in the queue, with which a limit on their number may end"""
+    now, said = [0.0], []
+    monkeypatch.setattr(slurm.time, "monotonic", lambda: now[0])
+    place = slurm.Slurm.__new__(slurm.Slurm)
+    place.problems, place.pause = {}, 10
+    for now[0], counts in ((0.0, False), (1e6, False), (1e6 + slurm.PATIENCE, True), (2e6, False), (2e6 + slurm.PATIENCE, True)):
+        place.refused("trying", "sbatch: no", said.append, counts)
+    assert said == ["sbatch: no; trying again each 10 s"]
+    now[0] += 1
+    with pytest.raises(slurm.Refused, match="^sbatch: no; the same for 4.0 h: put that right and call again to go on"):
+        place.refused("trying", "sbatch: no", said.append, True)
+
+
 def test_lines_of_runs_that_are_over(folder, waiting, capsys, monkeypatch):
     """are printed though another one, found in the same look, cannot be submitted again"""
     monkeypatch.setenv("FAKE_START", "yes")

@@ -36,6 +36,7 @@ from . import engine
 
 POLL = 10.0  # seconds between looks at the queue
 LOOKS = 3  # in a row that must find a job over that has left no record: other machines see files of a shared disk late
+PATIENCE = 4 * 3600  # seconds of refusals after which a call ends: a controller may be away, or a limit on jobs in the queue be reached, for a while
 HOUR = 3600  # seconds that a batch is kept without a number: sbatch did not answer, and its jobs may still turn up in the queue
 ARRAY = 1000  # jobs of an array: what Slurm allows by default is 1001
 SECONDS = 120  # that a command of Slurm may take
@@ -118,7 +119,7 @@ class Slurm:
         self.place, self.kept = {}, set()  # {job: (name of its batch, index)}; names of batches that show why a run has failed
         self.over = collections.Counter()  # looks that have found a job over, and no record
         self.unsent, self.drafts, self.has_sent = [], {}, False  # jobs to be submitted; {jobs: folder of their batch, which sbatch has refused}; whether it has taken any
-        self.numbers, self.kinds, self.problems, self.next = {}, None, {}, 0.0  # of Slurm's arrays by their names; what was said last; time of the next look
+        self.numbers, self.kinds, self.problems, self.next = {}, None, {}, 0.0  # of Slurm's arrays by their names; states said last; {what is refused: (message, since when)}; time of the next look
         for program in ("sbatch", "squeue"):
             said([program, "--version"])
 
@@ -140,7 +141,8 @@ class Slurm:
     def send(self, say):
         """Those that an earlier call has submitted, and that have not ended, are waited for; the others are submitted.
 
-        A refusal ends a call that has submitted nothing: its options may be wrong. Later ones may be of the moment: the next look tries again.
+        A refusal ends a call that has submitted nothing: its options may be wrong. Later ones may be of the moment: the next looks try again, for PATIENCE
+        while none of the jobs is in the queue, since with these a limit on their number ends, too.
         """
         try:
             with self.alone():
@@ -149,9 +151,9 @@ class Slurm:
         except Refused as problem:
             if not self.has_sent:
                 raise
-            self.report("submitting", f"{problem}; trying again each {self.pause:g} s", say)
+            self.refused("trying", problem, say, counts=not self.place)
         else:
-            self.problems.pop("submitting", None)
+            self.problems.pop("trying", None)
         self.unsent = [job for job in self.unsent if job not in self.place]
 
     @contextlib.contextmanager
@@ -165,11 +167,14 @@ class Slurm:
                 fcntl.flock(lock, fcntl.LOCK_EX)
             yield
 
-    def report(self, what, problem, say):
-        """once, not at each look"""
-        if self.problems.get(what) != problem:
-            say(problem)
-        self.problems[what] = problem
+    def refused(self, what, problem, say, counts=True):
+        """said once, not at each look; counts: the time, of which there is an end"""
+        said, since = self.problems.get(what, ("", time.monotonic()))
+        if counts and time.monotonic() - since > PATIENCE:
+            raise Refused(f"{problem}; the same for {engine.duration(PATIENCE)}: put that right and call again to go on; what is done is kept, and what is in the queue runs on")
+        if said != str(problem):
+            say(f"{problem}; {what} again each {self.pause:g} s")
+        self.problems[what] = str(problem), since if counts else time.monotonic()
 
     def adopt(self, jobs, say):
         wanted = {job.folder: job for job in jobs}
@@ -271,7 +276,7 @@ class Slurm:
         try:
             queue = self.queue(sorted({self.place[job][0] for job in jobs}))
         except Refused as problem:  # the controller is away: jobs run on, and that they are not seen says nothing
-            self.report("looking", f"{problem}; looking again each {self.pause:g} s", say)
+            self.refused("looking", problem, say)
             return []
         self.problems.pop("looking", None)
         self.tell([queue.get(self.place[job]) for job in jobs], say)
