@@ -477,3 +477,19 @@ def test_dry_run(folder, fake, capsys, monkeypatch):
     monkeypatch.setattr("hvi.jobs.machine.free_memory", lambda: 1)
     assert front("shield", "--dry-run") == 1 and "MB of memory" in capsys.readouterr().err
     assert front("shield", *SUBMIT, "--dry-run") == 0 and "2 at a time on 3 ranks each" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("words", [("shield",), ("limit", "--on", "D")])
+def test_dry_run_asks_slurm(folder, fake, capsys, monkeypatch, words):
+    """whether it would take these options, where there is Slurm; without it the options are looked at all the same"""
+    number = {"shield": 1, "limit": 3}[words[0]]
+    assert front(*words, *SUBMIT, "--partition", "p1", "--dry-run") == 0
+    assert f"Slurm would take it (sbatch --test-only): sbatch --ntasks=3 --partition=p1 --array=0-{number}\n" in capsys.readouterr().out
+    monkeypatch.setenv("FAKE_REFUSE", "invalid partition specified: none")
+    assert front(*words, *SUBMIT, "--partition", "none", "--dry-run") == 1
+    assert f"hvi: sbatch: invalid partition specified: none; Batch job submission failed: so it is (sbatch --ntasks=3 --partition=none --array=0-{number})\n" in capsys.readouterr().err
+    monkeypatch.setenv("PATH", "/nowhere")
+    assert front(*words, *SUBMIT, "--dry-run") == 0
+    assert "not checked by Slurm: sbatch is not there: --engine slurm is for a machine that can submit jobs to Slurm; --engine local runs here\n" in capsys.readouterr().out
+    assert front(*words, *SUBMIT, "--nodes", "4", "--dry-run") == 1 and "--nodes 4: a run of 3 ranks" in capsys.readouterr().err
+    assert front(*words, "--nodes", "2", "--dry-run") == 1 and "--nodes is for --engine slurm" in capsys.readouterr().err

@@ -240,6 +240,8 @@ def test_failures(scene):
     scene.cluster.said("scancel", scene.arrays()[-1])
     assert "FAILED: its Slurm job ended (CANCELLED) without a result" in call.ends(1) and scene.states() == ["CANCELLED", "FAILED"]
     scene.release("all")
+    assert "Slurm would take it (sbatch --test-only): sbatch --ntasks=1 --time=5 --array=0-0\n" in scene.call("--time", "5", "--dry-run").ends(0)
+    assert "hvi: sbatch: invalid partition specified: none; allocation failure: Invalid partition name specified (sbatch " in scene.call("--partition", "none", "--dry-run").ends(1)
     said = scene.call("--partition", "none").ends(1)
     assert "hvi: sbatch: invalid partition specified: none; Batch job submission failed: Invalid partition name specified (sbatch --ntasks=1 --partition=none)" in said
     said = scene.call("--sbatch=--mem=1000T").ends(1)

@@ -64,6 +64,7 @@ def main(args):
     if not args.equations:
         folder.mkdir(parents=True, exist_ok=True)
     if args.dry_run:
+        runs.check_plan(args, sum(len(outcome.jobs) for outcome in outcomes))
         return plan(outcomes, folder)
     ratios = {outcome.shot.name: ratios_of(outcome) for outcome in every}
     if args.equations:

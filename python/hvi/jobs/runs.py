@@ -17,11 +17,10 @@ import time
 
 from .. import progress
 from ..errors import HVIError
-from . import engine, lammps
-from .slurm import Slurm
-
+from . import engine, lammps, slurm
 
 OF_SLURM = ("nodes", "time", "partition", "account", "sbatch", "poll")  # options
+RANKS = 2  # of a run, by default
 
 
 class Local:
@@ -132,15 +131,27 @@ def _line(job):
     return "\n".join([f"{job.name}  FAILED: {job.problem}{f'; {job.advice}' if job.advice else ''}  {took}", *(f"    | {line}" for line in job.last_lines()), f"    | see {job.folder}"])
 
 
+def check(args):
+    """refuses options that are not of the engine"""
+    if args.engine == "local" and (given := [name for name in OF_SLURM if getattr(args, name)]):
+        raise HVIError(f"--{given[0]} is for --engine slurm")
+
+
+def check_plan(args, number):
+    """options of a plan of so many runs, which are not made and need no LAMMPS; says whether Slurm would take them"""
+    check(args)
+    if args.engine == "slurm":
+        print(slurm.tested(slurm.options(args, args.ranks or RANKS), number), flush=True)
+
+
 class Runner:
     """Runs jobs as the options of the command line say."""
 
     def __init__(self, args, ranks=None, timeout=None):
-        self.ranks = args.ranks or ranks or 2
+        self.ranks = args.ranks or ranks or RANKS
         local = Local(self.ranks, args.timeout or timeout, args.mpirun, args.lmp)
-        if args.engine == "local" and (given := [name for name in OF_SLURM if getattr(args, name)]):
-            raise HVIError(f"--{given[0]} is for --engine slurm")
-        self.place = Slurm(args, local) if args.engine == "slurm" else local
+        check(args)
+        self.place = slurm.Slurm(args, local) if args.engine == "slurm" else local
         self.show = self.place.show
         self.jobs = args.jobs or self.place.most
         as_interrupts()

@@ -55,6 +55,10 @@ class Refused(HVIError):
     """A command of Slurm failed; the message is its own"""
 
 
+class NoSlurm(HVIError):
+    """This machine has no such command"""
+
+
 def said(words):
     """what a command of Slurm prints; Refused with its message if it fails"""
     # the user's defaults would hide jobs, or wait until all have ended
@@ -62,13 +66,41 @@ def said(words):
     try:
         done = subprocess.run(words, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", timeout=SECONDS, check=False)
     except FileNotFoundError:
-        raise HVIError(f"{words[0]} is not there: --engine slurm is for a machine that can submit jobs to Slurm; --engine local runs here") from None
+        raise NoSlurm(f"{words[0]} is not there: --engine slurm is for a machine that can submit jobs to Slurm; --engine local runs here") from None
     except (OSError, subprocess.TimeoutExpired) as problem:
         raise Refused(f"{words[0]}: {problem}") from None
     if done.returncode:
         lines = [re.sub(rf"^{words[0]}: (error: |fatal: )?", "", line) for line in done.stderr.splitlines()]
         raise Refused(f"{words[0]}: {'; '.join(filter(None, lines)) or engine.said_of(done.returncode)}")
     return done.stdout
+
+
+def options(args, ranks):
+    """words of sbatch that the options of the command line ask for"""
+    try:
+        own = shlex.split(args.sbatch or "")
+    except ValueError as problem:
+        raise HVIError(f"--sbatch {args.sbatch}: {problem}") from None
+    if own and not own[0].startswith("-"):
+        raise HVIError(f"--sbatch {args.sbatch}: options of sbatch, such as --sbatch='--mem=4G --qos=long'")
+    if {"-W", "--wait"} & set(own):
+        raise HVIError(f"--sbatch={shlex.quote(args.sbatch)}: leave out {'--wait' if '--wait' in own else '-W'}: hvi itself waits for its jobs")
+    if (args.nodes or 1) > ranks:
+        raise HVIError(f"--nodes {args.nodes}: a run of {ranks} ranks has no use for so many: more --ranks, or fewer --nodes")
+    given = (("ntasks", ranks), ("nodes", args.nodes), ("time", args.time), ("partition", args.partition), ("account", args.account))
+    return [*own, *(f"--{name}={value}" for name, value in given if value)]
+
+
+def tested(words, number):
+    """a line on whether Slurm would take so many jobs with these options now; Refused if not"""
+    words = ["sbatch", *words, f"--array=0-{min(number, ARRAY) - 1}"]
+    try:
+        said([*words, "--test-only", "--wrap=true"])
+    except NoSlurm as problem:
+        return f"not checked by Slurm: {problem}"
+    except Refused as problem:
+        raise Refused(f"{problem} ({shlex.join(words)})") from None
+    return f"Slurm would take it (sbatch --test-only): {shlex.join(words)}"
 
 
 def checksum(job):
@@ -104,29 +136,20 @@ class Slurm:
     def __init__(self, args, local):
         """local: the engine that the jobs use"""
         self.local, self.folder, self.pause = local, args.runs.resolve() / ".slurm", args.poll or POLL
-        try:
-            own = shlex.split(args.sbatch or "")
-        except ValueError as problem:
-            raise HVIError(f"--sbatch {args.sbatch}: {problem}") from None
-        if own and not own[0].startswith("-"):
-            raise HVIError(f"--sbatch {args.sbatch}: options of sbatch, such as --sbatch='--mem=4G --qos=long'")
-        if {"-W", "--wait"} & set(own):
-            raise HVIError(f"--sbatch={shlex.quote(args.sbatch)}: leave out {'--wait' if '--wait' in own else '-W'}: hvi itself waits for its jobs")
-        if (args.nodes or 1) > local.ranks:
-            raise HVIError(f"--nodes {args.nodes}: a run of {local.ranks} ranks has no use for so many: more --ranks, or fewer --nodes")
-        given = (("ntasks", local.ranks), ("nodes", args.nodes), ("time", args.time), ("partition", args.partition), ("account", args.account))
-        self.words = [*own, *(f"--{name}={value}" for name, value in given if value)]
+        self.words = options(args, local.ranks)
         self.place, self.kept = {}, set()  # {job: (name of its batch, index)}; names of batches that show why a run has failed
         self.over = collections.Counter()  # looks that have found a job over, and no record
         self.unsent, self.drafts, self.has_sent = [], {}, False  # jobs to be submitted; {jobs: folder of their batch, which sbatch has refused}; whether it has taken any
         self.numbers, self.kinds, self.problems, self.next = {}, None, {}, 0.0  # of Slurm's arrays by their names; states said last; {what is refused: (message, since when)}; time of the next look
-        for program in ("sbatch", "squeue"):
+        for program in () if args.dry_run else ("sbatch", "squeue"):
             said([program, "--version"])
 
     def show(self, jobs):
-        """what would be submitted, and what each job runs"""
-        print(shlex.join(self.sbatch("hvi", len(jobs), self.folder)))
-        self.local.show(jobs)
+        """what would be submitted, what each job runs, whether Slurm would take it"""
+        if jobs:
+            print(shlex.join(self.sbatch("hvi", len(jobs), self.folder)))
+            self.local.show(jobs)
+            print(tested(self.words, len(jobs)), flush=True)
 
     def sbatch(self, name, number, folder):
         """ours behind the user's: the last one counts"""
