@@ -132,13 +132,14 @@ class Scene:
     def jobs(self):
         """[(array, index, state, node), ...] of this test: of jobs whose names are those of its batches, which are in its folder"""
         rows = self.cluster.said("squeue", "--noheader", "--array", "--states=all", "--format=%F %K %T %N %Z").splitlines()
-        return [tuple(row.split()[:4]) if len(row.split()) == 5 else (*row.split()[:3], "") for row in sorted(rows) if str(self.folder) in row]
+        found = [tuple(row.split()[:4]) if len(row.split()) == 5 else (*row.split()[:3], "") for row in rows if str(self.folder) in row]
+        return sorted(found, key=lambda job: (int(job[0]), job[1:]))
 
     def states(self):
         return sorted(state for _, _, state, _ in self.jobs())
 
     def arrays(self):
-        return sorted({array for array, *_ in self.jobs()})
+        return sorted({array for array, *_ in self.jobs()}, key=int)
 
     def same_as_local(self):
         """the same bits as runs without Slurm, but for times"""
@@ -288,6 +289,6 @@ def test_searches_and_studies(scene):
     assert (scene.folder / "runs/tiny.csv").read_text() == (scene.folder / "local/tiny.csv").read_text()
     assert [node for *_, node in scene.jobs()][-2:] == ["n[0-1]"] * 2
     scene.environment["SLURM_MPI_TYPE"] = "pmix"
-    scene.call("--runs", "srun", "--mpirun", "srun", command=("sweep", "tiny.yaml"), ranks=2).ends(0)
+    scene.call("--nodes", "1", "--runs", "srun", "--mpirun", "srun", command=("sweep", "tiny.yaml"), ranks=2).ends(0)
     outputs = [*scene.folder.glob("runs/tiny/*/output.txt"), *scene.folder.glob("srun/tiny/*/output.txt")]
     assert len(outputs) == 4 and all("1 by 1 by 2 MPI processor grid" in path.read_text() for path in outputs)  # not two runs of one rank
