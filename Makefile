@@ -90,7 +90,8 @@ verify:
 	  ctest --test-dir $(BUILD) --output-on-failure -C long -L long -j $(JOBS) && export PYTHONPATH=$(TOP)/python && \
 	  { cmake/env.sh $$python -m hvi shield $(DEMO)/cases/quick.yaml --lmp $(OUT)/lmp --runs $(OUT)/verify --jobs $(RANKS) --ranks 1; code=$$?; \
 	    [ $$code = 0 ] || [ $$code = 3 ] || [ $$code = 4 ] || exit $$code; } && \
-	  $$python -m hvi report $(OUT)/verify/quick && $$python tests/verify/browser.py $(OUT)/verify/quick/report.html $(OUT)/verify/browser
+	  $$python -m hvi report $(OUT)/verify/quick && $$python tests/verify/browser.py $(OUT)/verify/quick/report.html $(OUT)/verify/browser && \
+	  $$python tests/verify/scene.py picture $(OUT)/verify/quick $(OUT)/verify/scene.png
 
 sanitize:
 	@$(MAKE) test BUILD=$(if $(filter-out build,$(BUILD)),$(BUILD)-sanitize,build-sanitize) SANITIZE=ON
