@@ -92,7 +92,7 @@ def plan(case, folder, args):
     from .. import figures
     from ..figures import sketch
 
-    runs.check_plan(args, len(members(case)))
+    words = runs.check(args)
     plans = [chain.plan_of(chain.shield_of(case, which, case.shifts[0])) for which in range(len(case.spacings_mm))]
     n = len(case.walls)
     keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, n + 1) for what in ("particles", "layers", "areal_density_kg_m2")), "areal_density_kg_m2",
@@ -113,6 +113,7 @@ def plan(case, folder, args):
         for path in figures.save(sketch.draw(case, finest), str(folder / "sketch.png")):
             print(f"sketch: {path}")
     refuse_too_large(case, plans, folder, jobs if local else 0)
+    runs.ask_slurm(words, len(members(case)))
     return 0
 
 

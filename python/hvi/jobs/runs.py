@@ -131,17 +131,19 @@ def _line(job):
     return "\n".join([f"{job.name}  FAILED: {job.problem}{f'; {job.advice}' if job.advice else ''}  {took}", *(f"    | {line}" for line in job.last_lines()), f"    | see {job.folder}"])
 
 
-def check(args):
-    """refuses options that are not of the engine"""
-    if args.engine == "local" and (given := [name for name in OF_SLURM if getattr(args, name)]):
-        raise HVIError(f"--{given[0]} is for --engine slurm")
-
-
-def check_plan(args, number):
-    """options of a plan of so many runs, which are not made and need no LAMMPS; says whether Slurm would take them"""
-    check(args)
+def check(args, ranks=None):
+    """refuses options that the engine does not take; words of sbatch, none with --engine local"""
     if args.engine == "slurm":
-        print(slurm.tested(slurm.options(args, args.ranks or RANKS), number), flush=True)
+        return slurm.options(args, ranks or args.ranks or RANKS)
+    if given := [name for name in OF_SLURM if getattr(args, name)]:
+        raise HVIError(f"--{given[0]} is for --engine slurm")
+    return []
+
+
+def ask_slurm(words, number):
+    """says whether it would take so many jobs of these words, if there are any: of plans, which need no LAMMPS and no Runner"""
+    if words:
+        print(slurm.tested(words, number), flush=True)
 
 
 class Runner:
@@ -150,7 +152,7 @@ class Runner:
     def __init__(self, args, ranks=None, timeout=None):
         self.ranks = args.ranks or ranks or RANKS
         local = Local(self.ranks, args.timeout or timeout, args.mpirun, args.lmp)
-        check(args)
+        check(args, self.ranks)
         self.place = slurm.Slurm(args, local) if args.engine == "slurm" else local
         self.show = self.place.show
         self.jobs = args.jobs or self.place.most
