@@ -353,6 +353,25 @@ def test_refused_again_and_again(folder, fake, capsys, monkeypatch):
     assert [out.count(f"\n{program}: ") for program in ("sbatch", "squeue")] == [1, 1] and out.count("trying again") == 2 and sends == [0, 0, 1, 1, 1, 1] and len(calls(fake)) == 2 and batches(folder) == []
 
 
+def test_a_call_that_waits_is_not_the_last(folder, fake, capsys, monkeypatch):
+    """what it submits after another call has asked for its run leaves the run to that"""
+    send, sends = slurm.Slurm.send, []
+
+    def another_asks(self, say):
+        sends.append(batches(folder))
+        if len(sends) == 2:
+            (fake / "busy").write_text("")
+        if len(sends) == 3:
+            (lock,) = (path for path in folder.glob("runs/emi/.*.lock") if path.read_text() == sends[2][0])
+            lock.write_text("hvi-emi-later")
+        send(self, say)
+
+    monkeypatch.setattr(slurm.Slurm, "send", another_asks)
+    assert front("shield", *SUBMIT, "--jobs", "1") == 1
+    assert capsys.readouterr().out.count(": a later call has asked for this run since this job was submitted; its files are left as they are") == 1
+    assert len(sends) == 3 and len(calls(fake)) == 2 and sum(tries(folder).values()) == 1
+
+
 def test_refused_for_good(folder, fake, capsys, monkeypatch):
     """after a while a call ends with Slurm's own words; the next call goes on"""
     monkeypatch.setattr(slurm, "PATIENCE", 0.3)

@@ -202,8 +202,9 @@ class Slurm:
     def adopt(self, jobs, say):
         wanted = {job.folder: job for job in jobs}
         batches = [batch for batch in Batch.all_in(self.folder) if any(run in wanted for run, *_ in batch.runs)]
-        for batch, folder in ((batch, folder) for batch in batches for folder, of, _ in batch.runs if folder in wanted and of == checksum(wanted[folder])):
-            wanted[folder].claim(batch.name)  # before the look: its job may start right after it
+        for batch, job in ((batch, wanted[folder]) for batch in batches for folder, of, _ in batch.runs if folder in wanted and of == checksum(wanted[folder])):
+            if not job.batch:  # this call has just begun: before the look, since the job may start right after it
+                job.claim(batch.name)
         queue = self.queue([batch.name for batch in batches]) if batches else {}
         own, others, where = [], [], None  # [(job, batch, index, what it had saved), ...]; jobs of another case, as scancel takes them, and the folder of one
         for batch in batches:
@@ -224,7 +225,8 @@ class Slurm:
             raise HVIError(f"{where}: another case, or another state of this one, is still in Slurm's queue for this folder: scancel {' '.join(others)}, or another --runs DIR")
         for job, name, index, saved in own:
             job.mark(saved)
-            job.claim(name)  # of several batches with this run the last one in the queue
+            if job.batch != name:  # of several batches with this run the last one that is in the queue
+                job.claim(name)
             self.take(job, name, index)
             say(f"{job.name}: in the queue already, Slurm job {queue[name, index].job}_{index}")
 
