@@ -387,7 +387,7 @@ def test_refused_for_good(folder, fake, capsys, monkeypatch):
     out, err = capsys.readouterr()
     problem = "sbatch: QOSMaxSubmitJobPerUserLimit; Batch job submission failed: so it is (sbatch --ntasks=3)"
     assert out.count(f"{problem}; trying again each 0.01 s\n") == 1 and out.count("  ok  ") == 1
-    assert f"hvi: {problem}; the same for 0 s: put that right and call again to go on; what is done is kept, and what is in the queue runs on\n" in err
+    assert f"hvi: {problem}; no success for 0 s: put that right and call again to go on; what is done is kept, and what is in the queue runs on\n" in err
     monkeypatch.delenv("FAKE_REFUSE")
     assert front("shield", *SUBMIT) == UNDECIDED and len(calls(fake)) == 2
 
@@ -402,7 +402,7 @@ def test_time_that_counts(monkeypatch):
         place.refused("trying", "sbatch: no", said.append, counts)
     assert said == ["sbatch: no; trying again each 10 s"]
     now[0] += 1
-    with pytest.raises(slurm.Refused, match="^sbatch: no; the same for 4.0 h: put that right and call again to go on"):
+    with pytest.raises(slurm.Refused, match="^sbatch: no; no success for 4.0 h: put that right and call again to go on"):
         place.refused("trying", "sbatch: no", said.append, True)
 
 

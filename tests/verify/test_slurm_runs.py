@@ -229,6 +229,25 @@ def test_front_door_killed(scene):
 
 
 @pytest.mark.long
+def test_changed_while_queued(scene):
+    """a call that finds a job of another form of its case names it; if that job starts after the case has run in its new form, it leaves the run as it is"""
+    scene.case(0)
+    assert scene.cluster.said("scontrol", "update", "nodename=n[0-1]", "state=drain", "reason=test") == ""
+    call = scene.call()
+    call.sees("Slurm: 1 PENDING")
+    call.process.send_signal(signal.SIGINT)
+    call.ends(130)
+    scene.case(0, tstop=5)
+    assert f"still in Slurm's queue for this folder: scancel {scene.arrays()[0]}, or another --runs DIR" in scene.call().ends(1)
+    Call(scene, "shield", "plate.yaml", "--ranks", "1").ends(scene.status)
+    before = {path.name: path.read_bytes() for path in scene.run(0.0).iterdir()}
+    assert "result.yaml" in before and scene.states() == ["PENDING"]
+    assert scene.cluster.said("scontrol", "update", "nodename=n[0-1]", "state=resume") == ""
+    scene.cluster.wait_for(lambda: scene.states() == ["FAILED"], "job of the first form")
+    assert {path.name: path.read_bytes() for path in scene.run(0.0).iterdir()} == before
+
+
+@pytest.mark.long
 def test_failures(scene):
     """each is submitted once, and says what LAMMPS or Slurm has said"""
     scene.case(0, solid="damage nonsense")

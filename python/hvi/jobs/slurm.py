@@ -194,7 +194,7 @@ class Slurm:
         """said once, not at each look; counts: the time, of which there is an end"""
         said, since = self.problems.get(what, ("", time.monotonic()))
         if counts and time.monotonic() - since > PATIENCE:
-            raise Refused(f"{problem}; the same for {engine.duration(PATIENCE)}: put that right and call again to go on; what is done is kept, and what is in the queue runs on")
+            raise Refused(f"{problem}; no success for {engine.duration(PATIENCE)}: put that right and call again to go on; what is done is kept, and what is in the queue runs on")
         if said != str(problem):
             say(f"{problem}; {what} again each {self.pause:g} s")
         self.problems[what] = str(problem), since if counts else time.monotonic()
