@@ -9,7 +9,7 @@ FAKE_PLAN: words, of which each call of sbatch takes the next one, and later cal
     STATE    jobs have never run, and ended so
     nothing  jobs are accepted, and forgotten
 
-FAKE_REFUSE: message with which sbatch refuses; a file "away" or "busy" in the folder: squeue or sbatch finds no controller, and removes the file. squeue
+FAKE_REFUSE: message with which sbatch refuses, with --test-only too; a file "away" or "busy" in the folder: squeue or sbatch finds no controller, and removes the file. squeue
 begins with a remark, as the wrappers of some sites do.
 """
 
@@ -56,6 +56,8 @@ def sbatch(words):
     if (HOME / "busy").exists():
         (HOME / "busy").unlink()
         sys.exit("sbatch: error: Batch job submission failed: Unable to contact slurm controller (connect failure)")
+    if "--test-only" in words:
+        return
     number = len(CALLS.read_text().splitlines()) if CALLS.exists() else 0
     with open(CALLS, "a") as out:
         out.write(json.dumps(words) + "\n")

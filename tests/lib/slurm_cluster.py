@@ -74,7 +74,8 @@ def free_ports(number):
 class Cluster:
     """Nodes n0, n1, ... in a folder of their own; with it as a context the daemons run, and end with it."""
 
-    def __init__(self, nodes=2, cpus=4, kill_wait=5, age=300):
+    def __init__(self, nodes=2, cpus=4, kill_wait=5, age=6 * SECONDS):
+        """age: seconds that an ended job is remembered: a test asks for all of its jobs at its end, minutes after the first on a busy machine"""
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="hvi-slurm-", dir="/tmp"))  # short: paths of sockets are
         self.names, self.daemons = [f"n{k}" for k in range(nodes)], {}
         port, *ports = free_ports(nodes + 1)

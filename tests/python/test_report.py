@@ -362,6 +362,52 @@ def test_export_to_ovito(tmp_path, capsys):
     assert {(kind, name) for kind, name in zip(frame["type"], frame["element"])} >= {(1, "projectile_Al2017-T4"), (3, "wall2_Al6061-T6")}
 
 
+@pytest.mark.long
+def test_export_in_vtk(tmp_path):
+    """VTK's own reader, which is that of ParaView, finds time, names of types, units, positions and velocities"""
+    pytest.importorskip("vtkmodules", reason="VTK's Python module is not there (Debian: python3-vtk9)")
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+    make_run(tmp_path / "run", 1.0)
+    assert cli.main(["export", str(tmp_path / "run"), "--out", "x"]) == 0
+    frames = Run(tmp_path / "run").frames()
+    assert len(frames) == 2
+    for k, frame in enumerate(frames):
+        whole, reader = frame.whole(), vtkXMLUnstructuredGridReader()
+        reader.SetFileName(f"x.{k:04d}.vtu")
+        reader.Update()
+        grid = reader.GetOutput()
+        points, data, said = grid.GetPoints().GetData(), grid.GetPointData(), grid.GetFieldData()
+        assert (reader.GetErrorCode(), points.GetName(), grid.GetNumberOfCells(), {grid.GetCellType(cell) for cell in (0, len(whole) - 1)}) == (0, "position (m)", len(whole), {1})  # VTK_VERTEX
+        np.testing.assert_array_equal(vtk_to_numpy(points), whole.x)
+        np.testing.assert_array_equal(vtk_to_numpy(data.GetArray("velocity (m/s)")), whole.v)
+        np.testing.assert_array_equal(vtk_to_numpy(data.GetArray("type")), whole["type"])
+        assert {"p (Pa)", "vm (Pa)", "e (J/kg)", "damage", "fragsize (m)", "mass (kg)"} <= {data.GetArrayName(i) for i in range(data.GetNumberOfArrays())}
+        found = {said.GetArrayName(i): said.GetArray(i).GetTuple1(0) for i in range(said.GetNumberOfArrays())}
+        assert found == {"TimeValue": frame.time, "type 1: projectile, Al2017-T4": 1, "type 2: wall 1, Al6061-T6": 2, "type 3: wall 2, Al6061-T6": 3}
+
+
+@pytest.mark.long
+def test_export_in_ovito(tmp_path):
+    """OVITO finds frames, times, names of types, positions, velocities and columns with their units"""
+    io = pytest.importorskip("ovito.io", reason="OVITO's Python module is not there (pip install ovito)")
+    make_run(tmp_path / "run", 1.0)
+    assert cli.main(["export", str(tmp_path / "run"), "--to", "ovito", "--out", "x"]) == 0
+    pipeline, frames = io.import_file("x.lammpstrj"), Run(tmp_path / "run").frames()
+    assert pipeline.source.num_frames == len(frames) == 2
+    for k, frame in enumerate(frames):
+        whole, data = frame.whole(), pipeline.compute(k)
+        assert (data.attributes["Timestep"], data.attributes["Time"]) == (frame.step, pytest.approx(frame.time))
+        np.testing.assert_array_equal(data.particles["Particle Identifier"], whole.ids)
+        np.testing.assert_allclose(data.particles["Position"], whole.x, rtol=1e-8)
+        np.testing.assert_allclose(data.particles["Velocity"], whole.v, rtol=1e-8)
+        np.testing.assert_allclose(data.particles["Mass"], whole.m, rtol=1e-8)
+        np.testing.assert_array_equal(data.particles["Particle Type"], whole["type"])
+        assert {one.id: one.name for one in data.particles["Particle Type"].types}.items() >= {(kind, {1: "projectile_Al2017-T4", 2: "wall1_Al6061-T6", 3: "wall2_Al6061-T6"}[kind]) for kind in set(whole["type"])}
+        assert {"p_Pa", "vm_Pa", "damage", "fragsize_m"} <= set(data.particles.keys())
+
+
 @pytest.mark.parametrize("box", ["BOX BOUNDS pp ff ff\n-1 1\n-2 2\n-3 3\n", "BOX BOUNDS xy xz yz pp pp pp\n-1 1.5 0.5\n-2 2 0\n-3 3 0\n"])
 def test_export_of_boxes(tmp_path, box):
     """periodic and triclinic ones stay what they are; coordinates are unwrapped; types have the names that are given"""

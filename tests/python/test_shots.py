@@ -180,13 +180,16 @@ def test_equations_alone(mine, capsys):
     assert sum(map(int, line.split()[1:7])) == 3
 
 
-def test_plans(mine):
+def test_plans(mine, capsys, monkeypatch):
+    assert front("shots", "--nodes", "2", "--dry-run", case="mine.yaml") == 1 and "--nodes is for --engine slurm" in capsys.readouterr().err
     assert front("shots", "--dry-run", case="mine.yaml") == 0
     with open("runs/mine/plans.csv", newline="") as table:
         rows = list(csv.DictReader(table))
     assert [(line["shot"], line["dx_mm"]) for line in rows] == [("small", "0.318"), ("small", "0.2385"), ("two, large", "0.635"), ("middle", "0.4")]
     count = [sum(float(line[f"{body}_particles"]) for body in ("projectile", "wall1", "wall2")) * float(line["steps"]) for line in rows]
     assert [float(line["particle_steps"]) for line in rows] == pytest.approx(count, rel=1e-3) and not tries(mine)
+    monkeypatch.setenv("PATH", "/nowhere")  # a machine without Slurm
+    assert front("shots", "--engine", "slurm", "--dry-run", case="mine.yaml") == 0 and "\nnot checked by Slurm: sbatch is not there" in capsys.readouterr().out
 
 
 def test_margins(mine):

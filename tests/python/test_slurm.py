@@ -5,7 +5,9 @@ import fcntl
 import json
 import os
 import pickle
+import shutil
 import sys
+import threading
 import time
 
 import pytest
@@ -150,11 +152,14 @@ def test_run_that_fails(folder, fake, capsys, monkeypatch):
 
 
 def test_what_a_job_cannot_write(folder, fake, capsys, monkeypatch):
-    """it says so where it was called"""
+    """it says so where it was called; what the call itself cannot write is said before anything is submitted"""
     (folder / "runs/emi").mkdir(parents=True)
-    (folder / "runs/emi/.dx-0.4_shift-0.0.lock").mkdir()
+    (folder / "runs/emi/dx-0.4_shift-0.0").write_text("")
     assert front("shield", *SUBMIT) == 1
     assert "dx-0.4_shift-0.0  FAILED: cannot run in " in capsys.readouterr().out
+    (folder / "more/emi/.dx-0.4_shift-0.0.lock").mkdir(parents=True)
+    assert front("shield", *SUBMIT, "--runs", "more") == 1
+    assert f"cannot write {folder}/more/emi/.dx-0.4_shift-0.0.lock: Is a directory" in capsys.readouterr().err and len(calls(fake)) == 1
 
 
 # ---------------------------------------------------------------------- calls that end before their jobs
@@ -196,7 +201,9 @@ def test_another_case_in_the_queue(folder, waiting, capsys):
     """its jobs would write into the same folders"""
     (folder / "emi.yaml").write_text(CASE.replace("speed_km_s: 7.1", "speed_km_s: 7"))
     assert front("shield", *SUBMIT) == 1
-    assert "another case, or another state of this one, is still in Slurm's queue for this folder: scancel 1_0, or another --runs DIR" in capsys.readouterr().err
+    assert "another case, or another state of this one, is still in Slurm's queue for this folder: scancel 1, or another --runs DIR" in capsys.readouterr().err
+    (folder / "emi.yaml").write_text(CASE.replace("speed_km_s: 7.1", "speed_km_s: 7").replace("[0, 0.5]", "[0.5]"))
+    assert front("shield", *SUBMIT) == 1 and "scancel 1_1, or another" in capsys.readouterr().err
     assert len(calls(waiting)) == 1
 
 
@@ -237,7 +244,39 @@ def test_another_case_has_run_since(folder, waiting, monkeypatch):
     slurm.said(["squeue", "--name=none"])
     assert {path: path.read_bytes() for path in folder.glob("runs/emi/*/*")} == before
     for path in (folder / "runs/.slurm" / batches(folder)[0] / f"{index}.yaml" for index in range(2)):
-        assert yaml.safe_load(path.read_text())["problem"].endswith(": another case has run here since this job was submitted")
+        assert yaml.safe_load(path.read_text())["problem"].endswith(": a later call has asked for this run since this job was submitted")
+
+
+def test_changed_and_changed_back(folder, waiting, monkeypatch):
+    """a job that no later call has taken up leaves the run alone, also of the same case, and what another process is at; one that has been taken up runs"""
+    (folder / "emi.yaml").write_text(CASE.replace("speed_km_s: 7.1", "speed_km_s: 7"))
+    assert front("shield", "--ranks", "3") == UNDECIDED
+    batch = folder / "runs/.slurm" / batches(folder)[0]
+    local, jobs = pickle.loads((batch / "runs.pickle").read_bytes())
+    assert jobs[0].take()  # another process is at the run when the job starts, and its folder is empty yet
+    shutil.rmtree(jobs[0].folder)
+    later = threading.Timer(1.0, jobs[0].leave)
+    later.start()
+    before = {path: path.read_bytes() for path in folder.glob("runs/emi/*/*")}
+    assert os.system(f"cd '{batch}' && SLURM_ARRAY_TASK_ID=0 sh job.sh >/dev/null") != 0
+    later.join()
+    assert {path: path.read_bytes() for path in folder.glob("runs/emi/*/*")} == before and (batch / "0.yaml").exists()
+    (folder / "emi.yaml").write_text(CASE)
+    monkeypatch.setenv("FAKE_START", "yes")
+    assert front("shield", *SUBMIT) == UNDECIDED and len(calls(waiting)) == 1
+    assert all(yaml.safe_load(path.read_text())["variables"]["v0"] == 7100 for path in folder.glob("runs/emi/*/job.yaml"))
+    assert batches(folder) == []
+
+
+def test_two_jobs_of_a_run(folder, waiting, monkeypatch):
+    """the second was submitted when the first, of a sbatch that had not answered, was not in the queue yet: the first one leaves the run to it"""
+    (folder / "slurm/queue").write_text("")
+    first = folder / "runs/.slurm" / batches(folder)[0]
+    (first / "number").unlink()
+    monkeypatch.setenv("FAKE_PLAN", "nothing")
+    monkeypatch.setattr(slurm, "LOOKS", 1)
+    assert front("shield", *SUBMIT) == 1
+    assert os.system(f"cd '{first}' && SLURM_ARRAY_TASK_ID=0 sh job.sh >/dev/null") != 0 and (first / "0.yaml").exists() and tries(folder) == {}
 
 
 def test_another_case_has_run_before(folder, fake):
@@ -312,6 +351,59 @@ def test_refused_again_and_again(folder, fake, capsys, monkeypatch):
     assert front("shield", *SUBMIT, "--jobs", "1") == UNDECIDED
     out = capsys.readouterr().out
     assert [out.count(f"\n{program}: ") for program in ("sbatch", "squeue")] == [1, 1] and out.count("trying again") == 2 and sends == [0, 0, 1, 1, 1, 1] and len(calls(fake)) == 2 and batches(folder) == []
+
+
+def test_a_call_that_waits_is_not_the_last(folder, fake, capsys, monkeypatch):
+    """what it submits after another call has asked for its run leaves the run to that"""
+    send, sends = slurm.Slurm.send, []
+
+    def another_asks(self, say):
+        sends.append(batches(folder))
+        if len(sends) == 2:
+            (fake / "busy").write_text("")
+        if len(sends) == 3:
+            (lock,) = (path for path in folder.glob("runs/emi/.*.lock") if path.read_text() == sends[2][0])
+            lock.write_text("hvi-emi-later")
+        send(self, say)
+
+    monkeypatch.setattr(slurm.Slurm, "send", another_asks)
+    assert front("shield", *SUBMIT, "--jobs", "1") == 1
+    assert capsys.readouterr().out.count(": a later call has asked for this run since this job was submitted; its files are left as they are") == 1
+    assert len(sends) == 3 and len(calls(fake)) == 2 and sum(tries(folder).values()) == 1
+
+
+def test_refused_for_good(folder, fake, capsys, monkeypatch):
+    """after a while a call ends with Slurm's own words; the next call goes on"""
+    monkeypatch.setattr(slurm, "PATIENCE", 0.3)
+    ended = slurm.Slurm.ended
+
+    def then_no_more(self, jobs, say):
+        monkeypatch.setenv("FAKE_REFUSE", "QOSMaxSubmitJobPerUserLimit")
+        return ended(self, jobs, say)
+
+    with monkeypatch.context() as only:
+        only.setattr(slurm.Slurm, "ended", then_no_more)
+        assert front("shield", *SUBMIT, "--jobs", "1") == 1
+    out, err = capsys.readouterr()
+    problem = "sbatch: QOSMaxSubmitJobPerUserLimit; Batch job submission failed: so it is (sbatch --ntasks=3)"
+    assert out.count(f"{problem}; trying again each 0.01 s\n") == 1 and out.count("  ok  ") == 1
+    assert f"hvi: {problem}; no success for 0 s: put that right and call again to go on; what is done is kept, and what is in the queue runs on\n" in err
+    monkeypatch.delenv("FAKE_REFUSE")
+    assert front("shield", *SUBMIT) == UNDECIDED and len(calls(fake)) == 2
+
+
+def test_time_that_counts(monkeypatch):
+    """not that while its own jobs are in the queue, with which a limit on their number may end"""
+    now, said = [0.0], []
+    monkeypatch.setattr(slurm.time, "monotonic", lambda: now[0])
+    place = slurm.Slurm.__new__(slurm.Slurm)
+    place.problems, place.pause = {}, 10
+    for now[0], counts in ((0.0, False), (1e6, False), (1e6 + slurm.PATIENCE, True), (2e6, False), (2e6 + slurm.PATIENCE, True)):
+        place.refused("trying", "sbatch: no", said.append, counts)
+    assert said == ["sbatch: no; trying again each 10 s"]
+    now[0] += 1
+    with pytest.raises(slurm.Refused, match="^sbatch: no; no success for 4.0 h: put that right and call again to go on"):
+        place.refused("trying", "sbatch: no", said.append, True)
 
 
 def test_lines_of_runs_that_are_over(folder, waiting, capsys, monkeypatch):
@@ -404,3 +496,19 @@ def test_dry_run(folder, fake, capsys, monkeypatch):
     monkeypatch.setattr("hvi.jobs.machine.free_memory", lambda: 1)
     assert front("shield", "--dry-run") == 1 and "MB of memory" in capsys.readouterr().err
     assert front("shield", *SUBMIT, "--dry-run") == 0 and "2 at a time on 3 ranks each" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("words", [("shield",), ("limit", "--on", "D")])
+def test_dry_run_asks_slurm(folder, fake, capsys, monkeypatch, words):
+    """whether it would take these options, where there is Slurm; without it the options are looked at all the same"""
+    number = {"shield": 1, "limit": 3}[words[0]]
+    assert front(*words, *SUBMIT, "--partition", "p1", "--dry-run") == 0
+    assert f"Slurm would take it (sbatch --test-only): sbatch --ntasks=3 --partition=p1 --array=0-{number}\n" in capsys.readouterr().out
+    monkeypatch.setenv("FAKE_REFUSE", "invalid partition specified: none")
+    assert front(*words, *SUBMIT, "--partition", "none", "--dry-run") == 1
+    assert f"hvi: sbatch: invalid partition specified: none; Batch job submission failed: so it is (sbatch --ntasks=3 --partition=none --array=0-{number})\n" in capsys.readouterr().err
+    monkeypatch.setenv("PATH", "/nowhere")
+    assert front(*words, *SUBMIT, "--dry-run") == 0
+    assert "not checked by Slurm: sbatch is not there: --engine slurm is for a machine that can submit jobs to Slurm; --engine local runs here\n" in capsys.readouterr().out
+    assert front(*words, *SUBMIT, "--nodes", "4", "--dry-run") == 1 and "--nodes 4: a run of 3 ranks" in capsys.readouterr().err
+    assert front(*words, "--nodes", "2", "--dry-run") == 1 and "--nodes is for --engine slurm" in capsys.readouterr().err

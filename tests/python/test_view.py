@@ -10,6 +10,7 @@ import zlib
 
 import numpy as np
 import pytest
+import yaml
 from hvi import cli
 from hvi.commands import view as command
 from hvi.errors import HVIError
@@ -21,6 +22,7 @@ from hvi.report import page, view
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "verify"))
 import browser  # noqa: E402
 import chromium  # noqa: E402
+import scene  # noqa: E402
 
 EVIL = "</template><script>alert(1)</script>"
 COLUMNS = "id type x y z vx vy vz time_si damage spalled p T mirror_x_lo mirror_y_lo"
@@ -236,3 +238,15 @@ def test_in_a_browser(tmp_path):
     assert set(steps) == {"desk", "phone"} and all({"turned by a drag", "at the other end of time", "colored by pressure (GPa)", "without mirror images"} <= set(one) for one in steps.values())
     still = {what: {**step, "changed": 0.0} for what, step in seen["desk"]["scene"]["steps"].items()}
     assert len(list(browser.wrong_scene({**seen["desk"]["scene"], "steps": still}))) == len(still) - 1
+
+
+def test_speed_of_drawing(tmp_path, monkeypatch):
+    """of a ball of as many particles as asked for, whose frames take a time"""
+    x = scene.ball(1000)
+    assert len(np.unique(np.round(2e3 * x), axis=0)) == 1000 and np.linalg.norm(x, axis=1).max() == pytest.approx(1e-3 * (0.75 * 1000 / np.pi) ** (1 / 3), rel=0.05)
+    if not chromium.found():
+        pytest.skip("chromium is not there (Debian: apt-get install chromium)")
+    monkeypatch.setattr(scene, "MEASURE", scene.MEASURE.replace(f"< 1000 * {scene.SECONDS}", "< 300"))
+    scene.speed(1000, tmp_path / "said.yaml")
+    said = yaml.safe_load((tmp_path / "said.yaml").read_text())
+    assert said["particles"] == 1000 and re.fullmatch("1\\d{3} x \\d{3}", said["canvas"]) and said["frame_ms"] > 0 and said["frames_per_s"] > 0

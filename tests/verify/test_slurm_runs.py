@@ -132,13 +132,14 @@ class Scene:
     def jobs(self):
         """[(array, index, state, node), ...] of this test: of jobs whose names are those of its batches, which are in its folder"""
         rows = self.cluster.said("squeue", "--noheader", "--array", "--states=all", "--format=%F %K %T %N %Z").splitlines()
-        return [tuple(row.split()[:4]) if len(row.split()) == 5 else (*row.split()[:3], "") for row in sorted(rows) if str(self.folder) in row]
+        found = [tuple(row.split()[:4]) if len(row.split()) == 5 else (*row.split()[:3], "") for row in rows if str(self.folder) in row]
+        return sorted(found, key=lambda job: (int(job[0]), job[1:]))
 
     def states(self):
         return sorted(state for _, _, state, _ in self.jobs())
 
     def arrays(self):
-        return sorted({array for array, *_ in self.jobs()})
+        return sorted({array for array, *_ in self.jobs()}, key=int)
 
     def same_as_local(self):
         """the same bits as runs without Slurm, but for times"""
@@ -228,6 +229,25 @@ def test_front_door_killed(scene):
 
 
 @pytest.mark.long
+def test_changed_while_queued(scene):
+    """a call that finds a job of another form of its case names it; if that job starts after the case has run in its new form, it leaves the run as it is"""
+    scene.case(0)
+    assert scene.cluster.said("scontrol", "update", "nodename=n[0-1]", "state=drain", "reason=test") == ""
+    call = scene.call()
+    call.sees("Slurm: 1 PENDING")
+    call.process.send_signal(signal.SIGINT)
+    call.ends(130)
+    scene.case(0, tstop=5)
+    assert f"still in Slurm's queue for this folder: scancel {scene.arrays()[0]}, or another --runs DIR" in scene.call().ends(1)
+    Call(scene, "shield", "plate.yaml", "--ranks", "1").ends(scene.status)
+    before = {path.name: path.read_bytes() for path in scene.run(0.0).iterdir()}
+    assert "result.yaml" in before and scene.states() == ["PENDING"]
+    assert scene.cluster.said("scontrol", "update", "nodename=n[0-1]", "state=resume") == ""
+    scene.cluster.wait_for(lambda: scene.states() == ["FAILED"], "job of the first form")
+    assert {path.name: path.read_bytes() for path in scene.run(0.0).iterdir()} == before
+
+
+@pytest.mark.long
 def test_failures(scene):
     """each is submitted once, and says what LAMMPS or Slurm has said"""
     scene.case(0, solid="damage nonsense")
@@ -240,6 +260,8 @@ def test_failures(scene):
     scene.cluster.said("scancel", scene.arrays()[-1])
     assert "FAILED: its Slurm job ended (CANCELLED) without a result" in call.ends(1) and scene.states() == ["CANCELLED", "FAILED"]
     scene.release("all")
+    assert "Slurm would take it (sbatch --test-only): sbatch --ntasks=1 --time=5 --array=0-0\n" in scene.call("--time", "5", "--dry-run").ends(0)
+    assert "hvi: sbatch: invalid partition specified: none; allocation failure: Invalid partition name specified (sbatch " in scene.call("--partition", "none", "--dry-run").ends(1)
     said = scene.call("--partition", "none").ends(1)
     assert "hvi: sbatch: invalid partition specified: none; Batch job submission failed: Invalid partition name specified (sbatch --ntasks=1 --partition=none)" in said
     said = scene.call("--sbatch=--mem=1000T").ends(1)
@@ -286,6 +308,6 @@ def test_searches_and_studies(scene):
     assert (scene.folder / "runs/tiny.csv").read_text() == (scene.folder / "local/tiny.csv").read_text()
     assert [node for *_, node in scene.jobs()][-2:] == ["n[0-1]"] * 2
     scene.environment["SLURM_MPI_TYPE"] = "pmix"
-    scene.call("--runs", "srun", "--mpirun", "srun", command=("sweep", "tiny.yaml"), ranks=2).ends(0)
+    scene.call("--nodes", "1", "--runs", "srun", "--mpirun", "srun", command=("sweep", "tiny.yaml"), ranks=2).ends(0)
     outputs = [*scene.folder.glob("runs/tiny/*/output.txt"), *scene.folder.glob("srun/tiny/*/output.txt")]
     assert len(outputs) == 4 and all("1 by 1 by 2 MPI processor grid" in path.read_text() for path in outputs)  # not two runs of one rank

@@ -38,6 +38,7 @@ def parts(build, out, ranks):
     yield "shield", [*hvi, "shield", SHIELD, "--lmp", build / "lmp", "--runs", out, "--jobs", str(ranks), "--ranks", "1"], VERDICTS
     yield "report", [*hvi, "report", out / "quick"], (0,)
     yield "browser", [sys.executable, ROOT / "tests/verify/browser.py", out / "quick/report.html", out / "browser"], (0,)
+    yield "scene", [sys.executable, ROOT / "tests/verify/scene.py", "picture", out / "quick", out / "scene.png"], (0,)
 
 
 def said(log):

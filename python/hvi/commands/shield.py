@@ -31,8 +31,8 @@ def command(args, ranks):
     """what was asked for, as it is typed"""
     jobs = args.jobs or (1 if args.engine == "local" else None)
     given = (("--runs", args.runs), ("--jobs", jobs), ("--ranks", ranks), ("--lmp", args.lmp))
-    slurm = [f"--{name}={getattr(args, name)}" for name in ("engine", *runs.OF_SLURM) if getattr(args, name)] if args.engine == "slurm" else []
-    return shlex.join([*program().split(), "shield", str(args.case), *(str(word) for option, value in given if value for word in (option, value)), *slurm])
+    more = [f"--{name}={getattr(args, name)}" for name in ("engine", *runs.OF_SLURM) if getattr(args, name)] if args.engine == "slurm" else []
+    return shlex.join([*program().split(), "shield", str(args.case), *(str(word) for option, value in given if value for word in (option, value)), *more])
 
 
 def main(args):
@@ -92,13 +92,14 @@ def plan(case, folder, args):
     from .. import figures
     from ..figures import sketch
 
+    words = runs.check(args)
     plans = [chain.plan_of(chain.shield_of(case, which, case.shifts[0])) for which in range(len(case.spacings_mm))]
     n = len(case.walls)
     keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, n + 1) for what in ("particles", "layers", "areal_density_kg_m2")), "areal_density_kg_m2",
             "tstop_us", "particles", "steps", "core_s", "memory_MB", "frames", "frames_MB", "frames_in_report", "disk_MB"]
     print(tables.text(("each run", *(f"dx-{dx:g}" for dx in case.spacings_mm)), [
         (key, *(f"about {tables.number(found[key])}" if key in ("steps", "core_s", "memory_MB", "frames", "frames_MB", "disk_MB") else found[key] for found in plans)) for key in keys]))
-    core, local, ranks = sum(found["core_s"] for found in plans) * len(case.shifts), args.engine == "local", args.ranks or 2
+    core, local, ranks = sum(found["core_s"] for found in plans) * len(case.shifts), args.engine == "local", args.ranks or runs.RANKS
     jobs = args.jobs or (1 if local else len(members(case)))
     print(f"{len(members(case))} runs, {len(case.shifts)} of each spacing: at most about {engine.duration(core / (jobs * ranks))}, {jobs} at a time on {ranks} ranks each, "
           "on idle cores; a run ends when its event is over")
@@ -112,6 +113,7 @@ def plan(case, folder, args):
         for path in figures.save(sketch.draw(case, finest), str(folder / "sketch.png")):
             print(f"sketch: {path}")
     refuse_too_large(case, plans, folder, jobs if local else 0)
+    runs.ask_slurm(words, len(members(case)))
     return 0
 
 

@@ -49,7 +49,6 @@ def plan(outcomes, folder):
     tables.write_csv(folder / "plans.csv", names, rows)
     print(tables.text(names, rows))
     print(f"{len(rows)} plans, at most {sum(line[-1] for line in rows) * len(outcomes[0].case.shifts):.3g} particle-steps in all: {folder / 'plans.csv'}")
-    return 0
 
 
 def main(args):
@@ -64,7 +63,10 @@ def main(args):
     if not args.equations:
         folder.mkdir(parents=True, exist_ok=True)
     if args.dry_run:
-        return plan(outcomes, folder)
+        words = runs.check(args)
+        plan(outcomes, folder)
+        runs.ask_slurm(words, sum(len(outcome.jobs) for outcome in outcomes))
+        return 0
     ratios = {outcome.shot.name: ratios_of(outcome) for outcome in every}
     if args.equations:
         found = [(name, confusion((shot.observed, by_equation(ratios[shot.name][name])) for shot in shots)) for name in ratios[shots[0].name]]

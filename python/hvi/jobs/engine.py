@@ -167,7 +167,7 @@ class Job:
             self.record["files"] = files
         self.process, self.lock, self.start, self.problem, self.advice, self.asked = None, None, None, "", "", False
         self.resumed, self.saved = False, []  # if it went on, and from what
-        self.before = None  # checksum of the record in its folder when a call began
+        self.batch = ""  # of Slurm's jobs, that it was submitted in; "": runs without Slurm
 
     def _files(self):
         """checksums of the files that variables name: materials, plates"""
@@ -190,12 +190,6 @@ class Job:
         """True if it was started before, with these variables, input and files"""
         return read_yaml(self.folder / "job.yaml") == self.record
 
-    def there(self):
-        """checksum of the record in its folder, which may be that of another case; None without one"""
-        with contextlib.suppress(OSError):
-            return digest((self.folder / "job.yaml").read_bytes())
-        return None
-
     def restart_files(self):
         """what the run left to go on from, newest last"""
         found = self.folder.glob(self.restart) if self.restart and self.begun() else []
@@ -210,9 +204,8 @@ class Job:
         return any([str(path), path.stat().st_mtime_ns] not in self.saved for path in self.restart_files()[-1:])
 
     def mark(self, saved=None):
-        """a call begins: time, problem, what is saved and the record that is there count from now; saved: of a call that has begun already"""
+        """a call begins: time, problem and what is saved count from now; saved: of a call that has begun already"""
         self.start, self.problem, self.advice, self.saved = time.monotonic(), "", "", self._saved() if saved is None else saved
-        self.before = self.there()
 
     def words(self):
         """LAMMPS's options"""
@@ -222,10 +215,22 @@ class Job:
             options += ["-var", name, *words(value)]
         return options + (["-var", "from", str(files[-1].relative_to(self.folder))] if files else [])
 
+    @property
+    def lock_file(self):
+        """beside the folder, which is emptied; locked while a process is at this run, its text is the batch of the last call that asked for the run"""
+        return self.folder.parent / f".{self.folder.name}.lock"
+
+    def claim(self, batch=""):
+        """the last call counts: from now on jobs of other batches leave this run alone, whatever case they are of and whenever Slurm starts them"""
+        self.batch = batch
+        with writing(self.lock_file):
+            self.folder.parent.mkdir(parents=True, exist_ok=True)
+            self.lock_file.write_text(batch)
+
     def take(self):
         """True if no other process is at this run; from now on none can be. Processes that it starts keep the lock."""
         self.folder.parent.mkdir(parents=True, exist_ok=True)
-        lock = os.open(self.folder.parent / f".{self.folder.name}.lock", os.O_RDWR | os.O_CREAT, 0o666)
+        lock = os.open(self.lock_file, os.O_RDWR | os.O_CREAT, 0o666)
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -268,7 +273,11 @@ class Job:
         late = timeout and time.monotonic() - self.start > timeout
         if self.process is None:  # another process was at it, or it has yet to begin
             if self.take():
-                if self.result() is None:
+                if self.result() is None and self.batch and self.lock_file.read_text() != self.batch:  # looked at under the lock, which is held until the result is there
+                    self.problem, self.advice = f"{self.folder}: a later call has asked for this run since this job was submitted", "its files are left as they are: call again to run this case"
+                elif self.result() is None:
+                    if not self.batch:
+                        self.claim()
                     self.begin(command)
                     return False
             elif late:

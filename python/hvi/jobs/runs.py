@@ -17,11 +17,10 @@ import time
 
 from .. import progress
 from ..errors import HVIError
-from . import engine, lammps
-from .slurm import Slurm
-
+from . import engine, lammps, slurm
 
 OF_SLURM = ("nodes", "time", "partition", "account", "sbatch", "poll")  # options
+RANKS = 2  # of a run, by default
 
 
 class Local:
@@ -132,15 +131,29 @@ def _line(job):
     return "\n".join([f"{job.name}  FAILED: {job.problem}{f'; {job.advice}' if job.advice else ''}  {took}", *(f"    | {line}" for line in job.last_lines()), f"    | see {job.folder}"])
 
 
+def check(args, ranks=None):
+    """refuses options that the engine does not take; words of sbatch, none with --engine local"""
+    if args.engine == "slurm":
+        return slurm.options(args, ranks or args.ranks or RANKS)
+    if given := [name for name in OF_SLURM if getattr(args, name)]:
+        raise HVIError(f"--{given[0]} is for --engine slurm")
+    return []
+
+
+def ask_slurm(words, number):
+    """says whether it would take so many jobs of these words, if there are any: of plans, which need no LAMMPS and no Runner"""
+    if words:
+        print(slurm.tested(words, number), flush=True)
+
+
 class Runner:
     """Runs jobs as the options of the command line say."""
 
     def __init__(self, args, ranks=None, timeout=None):
-        self.ranks = args.ranks or ranks or 2
+        self.ranks = args.ranks or ranks or RANKS
         local = Local(self.ranks, args.timeout or timeout, args.mpirun, args.lmp)
-        if args.engine == "local" and (given := [name for name in OF_SLURM if getattr(args, name)]):
-            raise HVIError(f"--{given[0]} is for --engine slurm")
-        self.place = Slurm(args, local) if args.engine == "slurm" else local
+        check(args, self.ranks)
+        self.place = slurm.Slurm(args, local) if args.engine == "slurm" else local
         self.show = self.place.show
         self.jobs = args.jobs or self.place.most
         as_interrupts()

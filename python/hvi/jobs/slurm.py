@@ -9,8 +9,9 @@ A batch is one call of sbatch: a folder in DIR/.slurm whose name is that of its 
     number        of the array, once sbatch has said it
     INDEX.yaml    of a run that has failed: problem, advice;   INDEX.txt: what its job has printed
 
-One call at a time looks for batches and submits: it holds a lock on DIR/.slurm/lock. Nothing else is remembered: which jobs are in the queue is asked
-by these names, so any later call finds those of an earlier one. There may be no accounting, and Slurm forgets a job minutes after its end: how a run
+One call at a time looks for batches and submits: it holds a lock on DIR/.slurm/lock. Which jobs are in the queue is asked by these names, so any later call
+finds those of an earlier one. The last call that asks for a run writes the name of its batch into the run's lock file (engine.Job.claim): a job of another
+batch that starts later leaves the run alone. There may be no accounting, and Slurm forgets a job minutes after its end: how a run
 has ended is in its own folder, or in INDEX.yaml. A job that has left neither was stopped from outside. It is submitted again if the run has saved more
 since, and has failed otherwise, so there is an end.
 """
@@ -35,6 +36,7 @@ from . import engine
 
 POLL = 10.0  # seconds between looks at the queue
 LOOKS = 3  # in a row that must find a job over that has left no record: other machines see files of a shared disk late
+PATIENCE = 4 * 3600  # seconds of refusals after which a call ends: a controller may be away, or a limit on jobs in the queue be reached, for a while
 HOUR = 3600  # seconds that a batch is kept without a number: sbatch did not answer, and its jobs may still turn up in the queue
 ARRAY = 1000  # jobs of an array: what Slurm allows by default is 1001
 SECONDS = 120  # that a command of Slurm may take
@@ -53,6 +55,10 @@ class Refused(HVIError):
     """A command of Slurm failed; the message is its own"""
 
 
+class NoSlurm(HVIError):
+    """This machine has no such command"""
+
+
 def said(words):
     """what a command of Slurm prints; Refused with its message if it fails"""
     # the user's defaults would hide jobs, or wait until all have ended
@@ -60,13 +66,41 @@ def said(words):
     try:
         done = subprocess.run(words, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", timeout=SECONDS, check=False)
     except FileNotFoundError:
-        raise HVIError(f"{words[0]} is not there: --engine slurm is for a machine that can submit jobs to Slurm; --engine local runs here") from None
+        raise NoSlurm(f"{words[0]} is not there: --engine slurm is for a machine that can submit jobs to Slurm; --engine local runs here") from None
     except (OSError, subprocess.TimeoutExpired) as problem:
         raise Refused(f"{words[0]}: {problem}") from None
     if done.returncode:
         lines = [re.sub(rf"^{words[0]}: (error: |fatal: )?", "", line) for line in done.stderr.splitlines()]
         raise Refused(f"{words[0]}: {'; '.join(filter(None, lines)) or engine.said_of(done.returncode)}")
     return done.stdout
+
+
+def options(args, ranks):
+    """words of sbatch that the options of the command line ask for"""
+    try:
+        own = shlex.split(args.sbatch or "")
+    except ValueError as problem:
+        raise HVIError(f"--sbatch {args.sbatch}: {problem}") from None
+    if own and not own[0].startswith("-"):
+        raise HVIError(f"--sbatch {args.sbatch}: options of sbatch, such as --sbatch='--mem=4G --qos=long'")
+    if {"-W", "--wait"} & set(own):
+        raise HVIError(f"--sbatch={shlex.quote(args.sbatch)}: leave out {'--wait' if '--wait' in own else '-W'}: hvi itself waits for its jobs")
+    if (args.nodes or 1) > ranks:
+        raise HVIError(f"--nodes {args.nodes}: a run of {ranks} ranks has no use for so many: more --ranks, or fewer --nodes")
+    given = (("ntasks", ranks), ("nodes", args.nodes), ("time", args.time), ("partition", args.partition), ("account", args.account))
+    return [*own, *(f"--{name}={value}" for name, value in given if value)]
+
+
+def tested(words, number):
+    """a line on whether Slurm would take so many jobs with these options now; Refused if not"""
+    words = ["sbatch", *words, f"--array=0-{min(number, ARRAY) - 1}"]
+    try:
+        said([*words, "--test-only", "--wrap=true"])
+    except NoSlurm as problem:
+        return f"not checked by Slurm: {problem}"
+    except Refused as problem:
+        raise Refused(f"{problem} ({shlex.join(words)})") from None
+    return f"Slurm would take it (sbatch --test-only): {shlex.join(words)}"
 
 
 def checksum(job):
@@ -102,29 +136,20 @@ class Slurm:
     def __init__(self, args, local):
         """local: the engine that the jobs use"""
         self.local, self.folder, self.pause = local, args.runs.resolve() / ".slurm", args.poll or POLL
-        try:
-            own = shlex.split(args.sbatch or "")
-        except ValueError as problem:
-            raise HVIError(f"--sbatch {args.sbatch}: {problem}") from None
-        if own and not own[0].startswith("-"):
-            raise HVIError(f"--sbatch {args.sbatch}: options of sbatch, such as --sbatch='--mem=4G --qos=long'")
-        if {"-W", "--wait"} & set(own):
-            raise HVIError(f"--sbatch={shlex.quote(args.sbatch)}: leave out {'--wait' if '--wait' in own else '-W'}: hvi itself waits for its jobs")
-        if (args.nodes or 1) > local.ranks:
-            raise HVIError(f"--nodes {args.nodes}: a run of {local.ranks} ranks has no use for so many: more --ranks, or fewer --nodes")
-        given = (("ntasks", local.ranks), ("nodes", args.nodes), ("time", args.time), ("partition", args.partition), ("account", args.account))
-        self.words = [*own, *(f"--{name}={value}" for name, value in given if value)]
+        self.words = options(args, local.ranks)
         self.place, self.kept = {}, set()  # {job: (name of its batch, index)}; names of batches that show why a run has failed
         self.over = collections.Counter()  # looks that have found a job over, and no record
         self.unsent, self.drafts, self.has_sent = [], {}, False  # jobs to be submitted; {jobs: folder of their batch, which sbatch has refused}; whether it has taken any
-        self.numbers, self.kinds, self.problems, self.next = {}, None, {}, 0.0  # of Slurm's arrays by their names; what was said last; time of the next look
-        for program in ("sbatch", "squeue"):
+        self.numbers, self.kinds, self.problems, self.next = {}, None, {}, 0.0  # of Slurm's arrays by their names; states said last; {what is refused: (message, since when)}; time of the next look
+        for program in () if args.dry_run else ("sbatch", "squeue"):
             said([program, "--version"])
 
     def show(self, jobs):
-        """what would be submitted, and what each job runs"""
-        print(shlex.join(self.sbatch("hvi", len(jobs), self.folder)))
-        self.local.show(jobs)
+        """what would be submitted, what each job runs, whether Slurm would take it"""
+        if jobs:
+            print(shlex.join(self.sbatch("hvi", len(jobs), self.folder)))
+            self.local.show(jobs)
+            print(tested(self.words, len(jobs)), flush=True)
 
     def sbatch(self, name, number, folder):
         """ours behind the user's: the last one counts"""
@@ -139,7 +164,8 @@ class Slurm:
     def send(self, say):
         """Those that an earlier call has submitted, and that have not ended, are waited for; the others are submitted.
 
-        A refusal ends a call that has submitted nothing: its options may be wrong. Later ones may be of the moment: the next look tries again.
+        A refusal ends a call that has submitted nothing: its options may be wrong. Later ones may be of the moment: the next looks try again, for PATIENCE
+        while none of the jobs is in the queue, since with these a limit on their number ends, too.
         """
         try:
             with self.alone():
@@ -148,9 +174,9 @@ class Slurm:
         except Refused as problem:
             if not self.has_sent:
                 raise
-            self.report("submitting", f"{problem}; trying again each {self.pause:g} s", say)
+            self.refused("trying", problem, say, counts=not self.place)
         else:
-            self.problems.pop("submitting", None)
+            self.problems.pop("trying", None)
         self.unsent = [job for job in self.unsent if job not in self.place]
 
     @contextlib.contextmanager
@@ -164,29 +190,45 @@ class Slurm:
                 fcntl.flock(lock, fcntl.LOCK_EX)
             yield
 
-    def report(self, what, problem, say):
-        """once, not at each look"""
-        if self.problems.get(what) != problem:
-            say(problem)
-        self.problems[what] = problem
+    def refused(self, what, problem, say, counts=True):
+        """said once, not at each look; counts: the time, of which there is an end"""
+        said, since = self.problems.get(what, ("", time.monotonic()))
+        if counts and time.monotonic() - since > PATIENCE:
+            raise Refused(f"{problem}; no success for {engine.duration(PATIENCE)}: put that right and call again to go on; what is done is kept, and what is in the queue runs on")
+        if said != str(problem):
+            say(f"{problem}; {what} again each {self.pause:g} s")
+        self.problems[what] = str(problem), since if counts else time.monotonic()
 
     def adopt(self, jobs, say):
         wanted = {job.folder: job for job in jobs}
         batches = [batch for batch in Batch.all_in(self.folder) if any(run in wanted for run, *_ in batch.runs)]
+        for batch, job in ((batch, wanted[folder]) for batch in batches for folder, of, _ in batch.runs if folder in wanted and of == checksum(wanted[folder])):
+            if not job.batch:  # this call has just begun: before the look, since the job may start right after it
+                job.claim(batch.name)
         queue = self.queue([batch.name for batch in batches]) if batches else {}
+        own, others, where = [], [], None  # [(job, batch, index, what it had saved), ...]; jobs of another case, as scancel takes them, and the folder of one
         for batch in batches:
-            active = [index for index in range(len(batch.runs)) if self.is_active(queue.get((batch.name, index)))]
+            active, wrong = [index for index in range(len(batch.runs)) if self.is_active(queue.get((batch.name, index)))], []
             for index in active:
                 folder, of, saved = batch.runs[index]
-                if job := wanted.get(folder):
-                    number = queue[batch.name, index].job
-                    if of != checksum(job):
-                        raise HVIError(f"{folder}: another case, or another state of this one, is still in Slurm's queue for this folder: scancel {number}_{index}, or another --runs DIR")
-                    job.mark(saved)
-                    self.take(job, batch.name, index)
-                    say(f"{job.name}: in the queue already, Slurm job {number}_{index}")
+                if folder in wanted and of == checksum(wanted[folder]):
+                    own.append((wanted[folder], batch.name, index, saved))
+                elif folder in wanted:
+                    wrong.append(index)
+                    where = folder
+            if wrong:
+                number = queue[batch.name, wrong[0]].job
+                others += [number] if wrong == active else [f"{number}_{index}" for index in wrong]
             if not active:
                 self.forget(batch.name)
+        if others:
+            raise HVIError(f"{where}: another case, or another state of this one, is still in Slurm's queue for this folder: scancel {' '.join(others)}, or another --runs DIR")
+        for job, name, index, saved in own:
+            job.mark(saved)
+            if job.batch != name:  # of several batches with this run the last one that is in the queue
+                job.claim(name)
+            self.take(job, name, index)
+            say(f"{job.name}: in the queue already, Slurm job {queue[name, index].job}_{index}")
 
     def submit(self, jobs, say):
         for first in range(0, len(jobs), ARRAY):
@@ -194,11 +236,12 @@ class Slurm:
 
     def draft(self, jobs):
         """folder of a new batch"""
-        for job in jobs:
-            job.mark()
         with writing(self.folder):
             what = re.sub(r"[^\w.+-]", "-", jobs[0].folder.parent.name, flags=re.ASCII)[:40]
             folder = pathlib.Path(tempfile.mkdtemp(prefix=f"hvi-{what}-", dir=self.folder))
+            for job in jobs:
+                job.mark()
+                job.claim(folder.name)
             (folder / "runs.pickle").write_bytes(pickle.dumps((self.local, jobs)))
             (folder / "job.sh").write_text(SCRIPT.format(what=what, package=shlex.quote(str(PACKAGE.parent)), python=shlex.quote(sys.executable)))
             engine.write_yaml(folder / "runs.yaml", {"runs": [[str(job.folder), checksum(job), job.saved] for job in jobs]})
@@ -258,7 +301,7 @@ class Slurm:
         try:
             queue = self.queue(sorted({self.place[job][0] for job in jobs}))
         except Refused as problem:  # the controller is away: jobs run on, and that they are not seen says nothing
-            self.report("looking", f"{problem}; looking again each {self.pause:g} s", say)
+            self.refused("looking", problem, say)
             return []
         self.problems.pop("looking", None)
         self.tell([queue.get(self.place[job]) for job in jobs], say)

@@ -17,10 +17,7 @@ def main(index):
     job.start = None  # of the clock where it was submitted
     runs.as_interrupts()
     try:
-        if job.there() in (None, job.before) or job.begun():
-            runs.run(local, 1, [job], job.name)
-        else:  # begun by a call that did not ask the queue, such as one with --engine local: the later call counts
-            job.problem, job.advice = f"{job.folder}: another case has run here since this job was submitted", "its files are left as they are: call again to run this case"
+        runs.run(local, 1, [job], job.name)
     except HVIError as problem:
         job.problem, job.advice = str(problem), ""
     except KeyboardInterrupt:

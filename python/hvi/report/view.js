@@ -1,33 +1,39 @@
 /* lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 
    The scene of a page in 3D: particles as lit spheres (WebGL 2). report/view.py writes the page and says what is in its record.
-   A frame is one buffer, made when it is unpacked, and one instanced draw call; drawing allocates nothing. */
+   A frame is one texture of its bytes, made when it is unpacked, and one draw call; drawing allocates nothing. Three vertices of a particle read its bytes
+   themselves: instances cost several times more where WebGL is in software. */
 "use strict";
+
+const WIDTH = 2048; // of the texture of a frame, and the most rows that each WebGL 2 has: room for 200,000 particles of 20 bytes
 
 const VERTEX = `#version 300 es
 precision highp float;
-in float x, y, z, part, value;                  // place from 0 to 1 in the box of the frame; rows of the table
+#define WIDTH ${WIDTH}
 uniform sampler2D table;                        // columns: bytes; rows: fields; alpha of row 0: radius of a part over the largest
+uniform highp usampler2D frame;                 // of n particles: x, y, z, two bytes each, then a byte of each field, the part first
 uniform vec3 low, size, center, plane, cut;     // of the frame; of the view; mirror planes; cut: sign along its axis
 uniform ivec3 bits;                             // of the number of an image: is it behind the mirror plane of the axis?
 uniform mat3 turn;                              // columns: right, up, to the eye
 uniform vec3 scale;                             // lengths to clip coordinates
 uniform float largest, least, cutAt;            // radius of the largest particle; radius of a pixel
-uniform int row, images, shown;
+uniform int row, images, shown, n;
 flat out vec3 color;
 flat out float bulge;                           // radius in window depth
 out vec2 at;
+float byteOf(int k) { return float(texelFetch(frame, ivec2(k % WIDTH, k / WIDTH), 0).r); }
+float wordOf(int k) { return (byteOf(2 * k) + 256.0 * byteOf(2 * k + 1)) / 65535.0; }
 void main() {
-  int image = gl_InstanceID % images;
-  vec3 place = low + size * vec3(x, y, z);
+  int corner = gl_VertexID % 3, image = gl_VertexID / 3 % images, k = gl_VertexID / 3 / images;
+  vec3 place = low + size * vec3(wordOf(k), wordOf(n + k), wordOf(2 * n + k));
   if ((image & bits.x) != 0) place.x = 2.0 * plane.x - place.x;
   if ((image & bits.y) != 0) place.y = 2.0 * plane.y - place.y;
   if ((image & bits.z) != 0) place.z = 2.0 * plane.z - place.z;
-  vec4 look = texelFetch(table, ivec2(int(part), 0), 0);
+  vec4 look = texelFetch(table, ivec2(int(byteOf(6 * n + k)), 0), 0);
   float radius = max(largest * look.a, least);
-  color = row == 0 ? look.rgb : texelFetch(table, ivec2(int(value), row), 0).rgb;
+  color = row == 0 ? look.rgb : texelFetch(table, ivec2(int(byteOf((6 + row) * n + k)), row), 0).rgb;
   bulge = 0.5 * radius * scale.z;
-  at = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  at = corner == 2 ? vec2(0.0, 2.0) : vec2(corner == 0 ? -1.7320509 : 1.7320509, -1.0); // the triangle about the circle of radius 1
   vec3 seen = (place - center) * turn;          // components along right, up, to the eye
   gl_Position = vec4((seen.xy + radius * at) * scale.xy, -seen.z * scale.z, 1.0);
   if (image >= shown || dot(cut, place) > cutAt) gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // outside: not drawn
@@ -49,8 +55,7 @@ void main() {
   pixel = vec4(color * (0.42 + 0.66 * max(dot(normal, LIGHT), 0.0)) + 0.14 * gloss, 1.0);
 }`;
 
-const PLACES = ["x", "y", "z"]; // attributes of two bytes
-const UNIFORMS = ["table", "low", "size", "center", "plane", "cut", "bits", "turn", "scale", "largest", "least", "cutAt", "row", "images", "shown"];
+const UNIFORMS = ["table", "frame", "n", "low", "size", "center", "plane", "cut", "bits", "turn", "scale", "largest", "least", "cutAt", "row", "images", "shown"];
 
 async function unpack(text) {
   const packed = Uint8Array.from(atob(text), c => c.charCodeAt(0));
@@ -66,7 +71,6 @@ function programOf(gl) {
     if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
     gl.attachShader(program, shader);
   }
-  [...PLACES, "part", "value"].forEach((name, k) => gl.bindAttribLocation(program, k, name));
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
   return program;
@@ -84,20 +88,23 @@ async function start(root) {
   for (const name of UNIFORMS) uniform[name] = gl.getUniformLocation(program, name);
   const table = await unpack(scene.table), images = 1 << scene.mirror.length;
   gl.useProgram(program);
-  gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
-  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, 256, scene.fields.length, 0, gl.RGBA, gl.UNSIGNED_BYTE, table);
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+  const textureOf = (...image) => {
+    const texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, ...image);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+    return texture;
+  };
+  textureOf(gl.RGBA8, 256, scene.fields.length, 0, gl.RGBA, gl.UNSIGNED_BYTE, table);
+  gl.activeTexture(gl.TEXTURE1); // of the frames
+  gl.uniform1i(uniform.frame, 1);
   const bits = [0, 0, 0], planes = [0, 0, 0];
   scene.mirror.forEach(([axis, at], k) => { bits[axis] = 1 << k; planes[axis] = at; });
   gl.uniform3iv(uniform.bits, bits);
   gl.uniform3fv(uniform.plane, planes);
   gl.uniform1f(uniform.largest, scene.radius);
   gl.uniform1i(uniform.images, images);
-  for (let k = 0; k < 5; k++) {
-    gl.enableVertexAttribArray(k);
-    gl.vertexAttribDivisor(k, images); // all images of a particle are drawn from the same bytes
-  }
   gl.enable(gl.DEPTH_TEST);
   gl.clearColor(0.97, 0.973, 0.98, 1);
 
@@ -132,11 +139,10 @@ async function start(root) {
 
   const frames = [], ready = [];
   const unpackFrame = k => ready[k] ??= unpack(scene.frames[k].data).then(bytes => {
-    const buffer = gl.createBuffer(), { n, low, size } = scene.frames[k];
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, bytes, gl.STATIC_DRAW);
+    const { n, low, size } = scene.frames[k], rows = Math.ceil(bytes.length / WIDTH), full = new Uint8Array(WIDTH * rows);
+    full.set(bytes);
     scene.frames[k].data = null;
-    frames[k] = { n, buffer, low: new Float32Array(low), size: new Float32Array(size) };
+    frames[k] = { n, texture: textureOf(gl.R8UI, WIDTH, rows, 0, gl.RED_INTEGER, gl.UNSIGNED_BYTE, full), low: new Float32Array(low), size: new Float32Array(size) };
   });
 
   let due = false, field = 0, shown = images, cutAt = 0;
@@ -164,11 +170,9 @@ async function start(root) {
     gl.uniform1i(uniform.row, field);
     gl.uniform1i(uniform.shown, shown);
     gl.uniformMatrix3fv(uniform.turn, false, turn);
-    gl.bindBuffer(gl.ARRAY_BUFFER, frame.buffer);
-    for (let k = 0; k < 3; k++) gl.vertexAttribPointer(k, 1, gl.UNSIGNED_SHORT, true, 2, 2 * k * n);
-    gl.vertexAttribPointer(3, 1, gl.UNSIGNED_BYTE, false, 1, 6 * n);
-    gl.vertexAttribPointer(4, 1, gl.UNSIGNED_BYTE, false, 1, (6 + field) * n);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, n * images);
+    gl.bindTexture(gl.TEXTURE_2D, frame.texture);
+    gl.uniform1i(uniform.n, n);
+    gl.drawArrays(gl.TRIANGLES, 0, 3 * n * images);
   };
   const redraw = () => {
     if (!due) { due = true; requestAnimationFrame(draw); }
