@@ -472,7 +472,7 @@ void HVISchemeSolid::artificial_stress()
                    dp, itype, set.h[itype]);
       f = -laws.art_eps / std::pow(w, laws.art_n);
     }
-    records.art[i] = {f * T.xx, f * T.yy, f * T.zz, f * T.xy, f * T.xz, f * T.yz, 0.0, 0.0};
+    records.art[i] = {f * T.xx, f * T.yy, f * T.zz, f * T.xy, f * T.xz, f * T.yz, {}};
   }
 }
 
