@@ -45,7 +45,8 @@ static constexpr double LARGE_DRIFT = 0.01;    // of the energy in a run: is war
 /* ---------------------------------------------------------------------- */
 
 ComputeHVIEnergy::ComputeHVIEnergy(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), ledger(nullptr), clampbit(0), run_start(HUGE_VAL), warned(false)
+    Compute(lmp, narg, arg), ledger(nullptr), clampbit(0), run_start(HUGE_VAL),
+    last(0.0), before(0.0), warned(false)
 {
   if (igroup != 0)
     error->all(FLERR, "Compute hvi/energy is the ledger of the whole system: group must be all");
@@ -104,6 +105,7 @@ void ComputeHVIEnergy::init()
 
 void ComputeHVIEnergy::setup()
 {
+  if (run_start != HUGE_VAL) before += last - run_start;
   run_start = HUGE_VAL;
   if (update->eflag_global == update->ntimestep) compute_vector();
   invoked_vector = -1;
@@ -127,7 +129,7 @@ void ComputeHVIEnergy::warn(double drift)
   if (comm->me == 0)
     error->warning(
         FLERR,
-        "Compute hvi/energy: {:.3g} of the energy has {} since the run began, at step {}: does "
+        "Compute hvi/energy: {:.3g} of the energy has {} during runs, up to step {}: does "
         "another fix do work (a thermostat, a wall that moves: see keyword clamps) or "
         "bring particles, or is the time step too long?",
         std::fabs(drift), drift > 0.0 ? "come" : "gone", update->ntimestep);
@@ -207,8 +209,9 @@ void ComputeHVIEnergy::compute_vector()
   for (int k = 0; k < 3; k++) vector[P0X + k] = start[1 + k];
   vector[MASS0] = start[4];
   if (run_start == HUGE_VAL) run_start = vector[TOTAL];
+  last = vector[TOTAL];
   double scale = std::fabs(run_start);
   for (int n = KINETIC; n <= SPRING; n++) scale = std::max(scale, std::fabs(vector[n]));
-  const double drift = vector[TOTAL] - run_start;
+  const double drift = before + last - run_start;
   if (!warned && std::fabs(drift) > LARGE_DRIFT * scale) warn(drift / scale);
 }

@@ -31,7 +31,8 @@ class ComputeHVIEnergy : public Compute {
  private:
   class FixHVILedger *ledger;
   int clampbit;        // groups named by clamps
-  double run_start;    // total when this run began
+  double run_start, last;    // total when this run began, and at the last look
+  double before;             // what has come in earlier runs; not what commands between them have done
   bool warned;
 
   void warn(double drift);

@@ -156,7 +156,14 @@ def test_another_integrator_of_other_particles(lmp):
 def test_energy_that_another_fix_takes(lmp, nranks):
     """once, whatever follows"""
     said = set(warnings(lmp(scene("fix n all langevin 300 300 1e-6 4711", WITHOUT), nranks=nranks), "Compute hvi/energy"))
-    assert len(said) == 1 and re.search(r"Compute hvi/energy: 0\.\d+ of the energy has gone since the run began, at step \d+: does another fix do work", said.pop())
+    assert len(said) == 1 and re.search(r"Compute hvi/energy: 0\.\d+ of the energy has gone during runs, up to step \d+: does another fix do work", said.pop())
+
+
+def test_energy_that_goes_slowly_over_many_runs(lmp):
+    """less than a hundredth of it in each run, which none of them would tell by itself"""
+    (said,) = set(warnings(lmp(scene("thermo 5\nfix n all langevin 300 300 3e-4 4711", WITHOUT, steps=5) + 9 * "run 5\n"), "Compute hvi/energy"))
+    gone, step = re.search(r"Compute hvi/energy: (0\.\d+) of the energy has gone during runs, up to step (\d+):", said).groups()
+    assert 0.01 < float(gone) < 0.015 and int(step) >= 20, said
 
 
 @pytest.mark.parametrize("nranks", [1, 2])
