@@ -20,7 +20,7 @@ from solid_scenes import MATERIAL  # noqa: E402
 
 
 def _built(variable, name):
-    path = pathlib.Path(os.environ.get(variable, ROOT / "build" / name))
+    path = ROOT / os.environ.get(variable, f"build/{name}")  # which may be absolute
     if not path.exists():
         pytest.fail(f"{path} does not exist: run make first, or set {variable}", pytrace=False)
     return path
@@ -45,6 +45,12 @@ def root():
 def lmp_exe():
     """LAMMPS with the package built in"""
     return _built("HVI_LMP", "lmp")
+
+
+@pytest.fixture(scope="session")
+def lmp_portable(lmp_exe):
+    """one for any machine (make build PORTABLE=yes BUILD=build-portable), if HVI_LMP_PORTABLE names it, else lmp_exe"""
+    return _built("HVI_LMP_PORTABLE", "") if "HVI_LMP_PORTABLE" in os.environ else lmp_exe
 
 
 @pytest.fixture(scope="session")

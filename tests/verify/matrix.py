@@ -22,6 +22,8 @@ import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OUT = ROOT / "build-matrix"
+TESTED = ("tests/unit", "tests/style", "tests/lib", "tests/conftest.py", "tests/CMakeLists.txt", "tests/force-styles", "examples/single-plate/in.plate",
+          "examples/standard-shocks", "potentials", "Makefile")  # what the tests below read
 COMPILERS = ("g++", "clang++")
 VERSIONS = {"20250204": "4 Feb 2025", "20260704": "4 Jul 2026"}
 FORMS = ("built in", "plugin")
@@ -42,7 +44,7 @@ def cells():
 
 def sources():
     """hash of what cells are made of"""
-    files = subprocess.run(["git", "ls-files", "src", "lib", "cmake", "tests/unit", "tests/style", "tests/lib", "tests/conftest.py", "potentials", "Makefile"], cwd=ROOT, text=True, capture_output=True, check=True).stdout.split()
+    files = subprocess.run(["git", "ls-files", "src", "lib", "cmake", *TESTED], cwd=ROOT, text=True, capture_output=True, check=True).stdout.split()
     h = hashlib.sha256()
     for f in sorted(files):
         if (ROOT / f).exists():

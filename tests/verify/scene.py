@@ -18,6 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests/lib")]
 
 import chromium  # noqa: E402
+from hvi.io import packed  # noqa: E402
 from hvi.io.dump import Dump  # noqa: E402
 from hvi.progress import Silent  # noqa: E402
 from hvi.report import view  # noqa: E402
@@ -91,6 +92,8 @@ def ball(number):
 
 
 def speed(number, out):
+    if number > packed.PARTICLES:
+        raise SystemExit(f"scene.py: of more than {packed.PARTICLES} particles the scene leaves some out")
     with tempfile.TemporaryDirectory() as folder, chromium.Chromium() as browser:
         x, dump, page = ball(number), pathlib.Path(folder, "ball.dump"), pathlib.Path(folder, "ball.html")
         rows = np.random.default_rng(1).permutation(np.column_stack([np.arange(1, number + 1), 1 + (x[:, 2] > 0), x, 1e3 * x]))  # in no order, as particles of a run after a while
@@ -108,6 +111,7 @@ def speed(number, out):
 def main(words):
     if not chromium.found():
         print("scene.py: skipped, chromium is not there (Debian: apt-get install chromium)")
+        raise SystemExit(77)  # as tests/verify/whole.py knows it
     elif len(words) == 3 and words[0] == "picture":
         picture(words[1], words[2])
     elif len(words) == 3 and words[0] == "speed" and words[1].isdigit():

@@ -1,6 +1,5 @@
 """Small runs under valgrind: no read of memory that was not written or is not there. Sanitizers see the latter only."""
 
-import os
 import pathlib
 import shutil
 import signal
@@ -15,18 +14,17 @@ SUPPRESSIONS = ["/usr/share/openmpi/openmpi-valgrind.supp", pathlib.Path(__file_
 
 
 @pytest.fixture
-def watched(lmp_exe, tmp_path):
+def watched(lmp_portable, tmp_path):
     """a program that runs LAMMPS under valgrind"""
     valgrind = shutil.which("valgrind")
     if not valgrind:
         pytest.skip("no valgrind (Debian: apt-get install valgrind)")
-    portable = os.environ.get("HVI_LMP_PORTABLE", str(lmp_exe))
-    tried = subprocess.run([valgrind, "-q", portable, "-h"], capture_output=True, text=True)
+    tried = subprocess.run([valgrind, "-q", lmp_portable, "-h"], capture_output=True, text=True)
     if tried.returncode == -signal.SIGILL:
         pytest.skip("this valgrind does not know all instructions of this processor: make build PORTABLE=yes BUILD=build-portable, then HVI_LMP_PORTABLE=build-portable/lmp")
     assert tried.returncode == 0, tried.stderr
     script = tmp_path / "lmp"
-    script.write_text(f'#!/bin/sh\nexec {valgrind} -q --error-exitcode={FOUND} {" ".join(f"--suppressions={s}" for s in SUPPRESSIONS)} --log-file=valgrind.%p.log {portable} "$@"\n')
+    script.write_text(f'#!/bin/sh\nexec {valgrind} -q --error-exitcode={FOUND} {" ".join(f"--suppressions={s}" for s in SUPPRESSIONS)} --log-file=valgrind.%p.log {lmp_portable} "$@"\n')
     script.chmod(0o755)
     return script
 
