@@ -81,7 +81,7 @@ class Record:
         for k, row in enumerate(self.rows, 2):
             if not isinstance(row, dict) or not {"command", "commit", "machine", "load", "row"} <= set(row) <= KNOWN:
                 raise Wrong(f"{self.where} line {k}: keys must be command, commit, machine, load, row and optionally folder, keys")
-            if not re.fullmatch(r"((up to )?[0-9a-f]{7,40}(-dirty)?)?", row["commit"]):
+            if not isinstance(row["commit"], str) or not re.fullmatch(r"((up to )?[0-9a-f]{7,40}(-dirty)?)?", row["commit"]):
                 raise Wrong(f"{self.where} line {k}: commit must be as abc1234, abc1234-dirty, up to abc1234 or empty, not {row['commit']!r}")
             if row["load"] not in ("idle", "busy", ""):
                 raise Wrong(f"{self.where} line {k}: load must be idle, busy or empty, not {row['load']!r}")

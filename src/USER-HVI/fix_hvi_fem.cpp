@@ -21,6 +21,7 @@
 #include "fix_hvi_store.h"
 #include "force.h"
 #include "group.h"
+#include "hvi_cite.h"
 #include "hvi_restart.h"
 #include "memory.h"
 #include "modify.h"
@@ -49,6 +50,7 @@ FixHVIFEM::FixHVIFEM(LAMMPS *lmp, int narg, char **arg) :
                "theirs",
                group->names[igroup]);
   read_options(narg, arg);
+  HVI::cite(lmp->citeme);
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR, "Fix hvi/fem needs atom_style sph");
   if (atom->map_style == Atom::MAP_NONE)

@@ -980,6 +980,7 @@ void PairHVISPH::read_restart_settings(FILE *fp)
     set.mirror.at[k] = values[7 + k];
     set.mirror.side[k] = values[10 + k];
   }
+  HVI::cite(lmp->citeme, set.density ? HVI::CITE_ZISIS : nullptr);
   no_virial_fdotr_compute = set.mirror.planes ? 1 : 0;
   const HVI::KernelFunctions &kernel = *HVI::find_kernel(set.kernel);
   set.support = kernel.support;

@@ -158,7 +158,7 @@ def rates(s, eos, kernel, form="sum", visc=(1.0, 2.0), alpha=0.0, tension=True, 
         alpha_i = alpha_j = alpha
         if alpha == "auto":
             z, dp = s.rho * c, np.abs(p[i] - p[j])
-            excess = np.maximum(0, dp - bonded * np.minimum(z[i], z[j]) * np.sqrt((vij**2).sum(1))) / dp
+            excess = np.maximum(0, dp - bonded * np.minimum(z[i], z[j]) * np.sqrt((vij**2).sum(1))) / np.where(dp == 0, 1, dp)
             alpha_i, alpha_j = (2 * cij * s.rho[k] * excess / (z[i] + z[j]) for k in (i, j))
         phi = (p[i] - p[j]) / cij * dWdr * open_
         drho_i, drho_j = drho_i + alpha_i * phi * V[j], drho_j - alpha_j * phi * V[i]

@@ -79,7 +79,9 @@ def test_citations(lmp, tmp_path, root):
     sph = "units si\natom_style sph\nregion box block 0 1 0 1 0 1\ncreate_box 1 box\npair_style hvi/sph cubic{}\n"
     solid = sph.format(" dissipation riemann") + f"pair_coeff 1 1 file {root}/potentials/Al6061-T6.hvi spacing 0.1\nfix 1 all hvi/sph\n"
     dem = "units si\natom_style bond\nregion box block 0 1 0 1 0 1\ncreate_box 1 box bond/types 1\npair_style hvi/contact\nbond_style hvi/spring\n"
-    for text, papers in ((sph.format(""), []), (sph.format(" interface 0.3"), ["Zisis2013"]),
+    again = sph.format(" interface 0.3") + "mass 1 1\npair_coeff 1 1 eos tait 1000 1480 7 h 0.1\ncreate_atoms 1 single 0.5 0.5 0.5\nwrite_restart half\n"
+    lmp(again)
+    for text, papers in (("read_restart half\n", ["Zisis2013"]), (sph.format(""), []), (sph.format(" interface 0.3"), ["Zisis2013"]),
                          (solid, []), (solid + "fix 2 all hvi/johnson-cook damage yes\n", ["JohnsonCook1985"]), (dem, ["Watson2017"]), (dem + "clear\n" + sph.format(""), ["Watson2017"])):
         lmp(text, extra=["-cite", "cite.bib"])
         keys = re.findall(r"^@\w+\{(.*?),$", (tmp_path / "cite.bib").read_text(), re.M)
