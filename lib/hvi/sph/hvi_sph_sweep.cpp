@@ -19,9 +19,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
-
-extern template class std::vector<int>;    // at the end of the file, but not for AVX2
 
 namespace HVI {
 
@@ -51,15 +48,14 @@ namespace {
      of the neighbors of a particle in an element those that are not in elements of the same body
   ------------------------------------------------------------------------- */
 
-  void outside(const SphWork &work, int i, const int *jlist, int jnum, std::vector<int> &free)
+  int outside(const SphWork &work, int i, const int *jlist, int jnum, int *free)
   {
     int n = 0;
-    free.resize(jnum);
     for (int jj = 0; jj < jnum; jj++) {
       const int j = jlist[jj] & NEIGHBOR_INDEX;
       if (!work.in_elements_together(i, j)) free[n++] = j;
     }
-    free.resize(n);
+    return n;
   }
 
   /* ----------------------------------------------------------------------
@@ -144,13 +140,11 @@ namespace {
     SphNear near;
     near.fastest = Vec{} + work.fastest;
     std::size_t nkept = 0;
-    std::vector<int> free;
 
     if (pass == FIRST) {
       std::size_t most = 0;
       for (int ii = 0; ii < list.inum; ii++) most += list.numneigh[list.ilist[ii]];
-      if (most > kept.j.size()) kept.j.resize(1.1 * most);
-      if ((std::size_t) list.inum > kept.number.size()) kept.number.resize(1.1 * list.inum);
+      kept.make_room(most, list.inum);
     }
 
     for (int ii = 0; ii < list.inum; ii++) {
@@ -160,9 +154,9 @@ namespace {
       int jnum = pass == SECOND ? kept.number[ii] : list.numneigh[i];
       const bool held = work.embedded && work.embedded[i];
       if (held && pass != SECOND) {
-        outside(work, i, jlist, jnum, free);
-        jlist = free.data();
-        jnum = free.size();
+        int *const free = kept.room_for(jnum);
+        jnum = outside(work, i, jlist, jnum, free);
+        jlist = free;
       }
       Record sum = {};
 
@@ -196,9 +190,14 @@ namespace {
       nkept += found;
       if (work.images) {
         const std::vector<int> &also = work.images->near(i, jlist, jnum);
-        if (held) outside(work, i, also.data(), also.size(), free);
-        const std::vector<int> &those = held ? free : also;
-        if (!those.empty()) visit(those.data(), those.size(), ONLY);
+        const int *those = also.data();
+        int n = also.size();
+        if (held) {
+          int *const free = kept.room_for(n);
+          n = outside(work, i, those, n, free);
+          those = free;
+        }
+        if (n) visit(those, n, ONLY);
       }
       for (int k = 0; k < (int) (sizeof(Record) / sizeof(Vec4)); k++)
         part(&records[i], k) += part(&sum, k);
@@ -323,7 +322,3 @@ std::unique_ptr<SphSweeps> make_sph_sweeps(const std::string &kernel, int scene)
 #endif
 
 }    // namespace HVI
-
-#if !defined(HVI_SWEEPS_AVX2)
-template class std::vector<int>;
-#endif

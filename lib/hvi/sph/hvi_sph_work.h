@@ -24,11 +24,14 @@ struct SphList {
   const int *const *firstneigh;
 };
 
-// those of the list within reach, in its order: kept by a first sweep for a second one in the same step
+// those of the list within reach, in its order: kept by a first sweep for a second one in the same step;
+// and room for some neighbors of one particle
 
 struct SphKept {
-  std::vector<int> j, number;
-  double bytes() const { return (j.capacity() + number.capacity()) * sizeof(int); }
+  std::vector<int> j, number, some;
+  void make_room(std::size_t pairs, std::size_t particles);
+  int *room_for(std::size_t some_neighbors);
+  double bytes() const { return (j.capacity() + number.capacity() + some.capacity()) * sizeof(int); }
 };
 
 // is told about pairs; d from j to i, f on i
@@ -88,7 +91,7 @@ struct SphWork {
 
 class SphSweeps {
  public:
-  virtual ~SphSweeps() = default;
+  virtual ~SphSweeps();
   virtual int scene() const = 0;       // bits of SphScene: those asked for, and maybe more
   virtual bool vectors() const = 0;    // of pairs; else pair by pair: see hvi_sph_reference.h
   virtual void first(SphWork &) const = 0;
