@@ -5,6 +5,7 @@ import hashlib
 import http.server
 import os
 import subprocess
+import tarfile
 import threading
 
 import pytest
@@ -203,3 +204,16 @@ def test_missing_packages_without_root(root, tmp_path):
                        env={**os.environ, "PATH": f"{fake}:{os.environ['PATH']}", "DEPS": "yes"})
     assert r.returncode == 1
     assert len(r.stderr.splitlines()) == 1 and "apt-get install" in r.stderr and "libopenmpi-dev" in r.stderr
+
+
+def test_source_archive(root, tmp_path):
+    """make dist: what git has of the last commit, in a folder with the version, and its checksum"""
+    if subprocess.run(["git", "-C", root, "rev-parse", "HEAD"], capture_output=True).returncode:
+        pytest.skip("not a clone")
+    subprocess.run(["make", "dist", f"BUILD={tmp_path}"], cwd=root, check=True, capture_output=True)
+    (archive,) = tmp_path.glob("lammps-hvi-*.tar.gz")
+    subprocess.run(["sha256sum", "--check", f"{archive.name}.sha256"], cwd=tmp_path, check=True, capture_output=True)
+    with tarfile.open(archive) as tar:
+        names = {member.name.removeprefix(archive.name.removesuffix(".tar.gz") + "/") for member in tar if member.isfile()}
+    tracked = subprocess.run(["git", "-C", root, "ls-tree", "-r", "-z", "--name-only", "HEAD"], check=True, capture_output=True, text=True).stdout
+    assert names == set(tracked.split("\0")) - {""}
