@@ -226,6 +226,32 @@ def test_the_controller_is_away(folder, waiting, capsys, monkeypatch):
     assert len(calls(waiting)) == 1
 
 
+def test_the_controller_is_away_while_jobs_are_in_the_queue(folder, waiting, capsys, monkeypatch):
+    """a call that has submitted nothing itself waits on, too, for as long as it takes; so it does where it has another job to submit"""
+    monkeypatch.setattr(slurm, "PATIENCE", -1)  # a time that counts would end the call
+    monkeypatch.setattr(slurm, "LOOKS", 1)
+    monkeypatch.setattr(engine.Job, "has_saved_more", lambda job: True)
+    monkeypatch.setenv("FAKE_PLAN", "wait run")
+    ended, looks, queue = slurm.Slurm.ended, [], waiting / "queue"
+
+    def away(self, jobs, say):
+        looks.append(len(self.unsent))
+        if len(looks) == 3:
+            queue.write_text(queue.read_text().replace("|0|1|PENDING|Resources", "|0|1|TIMEOUT|None"))
+        if len(looks) == 5:
+            monkeypatch.setenv("FAKE_START", "yes")
+        if len(looks) in (1, 4):
+            (waiting / "away").write_text("")
+        self.next = 0.0
+        return ended(self, jobs, say)
+
+    monkeypatch.setattr(slurm.Slurm, "ended", away)
+    assert front("shield", *SUBMIT) == UNDECIDED
+    out = capsys.readouterr().out
+    assert looks[:5] == [0, 0, 0, 1, 1] and out.count("; looking again each 0.01 s\n") == 1 and out.count("; trying again each 0.01 s\n") == 1
+    assert len(calls(waiting)) == 2 and list(tries(folder).values()) == [1, 1] and batches(folder) == []
+
+
 def test_left_by_a_kill(folder, fake):
     """between folder and sbatch: what is not complete is passed over"""
     for name, text in (("hvi-emi-1", None), ("hvi-emi-2", ""), ("hvi-emi-3", "runs: [[5]]\n")):

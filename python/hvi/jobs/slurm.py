@@ -36,7 +36,7 @@ from . import engine
 
 POLL = 10.0  # seconds between looks at the queue
 LOOKS = 3  # in a row that must find a job over that has left no record: other machines see files of a shared disk late
-PATIENCE = 4 * 3600  # seconds of refusals after which a call ends: a controller may be away, or a limit on jobs in the queue be reached, for a while
+PATIENCE = 4 * 3600  # seconds of refusals after which a call without jobs in the queue ends: a controller may be away, or a limit on jobs in the queue be reached, for a while
 HOUR = 3600  # seconds that a batch is kept without a number: sbatch did not answer, and its jobs may still turn up in the queue
 ARRAY = 1000  # jobs of an array: what Slurm allows by default is 1001
 SECONDS = 120  # that a command of Slurm may take
@@ -164,15 +164,15 @@ class Slurm:
     def send(self, say):
         """Those that an earlier call has submitted, and that have not ended, are waited for; the others are submitted.
 
-        A refusal ends a call that has submitted nothing: its options may be wrong. Later ones may be of the moment: the next looks try again, for PATIENCE
-        while none of the jobs is in the queue, since with these a limit on their number ends, too.
+        A refusal ends a call that has submitted nothing and waits for no job: its options may be wrong. Others may be of the moment: the next looks try again, for
+        PATIENCE while none of the jobs is in the queue, since with these a limit on their number ends, too.
         """
         try:
             with self.alone():
                 self.adopt(self.unsent, say)
                 self.submit([job for job in self.unsent if job not in self.place], say)
         except Refused as problem:
-            if not self.has_sent:
+            if not self.has_sent and not self.place:
                 raise
             self.refused("trying", problem, say, counts=not self.place)
         else:
@@ -190,7 +190,7 @@ class Slurm:
                 fcntl.flock(lock, fcntl.LOCK_EX)
             yield
 
-    def refused(self, what, problem, say, counts=True):
+    def refused(self, what, problem, say, counts):
         """said once, not at each look; counts: the time, of which there is an end"""
         said, since = self.problems.get(what, ("", time.monotonic()))
         if counts and time.monotonic() - since > PATIENCE:
@@ -254,8 +254,7 @@ class Slurm:
         try:
             number = self.numbers[folder.name] = said(self.sbatch(folder.name, len(jobs), folder)).strip().partition(";")[0]
         except Refused as problem:  # the folder stays: after a timeout jobs may be in the queue nevertheless, and the next look or call finds them
-            stay = "; runs that are in the queue stay there: call again to go on" if self.place and not self.has_sent else ""
-            raise Refused(f"{problem} ({shlex.join(['sbatch', *self.words])}){stay}") from None
+            raise Refused(f"{problem} ({shlex.join(['sbatch', *self.words])})") from None
         del self.drafts[tuple(jobs)]
         self.has_sent = True
         with writing(folder):
@@ -301,7 +300,7 @@ class Slurm:
         try:
             queue = self.queue(sorted({self.place[job][0] for job in jobs}))
         except Refused as problem:  # the controller is away: jobs run on, and that they are not seen says nothing
-            self.refused("looking", problem, say)
+            self.refused("looking", problem, say, counts=False)
             return []
         self.problems.pop("looking", None)
         self.tell([queue.get(self.place[job]) for job in jobs], say)
