@@ -44,6 +44,11 @@ def batches(folder):
     return sorted(path.name for path in folder.glob("runs/.slurm/hvi-*"))
 
 
+def claims(folder):
+    """the batch that has each run"""
+    return {path.name: path.read_text().split()[-1] for path in folder.glob("runs/emi/.*.lock")}
+
+
 def records(folder):
     """what is compared of two engines: verdict and table; times are the fake's, so the same"""
     said = yaml.safe_load((folder / "verdict.yaml").read_text())
@@ -226,6 +231,61 @@ def test_the_controller_is_away(folder, waiting, capsys, monkeypatch):
     assert len(calls(waiting)) == 1
 
 
+@pytest.mark.parametrize("name", ["hvi-emi--", "hvi-emi-zzzzzzzzz"])
+def test_claim_of_a_waiting_job_stays(folder, waiting, monkeypatch, name):
+    """a run that has ended in one batch, where another one waits yet, waits in a second batch: further calls leave it to that, whatever the order of names, also where they
+    cannot ask the queue, or find both jobs in it"""
+    queue, ended = waiting / "queue", slurm.Slurm.ended
+    queue.write_text(queue.read_text().replace("|0|1|PENDING|Resources", "|0|1|TIMEOUT|None"))
+
+    def interrupt(self, jobs, say):
+        ended(self, jobs, say)
+        raise KeyboardInterrupt
+
+    def named(prefix, dir):
+        assert name.startswith(prefix)
+        (dir / name).mkdir()
+        return dir / name
+
+    with monkeypatch.context() as only:
+        only.setattr(slurm.Slurm, "ended", interrupt)
+        only.setattr(slurm.tempfile, "mkdtemp", named)
+        assert front("shield", *SUBMIT) == 130 and len(calls(waiting)) == 2
+        before = claims(folder)
+        assert before[".dx-0.4_shift-0.0.lock"] == name != before[".dx-0.4_shift-0.5.lock"]
+        (waiting / "away").write_text("")
+        assert front("shield", *SUBMIT) == 1 and claims(folder) == before
+        queue.write_text(queue.read_text().replace("|0|1|TIMEOUT|None", "|0|1|PENDING|Resources"))
+        assert front("shield", *SUBMIT) == 130 and claims(folder) == before
+    assert os.system(f"cd '{folder}/runs/.slurm/{name}' && SLURM_ARRAY_TASK_ID=0 sh job.sh >/dev/null") == 0 and list(tries(folder).values()) == [1]
+
+
+def test_the_controller_is_away_while_jobs_are_in_the_queue(folder, waiting, capsys, monkeypatch):
+    """a call that has submitted nothing itself waits on, too, for as long as it takes; so it does where it has another job to submit"""
+    monkeypatch.setattr(slurm, "PATIENCE", -1)  # a time that counts would end the call
+    monkeypatch.setattr(slurm, "LOOKS", 1)
+    monkeypatch.setattr(engine.Job, "has_saved_more", lambda job: True)
+    monkeypatch.setenv("FAKE_PLAN", "wait run")
+    ended, looks, queue = slurm.Slurm.ended, [], waiting / "queue"
+
+    def away(self, jobs, say):
+        looks.append(len(self.unsent))
+        if len(looks) == 3:
+            queue.write_text(queue.read_text().replace("|0|1|PENDING|Resources", "|0|1|TIMEOUT|None"))
+        if len(looks) == 5:
+            monkeypatch.setenv("FAKE_START", "yes")
+        if len(looks) in (1, 4):
+            (waiting / "away").write_text("")
+        self.next = 0.0
+        return ended(self, jobs, say)
+
+    monkeypatch.setattr(slurm.Slurm, "ended", away)
+    assert front("shield", *SUBMIT) == UNDECIDED
+    out = capsys.readouterr().out
+    assert looks[:5] == [0, 0, 0, 1, 1] and out.count("; looking again each 0.01 s\n") == 1 and out.count("; trying again each 0.01 s\n") == 1
+    assert len(calls(waiting)) == 2 and list(tries(folder).values()) == [1, 1] and batches(folder) == []
+
+
 def test_left_by_a_kill(folder, fake):
     """between folder and sbatch: what is not complete is passed over"""
     for name, text in (("hvi-emi-1", None), ("hvi-emi-2", ""), ("hvi-emi-3", "runs: [[5]]\n")):
@@ -244,7 +304,7 @@ def test_another_case_has_run_since(folder, waiting, monkeypatch):
     slurm.said(["squeue", "--name=none"])
     assert {path: path.read_bytes() for path in folder.glob("runs/emi/*/*")} == before
     for path in (folder / "runs/.slurm" / batches(folder)[0] / f"{index}.yaml" for index in range(2)):
-        assert yaml.safe_load(path.read_text())["problem"].endswith(": a later call has asked for this run since this job was submitted")
+        assert yaml.safe_load(path.read_text())["problem"].endswith(": a later call has asked for this run")
 
 
 def test_changed_and_changed_back(folder, waiting, monkeypatch):
@@ -353,23 +413,114 @@ def test_refused_again_and_again(folder, fake, capsys, monkeypatch):
     assert [out.count(f"\n{program}: ") for program in ("sbatch", "squeue")] == [1, 1] and out.count("trying again") == 2 and sends == [0, 0, 1, 1, 1, 1] and len(calls(fake)) == 2 and batches(folder) == []
 
 
-def test_a_call_that_waits_is_not_the_last(folder, fake, capsys, monkeypatch):
-    """what it submits after another call has asked for its run leaves the run to that"""
+def test_two_calls_for_the_same_state_are_refused(folder, fake, monkeypatch):
+    """the one whose jobs Slurm takes has the run, though the other one has claimed it since"""
     send, sends = slurm.Slurm.send, []
 
-    def another_asks(self, say):
+    def another_claims(self, say):
         sends.append(batches(folder))
         if len(sends) == 2:
             (fake / "busy").write_text("")
         if len(sends) == 3:
-            (lock,) = (path for path in folder.glob("runs/emi/.*.lock") if path.read_text() == sends[2][0])
-            lock.write_text("hvi-emi-later")
+            shutil.copytree(folder / "runs/.slurm" / sends[2][0], folder / "runs/.slurm/hvi-emi-other")
+            self.unsent[0].claim("hvi-emi-other")
         send(self, say)
 
-    monkeypatch.setattr(slurm.Slurm, "send", another_asks)
+    monkeypatch.setattr(slurm.Slurm, "send", another_claims)
+    assert front("shield", *SUBMIT, "--jobs", "1") == UNDECIDED
+    assert len(sends) == 3 and len(calls(fake)) == 2 and list(tries(folder).values()) == [1, 1] and "hvi-emi-other" not in claims(folder).values()
+
+
+EDITED = CASE.replace("speed_km_s: 7.1", "speed_km_s: 7")
+
+
+def speeds(folder):
+    """v0 of what has been run last in each folder"""
+    return {path.parent.name: yaml.safe_load(path.read_text())["variables"]["v0"] for path in folder.glob("runs/**/job.yaml")}
+
+
+@pytest.mark.parametrize("hour", [-1, 3600])
+def test_later_call_while_one_is_refused(folder, fake, capsys, monkeypatch, hour):
+    """what it has run stays, however long the refusal has taken; the same folder of a batch is for all tries"""
+    monkeypatch.setattr(slurm, "HOUR", hour)
+    send, sends = slurm.Slurm.send, []
+
+    def refused_until_a_later_call(self, say):
+        sends.append(batches(folder))
+        if len(sends) in (2, 3):
+            (fake / "busy").write_text("")
+        if len(sends) == 4:
+            (folder / "emi.yaml").write_text(EDITED)
+            assert front("shield", "--ranks", "3") == UNDECIDED
+        send(self, say)
+
+    monkeypatch.setattr(slurm.Slurm, "send", refused_until_a_later_call)
     assert front("shield", *SUBMIT, "--jobs", "1") == 1
-    assert capsys.readouterr().out.count(": a later call has asked for this run since this job was submitted; its files are left as they are") == 1
-    assert len(sends) == 3 and len(calls(fake)) == 2 and sum(tries(folder).values()) == 1
+    assert capsys.readouterr().out.count(": a later call has asked for this run; its files are left as they are: call again to run this case") == 1
+    assert len(sends) == 4 and sends[2] == sends[3] != [] and len(calls(fake)) == 1
+    assert list(speeds(folder).values()) == [7000] * 2 and len([*folder.glob("runs/emi/*/result.yaml")]) == 2
+
+
+@pytest.mark.parametrize("engine_of", [runs.Local, slurm.Slurm])
+@pytest.mark.parametrize("words", [("shield",), ("limit", "--on", "D", "--from", "3", "--to", "6", "--step", "1")])
+def test_later_call_before_a_run_is_begun(folder, fake, capsys, monkeypatch, engine_of, words):
+    """a call that comes to a run after one that began later has run it leaves it alone; a search does so, too, which did not know before which runs it wants"""
+    begin, left = engine_of.begin, []
+
+    def second_is_late(self, jobs, say):
+        if not left and tries(folder):
+            (folder / "emi.yaml").write_text(EDITED)
+            left.append(0)
+            assert front(*words, "--ranks", "3") in (0, UNDECIDED)
+            left.append(speeds(folder))
+        begin(self, jobs, say)
+
+    monkeypatch.setattr(engine_of, "begin", second_is_late)
+    assert front(*words, *(SUBMIT if engine_of is slurm.Slurm else ("--ranks", "3")), "--jobs", "1") == 1
+    assert ": a later call has asked for this run; its files are left as they are" in capsys.readouterr().out
+    assert {name: speed for name, speed in speeds(folder).items() if speed == 7000} == left[1]
+
+
+def test_which_call_counts(folder):
+    """of calls for another state the one that began last; calls for the same state share it, and the later one is not forgotten"""
+    (folder / "in.main").write_text("variable v index 1\n")
+
+    def job(began, v):
+        made = engine.Job(engine.Input(folder / "in.main"), "a", {"v": v}, folder / "a")
+        made.began = began
+        return made
+
+    first, second, same = job(1, 1), job(2, 2), job(1, 2)
+    assert not first.is_of_later_call() and first.last_claim() == (0, "", "")
+    first.claim("hvi-1")
+    assert not second.is_of_later_call() and first.last_claim() == (1, first.key(), "hvi-1")
+    second.claim()
+    assert first.is_of_later_call() and not second.is_of_later_call() and not same.is_of_later_call()
+    same.claim("hvi-3")
+    assert first.is_of_later_call() and first.last_claim() == (2, second.key(), "hvi-3")
+
+
+def test_claim_is_never_half_written(folder):
+    """a job that reads it at that moment would leave its run; the file, which is locked while a process is at the run, stays"""
+    (folder / "in.main").write_text("")
+    job = engine.Job(engine.Input(folder / "in.main"), "a", {}, folder / "a")
+    job.claim("hvi-emi-0")
+    os.utime(job.lock_file, (0, 0))
+    before, over, found = os.stat(job.lock_file), threading.Event(), set()
+    job.claim("hvi-emi-0")
+    assert os.stat(job.lock_file).st_mtime_ns == 0  # nothing new, nothing written
+
+    def read():
+        while not over.is_set():
+            found.add(job.last_claim().batch)
+
+    reader = threading.Thread(target=read)
+    reader.start()
+    for k in range(2000):
+        job.claim(f"hvi-emi-{k % 2}")
+    over.set()
+    reader.join()
+    assert found <= {"hvi-emi-0", "hvi-emi-1"} and os.stat(job.lock_file).st_ino == before.st_ino
 
 
 def test_refused_for_good(folder, fake, capsys, monkeypatch):

@@ -6,6 +6,7 @@ and material files were the same. One that was interrupted goes on from its rest
 what runs; what another process is still at (after kill -9 of the first) is waited for.
 """
 
+import collections
 import contextlib
 import fcntl
 import hashlib
@@ -30,6 +31,9 @@ ENDED_BY_SLURM = {-signal.SIGTERM, -signal.SIGKILL, 128 + signal.SIGTERM, 128 + 
 DAY = 86400  # seconds
 FULL = 100_000  # bytes: less is a full disk
 END = b"LammpS RestartT\0"  # of a restart file
+CLAIM = 128  # bytes of a claim in a lock file, all the same
+
+Claim = collections.namedtuple("Claim", "began key batch")  # of a run by a call: when the call began (ns), Job.key() of what it asked for, the batch of Slurm's jobs that it waits for
 
 
 def read_yaml(path):
@@ -167,6 +171,7 @@ class Job:
             self.record["files"] = files
         self.process, self.lock, self.start, self.problem, self.advice, self.asked = None, None, None, "", "", False
         self.resumed, self.saved = False, []  # if it went on, and from what
+        self.began = 0  # when the call began that this job is of, which its engine says (ns)
         self.batch = ""  # of Slurm's jobs, that it was submitted in; "": runs without Slurm
 
     def _files(self):
@@ -178,6 +183,10 @@ class Job:
                     found[word] = digest(path.read_bytes())
                     break
         return found
+
+    def key(self):
+        """checksum of what is run in the folder: of another case, or another state of the same, it is another"""
+        return digest(yaml_of(self.record).encode())
 
     def result(self):
         """the results if the job is done with these variables, input and files, else None"""
@@ -217,15 +226,45 @@ class Job:
 
     @property
     def lock_file(self):
-        """beside the folder, which is emptied; locked while a process is at this run, its text is the batch of the last call that asked for the run"""
+        """beside the folder, which is emptied; locked while a process is at this run, its text is the claim of the last call that asked for the run"""
         return self.folder.parent / f".{self.folder.name}.lock"
 
+    def last_claim(self):
+        """the Claim in the lock file; began is 0 if no call has asked for this run"""
+        found = None
+        with contextlib.suppress(OSError):
+            found = re.match(r"(\d+) (\w+) (\S*)", self.lock_file.read_text(errors="replace"))
+        return Claim(int(found[1]), found[2], found[3]) if found else Claim(0, "", "")
+
     def claim(self, batch=""):
-        """the last call counts: from now on jobs of other batches leave this run alone, whatever case they are of and whenever Slurm starts them"""
+        """from now on jobs of other batches leave this run alone, whatever case they are of and whenever Slurm starts them
+
+        A claim always has the same length and is written over the last one in one piece: a process that reads the file at that moment finds one of the two, and
+        a lock on the file stays.
+        """
         self.batch = batch
+        text = f"{max(self.began, self.last_claim().began)} {self.key()} {batch}".ljust(CLAIM).encode()
         with writing(self.lock_file):
             self.folder.parent.mkdir(parents=True, exist_ok=True)
-            self.lock_file.write_text(batch)
+            file = os.open(self.lock_file, os.O_RDWR | os.O_CREAT, 0o666)
+            try:
+                if os.pread(file, CLAIM, 0) != text:
+                    os.pwrite(file, text, 0)
+            finally:
+                os.close(file)
+
+    def is_of_later_call(self):
+        """whether a call that began later than this one has asked for this run in another state: of such calls the one that began last counts
+
+        Not the one that has claimed the run last: a call may come to a run hours after it began, and a search does not know before which runs it wants. Clocks of
+        the machines where calls begin must agree.
+        """
+        last = self.last_claim()
+        return last.began > self.began and last.key != self.key()
+
+    def leave_to_later_call(self):
+        """nothing is run"""
+        self.problem, self.advice = f"{self.folder}: a later call has asked for this run", "its files are left as they are: call again to run this case"
 
     def take(self):
         """True if no other process is at this run; from now on none can be. Processes that it starts keep the lock."""
@@ -273,8 +312,9 @@ class Job:
         late = timeout and time.monotonic() - self.start > timeout
         if self.process is None:  # another process was at it, or it has yet to begin
             if self.take():
-                if self.result() is None and self.batch and self.lock_file.read_text() != self.batch:  # looked at under the lock, which is held until the result is there
-                    self.problem, self.advice = f"{self.folder}: a later call has asked for this run since this job was submitted", "its files are left as they are: call again to run this case"
+                theirs = self.last_claim().batch != self.batch if self.batch else self.is_of_later_call()  # looked at under the lock, which is held until the result is there
+                if self.result() is None and theirs:
+                    self.leave_to_later_call()
                 elif self.result() is None:
                     if not self.batch:
                         self.claim()

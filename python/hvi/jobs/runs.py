@@ -30,6 +30,7 @@ class Local:
 
     def __init__(self, ranks, timeout, mpirun, lmp):
         """lmp: path, or None; timeout: seconds, or None"""
+        self.began = time.time_ns()  # of the call: of two calls that ask for a run the one that began last counts
         self.ranks, self.timeout, self.mpirun = ranks, timeout, mpirun
         self.lmp = lammps.find(lmp)
         lammps.check_mpirun(mpirun)
@@ -47,6 +48,8 @@ class Local:
 
     def begin(self, jobs, say):
         """each begins when it is looked at"""
+        for job in jobs:
+            job.began = self.began
 
     def ended(self, jobs, say):
         return [job for job in jobs if self._ended(job)]

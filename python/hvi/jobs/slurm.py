@@ -10,8 +10,9 @@ A batch is one call of sbatch: a folder in DIR/.slurm whose name is that of its 
     INDEX.yaml    of a run that has failed: problem, advice;   INDEX.txt: what its job has printed
 
 One call at a time looks for batches and submits: it holds a lock on DIR/.slurm/lock. Which jobs are in the queue is asked by these names, so any later call
-finds those of an earlier one. The last call that asks for a run writes the name of its batch into the run's lock file (engine.Job.claim): a job of another
-batch that starts later leaves the run alone. There may be no accounting, and Slurm forgets a job minutes after its end: how a run
+finds those of an earlier one. A call that asks for a run writes the name of its batch into the run's lock file (engine.Job.claim): a job of another
+batch that starts later leaves the run alone, and so does a call, which may wait for hours, where one that began later has asked for another state of the run
+(engine.Job.is_of_later_call). There may be no accounting, and Slurm forgets a job minutes after its end: how a run
 has ended is in its own folder, or in INDEX.yaml. A job that has left neither was stopped from outside. It is submitted again if the run has saved more
 since, and has failed otherwise, so there is an end.
 """
@@ -36,7 +37,7 @@ from . import engine
 
 POLL = 10.0  # seconds between looks at the queue
 LOOKS = 3  # in a row that must find a job over that has left no record: other machines see files of a shared disk late
-PATIENCE = 4 * 3600  # seconds of refusals after which a call ends: a controller may be away, or a limit on jobs in the queue be reached, for a while
+PATIENCE = 4 * 3600  # seconds of refusals after which a call without jobs in the queue ends: a controller may be away, or a limit on jobs in the queue be reached, for a while
 HOUR = 3600  # seconds that a batch is kept without a number: sbatch did not answer, and its jobs may still turn up in the queue
 ARRAY = 1000  # jobs of an array: what Slurm allows by default is 1001
 SECONDS = 120  # that a command of Slurm may take
@@ -103,10 +104,6 @@ def tested(words, number):
     return f"Slurm would take it (sbatch --test-only): {shlex.join(words)}"
 
 
-def checksum(job):
-    return engine.digest(engine.yaml_of(job.record).encode())
-
-
 def is_old(folder):
     with contextlib.suppress(OSError):
         return time.time() - folder.stat().st_mtime > HOUR
@@ -140,6 +137,7 @@ class Slurm:
         self.place, self.kept = {}, set()  # {job: (name of its batch, index)}; names of batches that show why a run has failed
         self.over = collections.Counter()  # looks that have found a job over, and no record
         self.unsent, self.drafts, self.has_sent = [], {}, False  # jobs to be submitted; {jobs: folder of their batch, which sbatch has refused}; whether it has taken any
+        self.left = []  # jobs whose runs a later call has asked for
         self.numbers, self.kinds, self.problems, self.next = {}, None, {}, 0.0  # of Slurm's arrays by their names; states said last; {what is refused: (message, since when)}; time of the next look
         for program in () if args.dry_run else ("sbatch", "squeue"):
             said([program, "--version"])
@@ -158,26 +156,38 @@ class Slurm:
 
     # ------------------------------------------------------------------ into the queue
     def begin(self, jobs, say):
+        for job in jobs:
+            job.began = self.local.began
         self.unsent += jobs
         self.send(say)
 
     def send(self, say):
         """Those that an earlier call has submitted, and that have not ended, are waited for; the others are submitted.
 
-        A refusal ends a call that has submitted nothing: its options may be wrong. Later ones may be of the moment: the next looks try again, for PATIENCE
-        while none of the jobs is in the queue, since with these a limit on their number ends, too.
+        A refusal ends a call that has submitted nothing and waits for no job: its options may be wrong. Others may be of the moment: the next looks try again, for
+        PATIENCE while none of the jobs is in the queue, since with these a limit on their number ends, too.
         """
         try:
             with self.alone():
+                self.leave_to_later_calls()
                 self.adopt(self.unsent, say)
                 self.submit([job for job in self.unsent if job not in self.place], say)
         except Refused as problem:
-            if not self.has_sent:
+            if not self.has_sent and not self.place:
                 raise
             self.refused("trying", problem, say, counts=not self.place)
         else:
             self.problems.pop("trying", None)
         self.unsent = [job for job in self.unsent if job not in self.place]
+
+    def leave_to_later_calls(self):
+        """runs that these have asked for are not submitted, nor are jobs of them in the queue taken up"""
+        left = [job for job in self.unsent if job.is_of_later_call()]
+        for job in left:
+            job.mark()
+            job.leave_to_later_call()
+        self.left += left
+        self.unsent = [job for job in self.unsent if job not in left]
 
     @contextlib.contextmanager
     def alone(self):
@@ -190,7 +200,7 @@ class Slurm:
                 fcntl.flock(lock, fcntl.LOCK_EX)
             yield
 
-    def refused(self, what, problem, say, counts=True):
+    def refused(self, what, problem, say, counts):
         """said once, not at each look; counts: the time, of which there is an end"""
         said, since = self.problems.get(what, ("", time.monotonic()))
         if counts and time.monotonic() - since > PATIENCE:
@@ -200,20 +210,26 @@ class Slurm:
         self.problems[what] = str(problem), since if counts else time.monotonic()
 
     def adopt(self, jobs, say):
-        wanted = {job.folder: job for job in jobs}
-        batches = [batch for batch in Batch.all_in(self.folder) if any(run in wanted for run, *_ in batch.runs)]
-        for batch, job in ((batch, wanted[folder]) for batch in batches for folder, of, _ in batch.runs if folder in wanted and of == checksum(wanted[folder])):
-            if not job.batch:  # this call has just begun: before the look, since the job may start right after it
-                job.claim(batch.name)
+        folders, wanted = {job.folder for job in jobs}, {(job.folder, job.key()): job for job in jobs}
+        batches = [batch for batch in Batch.all_in(self.folder) if any(run in folders for run, *_ in batch.runs)]
+        names = collections.defaultdict(list)  # {job: names of the batches that have its run in this state}
+        for batch in batches:
+            for folder, of, _ in batch.runs:
+                if (folder, of) in wanted:
+                    names[wanted[folder, of]].append(batch.name)
+        for job, known in names.items():  # before the look, since the job may start right after it; a batch that has the run already keeps it
+            last = job.last_claim().batch
+            job.claim(last if last in known else known[0])
         queue = self.queue([batch.name for batch in batches]) if batches else {}
-        own, others, where = [], [], None  # [(job, batch, index, what it had saved), ...]; jobs of another case, as scancel takes them, and the folder of one
+        own, others, where = {}, [], None  # {job: (batch, index, what it had saved)}; jobs of another case, as scancel takes them, and the folder of one
         for batch in batches:
             active, wrong = [index for index in range(len(batch.runs)) if self.is_active(queue.get((batch.name, index)))], []
             for index in active:
                 folder, of, saved = batch.runs[index]
-                if folder in wanted and of == checksum(wanted[folder]):
-                    own.append((wanted[folder], batch.name, index, saved))
-                elif folder in wanted:
+                job = wanted.get((folder, of))
+                if job and (job not in own or batch.name == job.batch):  # of several batches with this run the one that has it
+                    own[job] = batch.name, index, saved
+                elif not job and folder in folders:
                     wrong.append(index)
                     where = folder
             if wrong:
@@ -223,10 +239,9 @@ class Slurm:
                 self.forget(batch.name)
         if others:
             raise HVIError(f"{where}: another case, or another state of this one, is still in Slurm's queue for this folder: scancel {' '.join(others)}, or another --runs DIR")
-        for job, name, index, saved in own:
+        for job, (name, index, saved) in own.items():
             job.mark(saved)
-            if job.batch != name:  # of several batches with this run the last one that is in the queue
-                job.claim(name)
+            job.claim(name)
             self.take(job, name, index)
             say(f"{job.name}: in the queue already, Slurm job {queue[name, index].job}_{index}")
 
@@ -241,21 +256,22 @@ class Slurm:
             folder = pathlib.Path(tempfile.mkdtemp(prefix=f"hvi-{what}-", dir=self.folder))
             for job in jobs:
                 job.mark()
-                job.claim(folder.name)
+                job.batch = folder.name
             (folder / "runs.pickle").write_bytes(pickle.dumps((self.local, jobs)))
             (folder / "job.sh").write_text(SCRIPT.format(what=what, package=shlex.quote(str(PACKAGE.parent)), python=shlex.quote(sys.executable)))
-            engine.write_yaml(folder / "runs.yaml", {"runs": [[str(job.folder), checksum(job), job.saved] for job in jobs]})
+            engine.write_yaml(folder / "runs.yaml", {"runs": [[str(job.folder), job.key(), job.saved] for job in jobs]})
         return folder
 
     def submit_array(self, jobs, say):
         folder = self.drafts.get(tuple(jobs))
         if folder is None or folder.name in self.numbers or not folder.exists():  # numbers: its jobs were in the queue nevertheless
             folder = self.drafts[tuple(jobs)] = self.draft(jobs)
+        for job in jobs:  # at each try, since another call for the same state may have claimed it in between
+            job.claim(folder.name)
         try:
             number = self.numbers[folder.name] = said(self.sbatch(folder.name, len(jobs), folder)).strip().partition(";")[0]
         except Refused as problem:  # the folder stays: after a timeout jobs may be in the queue nevertheless, and the next look or call finds them
-            stay = "; runs that are in the queue stay there: call again to go on" if self.place and not self.has_sent else ""
-            raise Refused(f"{problem} ({shlex.join(['sbatch', *self.words])}){stay}") from None
+            raise Refused(f"{problem} ({shlex.join(['sbatch', *self.words])})") from None
         del self.drafts[tuple(jobs)]
         self.has_sent = True
         with writing(folder):
@@ -270,7 +286,8 @@ class Slurm:
     def forget(self, name):
         """the folder of a batch with nothing in the queue, and no run that this call has an eye on"""
         folder = self.folder / name
-        if name not in self.kept and name not in {name for name, _ in self.place.values()} and (name in self.numbers or (folder / "number").exists() or is_old(folder)):
+        is_over = name in self.numbers or (folder / "number").exists() or is_old(folder) and folder not in self.drafts.values()
+        if is_over and name not in self.kept and name not in {name for name, _ in self.place.values()}:
             shutil.rmtree(folder, ignore_errors=True)
 
     # ------------------------------------------------------------------ looks at the queue
@@ -295,13 +312,16 @@ class Slurm:
         self.next = time.monotonic() + self.pause
         if self.unsent:
             self.send(say)
+        left, self.left = self.left, []
         jobs = [job for job in jobs if job in self.place]
-        if not jobs:
-            return []
+        return left + (self.over_in_queue(jobs, say) if jobs else [])
+
+    def over_in_queue(self, jobs, say):
+        """which of these jobs, all submitted, have ended; those that were cut off are submitted again"""
         try:
             queue = self.queue(sorted({self.place[job][0] for job in jobs}))
         except Refused as problem:  # the controller is away: jobs run on, and that they are not seen says nothing
-            self.refused("looking", problem, say)
+            self.refused("looking", problem, say, counts=False)
             return []
         self.problems.pop("looking", None)
         self.tell([queue.get(self.place[job]) for job in jobs], say)
