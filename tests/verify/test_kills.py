@@ -4,7 +4,7 @@ The seed of a round is its parameter; `python3 tests/lib/kill_runs.py` does the 
 """
 
 import pytest
-from kill_runs import CLASSES, round_of, undisturbed
+from kill_runs import CLASSES, at_work, round_of, undisturbed
 
 pytestmark = pytest.mark.filterwarnings("ignore::hvi.errors.HVIWarning")  # of few layers
 WHOLE = {}
@@ -25,6 +25,16 @@ def whole(tmp_path_factory, lmp_exe, root):
 def test_killed(whole, tmp_path, lmp_exe, root, name, seed):
     """the same bits of a shield, the same cloud of debris"""
     assert round_of(name, tmp_path, whole(name), lmp_exe, root, seed, 3) == 3
+
+
+def test_files_outlive_killed_ranks(tmp_path, lmp_exe, root):
+    """calls that go on from the same file, lose a rank (to a lack of memory, say) before they have saved more, and leave that file as it is"""
+    run = CLASSES["plate"](tmp_path, "plate", lmp_exe, root)
+    run.killed(run.is_in_leg(1), 2)
+    leg = run.chain()["leg"]
+    for _ in range(2):
+        status, said, there = run.rank_killed(lambda: bool(at_work(run.folder, "lmp")), 2)
+        assert status == 1 and there and run.is_good() and run.chain()["leg"] == leg, said
 
 
 @pytest.mark.long

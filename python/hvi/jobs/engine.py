@@ -27,7 +27,7 @@ from ..material.library import potentials
 
 RESULT, LAST = "result.yaml", "package_version"  # what a run is for, and the last key in it: it is there if the file is complete
 PATIENCE = 10  # seconds that mpirun has to end its ranks
-ENDED_BY_SLURM = {-signal.SIGTERM, -signal.SIGKILL, 128 + signal.SIGTERM, 128 + signal.SIGKILL}  # exit statuses of mpirun
+KILLED = {-signal.SIGTERM, -signal.SIGKILL, 128 + signal.SIGTERM, 128 + signal.SIGKILL}  # exit statuses of mpirun
 DAY = 86400  # seconds
 FULL = 100_000  # bytes: less is a full disk
 END = b"LammpS RestartT\0"  # of a restart file
@@ -344,8 +344,8 @@ class Job:
             self.problem = self.finish()
         if self.problem and shutil.disk_usage(self.folder).free < FULL:
             self.advice = "the disk is full"
-        cut_off = status in ENDED_BY_SLURM and "SLURM_JOB_ID" in os.environ  # with its job: that says nothing about the file
-        if self.problem and self.resumed and status is not None and not cut_off and self._saved() == self.saved:
+        killed = status is None or status in KILLED  # from outside, a rank by a lack of memory, all with their job: that says nothing about the file
+        if self.problem and self.resumed and not killed and self._saved() == self.saved:
             for path in self.restart_files()[-1:]:  # it came no farther: what it went on from may be what is wrong, the next try takes the one before, or begins anew
                 path.unlink()
         for pattern in [] if self.problem else self.remove:
