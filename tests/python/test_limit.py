@@ -53,6 +53,7 @@ def test_limit_on_what_holds_when_it_is_more(folder, monkeypatch, words, limit):
         assert found["holds"] == "from 2" and found["fails"] == "up to 1.6" and found["undecided"] == [1.6, 2.0]
 
 
+@pytest.mark.long
 def test_limit_on_speed(folder, monkeypatch):
     """4 mm (7.1 / v)^1 + 0.2 and 0.4 mm and what shifts add: 5 mm holds up to 5.9 and 6.2 km/s"""
     monkeypatch.setenv("FAKE_POWER", "1")
@@ -61,6 +62,7 @@ def test_limit_on_speed(folder, monkeypatch):
     assert (found["on"], found["unit"]) == ("speed_km_s", "km/s") and found["limit"] == pytest.approx(4 * 7.1 / 4.8, abs=0.1) and found["holds"] == "up to 5.9"
 
 
+@pytest.mark.long
 def test_curve(folder, capsys, monkeypatch):
     """a limit for each speed, with the equations beside; what was run is left alone; a speed that has none in the range says so"""
     monkeypatch.setenv("FAKE_POWER", "1")

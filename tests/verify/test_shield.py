@@ -243,6 +243,7 @@ def test_what_cannot_fail_in_tension(lmp, root):
     assert found == {True, False}
 
 
+@pytest.mark.long
 def test_a_cloud_slips_through_coarser_particles(shield):
     """wall 2 is neither torn nor spalled, but particles of the cloud are behind it: 3.3 times finer ones"""
     r = shield(wall(0.6), wall(5, gap=20, spacings_mm=[1.0]), D=3, dx=0.3, v=5.47, ball="Al2017-T4", material="Al6061-T6")
@@ -286,6 +287,7 @@ def test_a_bulge_is_no_hole(shield):
     assert r["particles_left_the_box"] > 0 and r["margins"]["missed_fraction"] < 1e-3
 
 
+@pytest.mark.long
 def test_an_edge_that_comes_off(shield):
     """30 degrees, 100 mm: the shot strikes wall 2 13 mm from the edge that it was given, which breaks; that says nothing of a wall that goes on"""
     r = shield(wall(1), wall(3.2, gap=100, radius=45, spacings_mm=[1.6]), material="Al6061-T6", angle=30, D=6, v=6.5, dx=1, layers=[1, 3], tstop=40)
