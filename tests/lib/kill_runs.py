@@ -63,8 +63,8 @@ class Killed:
         said, _ = process.communicate(timeout=1500)
         return process.returncode, said
 
-    def killed(self, moment, nranks=1, ranks_too=True):
-        """what was begun, and mpirun with its ranks, get SIGKILL once moment() is true"""
+    def killed(self, moment, nranks=1, ranks_too=True, may_be_over=False):
+        """what was begun, and mpirun with its ranks, get SIGKILL once moment() is true, before the run is over"""
         process = self.begin(nranks)
         self.wait_for(moment, process)
         process.kill()
@@ -73,7 +73,7 @@ class Killed:
             time.sleep(0.005)
         process.stdout.close()
         process.wait()
-        assert not (self.folder / "result.yaml").exists()
+        assert may_be_over or not (self.folder / "result.yaml").exists()
 
     def rank_killed(self, moment, nranks=2):
         """one rank gets SIGKILL once moment() is true: the call ends by itself, with an exit status that says so"""
@@ -224,10 +224,10 @@ def round_of(name, folder, whole, lmp_exe, root, seed, kills, whole_ranks=2, say
         if one:
             status, said, there = run.rank_killed(moment, nranks)
             assert status != 0 or not there or (run.folder / "result.yaml").exists(), said
-            if (run.folder / "result.yaml").exists():  # it was over, or between two calls
-                break
         else:
-            run.killed(moment, nranks)
+            run.killed(moment, nranks, may_be_over=True)
+        if (run.folder / "result.yaml").exists():  # it was over, or between two calls
+            break
         assert run.is_good(), f"no whole restart file: seed {seed}, step {step}"
     nranks = whole_ranks or rng.choice((1, 2))
     for _ in range(2):  # a call that was killed in the very first steps may have left nothing: the next one begins anew
