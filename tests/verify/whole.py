@@ -53,10 +53,10 @@ def said(log):
 def result_of(code, right, summary):
     """'failed, status 1', 'skipped', 'passed, 2 skipped', 'passed'"""
     skipped, passed = (int((re.findall(rf"(\d+) {word}", summary) or [0])[0]) for word in ("skipped", "passed"))
+    if code not in (*right, SKIPPED):
+        return f"failed, status {code}"
     if code == SKIPPED or skipped and not passed:
         return "skipped"
-    if code not in right:
-        return f"failed, status {code}"
     return f"passed, {skipped} skipped" if skipped else "passed"
 
 
