@@ -15,4 +15,7 @@ def version():
     except FileNotFoundError:
         from importlib import metadata
 
-        return metadata.version("lammps-hvi")
+        try:
+            return metadata.version("lammps-hvi")
+        except metadata.PackageNotFoundError:  # a copy of this folder alone
+            return "of unknown version"
