@@ -6,7 +6,7 @@
     python3 tests/verify/matrix.py --jobs 2 --make CMAKE_ARGS="-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"
 
 A cell is one build, all warnings in our files counted, and a short list of tests. What was interrupted goes on where it
-stopped: each cell is recorded (build-matrix/record.json) as it ends, with a hash of the sources that it is of.
+stopped: each cell is recorded (tests/verify/matrix.json) as it ends, with a hash of the sources that it is of.
 """
 
 import argparse
@@ -21,7 +21,7 @@ import shlex
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-OUT = ROOT / "build-matrix"
+OUT, RECORD = ROOT / "build-matrix", ROOT / "tests/verify/matrix.json"
 TESTED = ("tests/unit", "tests/style", "tests/lib", "tests/conftest.py", "tests/CMakeLists.txt", "tests/force-styles", "examples/single-plate/in.plate",
           "examples/standard-shocks", "potentials", "Makefile")  # what the tests below read
 COMPILERS = ("g++", "clang++")
@@ -127,7 +127,7 @@ def main():
     a.add_argument("--make", default="", help='further words of make, as one text: DEPS=no CMAKE_ARGS="..."')
     o = a.parse_args()
     OUT.mkdir(exist_ok=True)
-    file = OUT / "record.json"
+    file = RECORD
     record = json.loads(file.read_text()) if file.exists() else {}
     now, bad = sources(), 0
     for name, compiler, version, form, sanitize, sizes in cells():
@@ -140,7 +140,7 @@ def main():
         problem, warnings = make(folder, compiler, version, sanitize, sizes, o.jobs, shlex.split(o.make))
         passed, failed = (0, 0) if problem else test(folder, form)
         record[name] = dict(problem=problem, warnings=warnings, passed=passed, failed=failed, sources=now, date=datetime.date.today().isoformat())
-        file.write_text(json.dumps(record, indent=1))
+        file.write_text(json.dumps(record, indent=1) + "\n")
         table(record)
         bad += bool(problem or failed or not passed)
         print(name, problem or f"{passed} passed, {failed} failed, {warnings} warnings", flush=True)

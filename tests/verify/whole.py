@@ -3,10 +3,11 @@
 
     python3 tests/verify/whole.py --build build                 the parts that the record does not have for this commit; writes BUILD/verify/whole.md
     python3 tests/verify/whole.py --build build --only '^kills' those whose name it is found in        --list: names only
-    python3 tests/verify/whole.py --build build --publish       and writes the table to tests/verify/whole.md, too
+    python3 tests/verify/whole.py --build build --publish       and writes record and table to tests/verify/whole.json and whole.md, too
 
 Parts are the programs of this folder, each test that is marked long, and a report in a real browser. A part that fails does not stop the others. Each is
-recorded as it ends (BUILD/verify/whole.json), with its command and the commit, so a call that was interrupted goes on; what it printed is in BUILD/verify/NAME.log.
+recorded as it ends (BUILD/verify/whole.json, begun from the published record), with its command and the commit, so a call that was interrupted goes on; what it
+printed is in BUILD/verify/NAME.log.
 """
 
 import argparse
@@ -25,7 +26,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SHIELD = ROOT / "examples/whipple-shield/cases/quick.yaml"
 VERDICTS = (0, 3, 4)  # holds, fails, cannot be told
 SKIPPED = 77  # what the programs of browsers end with where there is none
-TABLE = "tests/verify/whole.md"
+TABLE, RECORD = "tests/verify/whole.md", "tests/verify/whole.json"
 
 
 def parts(build, out, ranks):
@@ -65,7 +66,7 @@ def state():
     def git(*words):
         return subprocess.run(["git", *words], cwd=ROOT, text=True, capture_output=True).stdout.strip()
 
-    return (git("rev-parse", "--short", "HEAD") or "no git") + (" and changes" if git("status", "--porcelain", "--", ".", f":!{TABLE}") else "")
+    return (git("rev-parse", "--short", "HEAD") or "no git") + (" and changes" if git("status", "--porcelain", "--", ".", f":!{TABLE}", f":!{RECORD}") else "")
 
 
 def table(record, names):
@@ -89,13 +90,14 @@ def main():
     out = o.build / "verify"
     out.mkdir(parents=True, exist_ok=True)
     file = out / "whole.json"
-    record = json.loads(file.read_text()) if file.exists() else {}
+    begun = next((one for one in (file, ROOT / RECORD) if one.exists()), None)
+    record = json.loads(begun.read_text()) if begun else {}
     all_parts = list(parts(o.build, out, o.ranks))
     env = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
     for name, command, right in all_parts:
         if not re.search(o.only, name):
             continue
-        now, words, before = state(), shlex.join(str(word) for word in command), record.get(name, {})
+        now, words, before = state(), shlex.join(str(word).replace(f"{o.build}", "BUILD").replace(f"{ROOT}/", "") for word in command), record.get(name, {})
         if o.list or before.get("commit") == now and before.get("command") == words and before["result"] == "passed" and "changes" not in now:
             print(name, "" if o.list else "done before")
             continue
@@ -118,6 +120,7 @@ def main():
     (out / "whole.md").write_text(text)
     if o.publish:
         (ROOT / TABLE).write_text(text)
+        (ROOT / RECORD).write_text(json.dumps(record, indent=1) + "\n")
     bad = [name for name, _, _ in all_parts if re.search(o.only, name) and record.get(name, {}).get("result", "").startswith("failed")]
     if bad:
         raise SystemExit("failed: " + ", ".join(bad) + f"; logs in {out}")
