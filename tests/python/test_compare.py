@@ -106,7 +106,7 @@ def write_stl(path, side):
     path.write_text(f"solid body\n{''.join(facets)}endsolid body\n")
 
 
-@pytest.mark.parametrize("change_of_files", ["material", "projectile", "name"])
+@pytest.mark.parametrize("change_of_files", ["material", *(pytest.param(one, marks=pytest.mark.long) for one in ("projectile", "name"))])
 def test_files_of_the_case_that_have_changed(folder, root, monkeypatch, change_of_files):
     """a verdict, a limit and a curve are of the files that the case named then: another material of the same name, another body of the same name, another name of the body"""
     text = ONE.replace("diameter_mm: 5", "shape: file\n  file: ball.stl").replace("material: Al6061-T6", "material: mine")

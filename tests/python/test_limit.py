@@ -84,6 +84,7 @@ def test_curve(folder, capsys, monkeypatch):
     assert "equations: none: the equations are for a diameter" in out and "no limit at 5 km/s: an end of the range" in out and "no limit at 7 km/s" not in out
 
 
+@pytest.mark.long
 def test_curve_of_an_earlier_call(folder, capsys, monkeypatch):
     """does not stay where a later one with other speeds fails; a dry run leaves it"""
     monkeypatch.setenv("FAKE_POWER", "1")
@@ -101,6 +102,7 @@ def test_curve_of_an_earlier_call(folder, capsys, monkeypatch):
 ONE = change("shifts: [0, 0.5]", "shifts: [0]")
 
 
+@pytest.mark.long
 def test_limit_on_gap_and_angle(folder, monkeypatch):
     """5 mm are held from 100 mm at 0.2 mm on, with 0.02 mm more for each mm of gap, and from 40 degrees on with the same for each degree; it says of which case"""
     monkeypatch.setenv("FAKE_GAP", "0.02")

@@ -103,6 +103,7 @@ def test_limits(mine, capsys):
     assert begun(mine) == before and rows_of(mine) == rows
 
 
+@pytest.mark.long
 def test_what_is_stopped_goes_on(mine, monkeypatch, capsys):
     monkeypatch.setenv("FAKE_FAIL", "wall-1.7")
     assert front("limits", "--only", "W", case="mine.yaml") == 1

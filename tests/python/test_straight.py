@@ -104,6 +104,7 @@ def test_front_door_runs_it(root, lmp_exe, tmp_path, capsys, monkeypatch):
     assert "Plane of wall 2" in page and "Wall 2: no picture" not in page
 
 
+@pytest.mark.long
 def test_report_of_a_coarse_film(root, lmp_exe, tmp_path, monkeypatch):
     """the last frame before wall 2 is that of the start: the page says so in place of the picture"""
     (tmp_path / "c.yaml").write_text(CASE.replace("tstop: 8", "tstop: 4, film: 3.5"))

@@ -26,7 +26,7 @@ def reflects(lmp, folder, known, pulse, **words):
     return one, reflection(one, known[pulse])
 
 
-@pytest.mark.parametrize("pulse", BOUNDS)
+@pytest.mark.parametrize("pulse", [pytest.param(one, marks=[pytest.mark.long] * (one == "steep")) for one in BOUNDS])
 def test_pulse(lmp, tmp_path, known, pulse):
     """A pulse from elements into particles; a ragged interface is hardly worse, and a flat one does not push sideways"""
     one, flat = reflects(lmp, tmp_path, known, pulse)

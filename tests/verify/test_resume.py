@@ -28,7 +28,7 @@ def undisturbed(tmp_path_factory, lmp_exe, root):
     return run
 
 
-@pytest.mark.parametrize("name, nranks", [("particles", 1), ("particles", 2), ("hybrid", 1), pytest.param("hybrid", 2, marks=pytest.mark.long)])
+@pytest.mark.parametrize("name, nranks", [pytest.param("particles", 1, marks=pytest.mark.long), ("particles", 2), ("hybrid", 1), pytest.param("hybrid", 2, marks=pytest.mark.long)])
 def test_same_bits(shield, undisturbed, name, nranks):
     """killed in each leg: while it runs, when a restart file appears with its first byte, when the record of the chain has just been replaced"""
     run = shield(name)

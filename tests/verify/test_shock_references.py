@@ -138,6 +138,7 @@ def test_lagrange_on_sod_and_blasts():
         assert max(errors[-1]) < 0.02, t
 
 
+@pytest.mark.long
 def test_woodward_colella_converges_to_itself():
     """L1 between n and 2 n cells halves; peak of the density 6.3 to 6.7 near x = 0.78 and of the velocity near 14, as in Woodward & Colella"""
     runs = [gas.woodward_colella(n) for n in (200, 400, 800)]

@@ -4,7 +4,7 @@ import pytest
 from spacing_scenes import plates
 
 
-@pytest.mark.parametrize("solid", [False, True])
+@pytest.mark.parametrize("solid", [pytest.param(False, marks=pytest.mark.long), True])
 def test_plates_of_different_spacings(lmp, tmp_path, solid):
     """equal spacings: stress of the plateaus to 1 %, density next to the contact to 5 %. Unequal ones have the same plateaus to 1 % in stress; next
     to the contact liquids are as right as with equal spacings to 3.5 %; solids, whose contact knows no weights of spacings, are off by 8 % and 18 %

@@ -12,7 +12,7 @@ ENERGY = 1e-3
 ART = "viscosity 1 2 artstress 0.3 4"
 
 
-@pytest.mark.parametrize("kernel, h", [("cubic", 1.5), ("wendland2", 1.5)])
+@pytest.mark.parametrize("kernel, h", [("cubic", 1.5), pytest.param("wendland2", 1.5, marks=pytest.mark.long)])
 def test_rings(lmp, tmp_path, kernel, h):
     """Gray, Monaghan & Swift 2001: two rubber rings at +-0.059 c bounce in one piece"""
     r, frames = rings(lmp, tmp_path, ART, h=h, kernel=kernel)
@@ -32,7 +32,7 @@ def test_rings(lmp, tmp_path, kernel, h):
     assert max(momentum_error(r.thermo)) < 1e-11
 
 
-@pytest.mark.parametrize("words", [ART, "dissipation riemann artstress 0.3 4"])
+@pytest.mark.parametrize("words", [pytest.param(ART, marks=pytest.mark.long), "dissipation riemann artstress 0.3 4"])
 def test_rings_with_a_law_of_spall(lmp, tmp_path, words):
     """the rubber bears 2.6 times the tension that comes: nothing fails, nothing comes apart, and the rings bounce as without the law"""
     law = "spall voids sigma {} rate 0.01 m 0.1 phi_c 0.05"

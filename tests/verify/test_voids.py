@@ -59,7 +59,7 @@ def stretched(lmp, folder, rate, n, c=6600.0, strain=0.11):
     return r, f
 
 
-@pytest.mark.parametrize("rate", [1e4, 1e5, 1e6])
+@pytest.mark.parametrize("rate", [pytest.param(1e4, marks=pytest.mark.long), 1e5, pytest.param(1e6, marks=pytest.mark.long)])
 def test_strength_at_a_rate(lmp, tmp_path, rate):
     t, T, phi, D = integrated(rate)
     r, f = stretched(lmp, tmp_path, rate, 400)
