@@ -7,6 +7,7 @@ Run by ctest (`make test`) or by hand: `pytest tests/style/test_x.py` uses build
 import os
 import pathlib
 import shlex
+import signal
 import subprocess
 import sys
 
@@ -27,6 +28,8 @@ def _built(variable, name):
 
 
 def pytest_configure(config):
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # what a script starts in the background; programs that tests interrupt would inherit it
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     config.addinivalue_line("markers", "long: in make verify only, that is with -m long")
 
 
