@@ -6,7 +6,7 @@
     python3 tests/verify/whole.py --build build --publish       and writes record and table to tests/verify/whole.json and whole.md, too
 
 Parts are the programs of this folder, each test that is marked long, and a report in a real browser. A part that fails does not stop the others. Each is
-recorded as it ends (BUILD/verify/whole.json, begun from the published record), with its command and the commit, so a call that was interrupted goes on; what it
+recorded as it ends (BUILD/verify/whole.json, added to the published record), with its command and the commit, so a call that was interrupted goes on; what it
 printed is in BUILD/verify/NAME.log.
 """
 
@@ -90,8 +90,9 @@ def main():
     out = o.build / "verify"
     out.mkdir(parents=True, exist_ok=True)
     file = out / "whole.json"
-    begun = next((one for one in (file, ROOT / RECORD) if one.exists()), None)
-    record = json.loads(begun.read_text()) if begun else {}
+    record = {}
+    for one in (ROOT / RECORD, file):  # what was published, of any machine; what this build has run since
+        record |= json.loads(one.read_text()) if one.exists() else {}
     all_parts = list(parts(o.build, out, o.ranks))
     env = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
     for name, command, right in all_parts:
