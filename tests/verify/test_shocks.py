@@ -18,7 +18,7 @@ COSTLY = ("noh-2d", "noh-3d", "sedov-2d", "sedov-3d", "woodward-colella", "inter
 
 
 def is_long(name, method):
-    """not in make test; riemann is there in all cases but one, whose sum of blast waves takes twenty seconds"""
+    """not in make test; riemann is there in all cases but the longest"""
     return name == "woodward-colella" or method != "riemann" and name in COSTLY or method == "stock" and name == "interface-10"
 
 
