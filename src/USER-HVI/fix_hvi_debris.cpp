@@ -100,7 +100,8 @@ FixHVIDebris *FixHVIDebris::find(LAMMPS *lmp)
 }
 
 /* ----------------------------------------------------------------------
-   the particle before it failed: its cell, and how many fragments lie along its edge
+   the particle before it failed: its cell, and how many fragments of the size that it is in lie along its
+   edge
 ------------------------------------------------------------------------- */
 
 double FixHVIDebris::mass(int i) const
@@ -117,7 +118,8 @@ int FixHVIDebris::pieces(int i) const
 {
   const double fragments = strength->fragments(i);
   if (!(fragments > 0.0)) return 1;
-  return (int) std::lround(std::min((double) most, size(i) / fragments));
+  const double across = size(i) / (fragments * HVI::Pieces::width(atom->tag[i]));
+  return (int) std::lround(std::min(std::max(1.0, across), (double) most));
 }
 
 // by how much its cell has widened, by the rate at which it failed: as if all flew from one place

@@ -40,6 +40,7 @@ thermo 20
 DUMP = "write_dump all custom {} id type mass x y z vx vy vz c_state[1] c_state[2] modify sort id format float %.17g\n"
 RATE = 8e5  # 1/s
 EDGE = 4e-4
+MASS = 2703 * EDGE**3  # of a particle
 
 
 @pytest.fixture
@@ -56,13 +57,20 @@ def frame(path):
     return hvi.Dump(str(path), units="si")[0]
 
 
+def divided(end):
+    """of how many pieces each particle is one, (n,)"""
+    return np.round(MASS / end.m)
+
+
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (3, "on"), (4, "off")])
 def test_pieces(ball, tmp_path, nranks, newton):
     """mass, momentum, energy and the middle of each particle stay; pieces fly on as all does, from one place; fragments as coarse as particles change nothing"""
     thermo = ball("run 200\n" + DUMP.format("end.dump"), nranks=nranks, newton=newton).thermo
     end, pieces = frame(tmp_path / "end.dump"), np.array(thermo["f_debris"])
     whole = int(thermo["Atoms"][0])
-    assert pieces[0] == 0 and pieces[-1] == len(end) and len(end) % 8 == 0 and len(end) > 8 * whole - 1
+    number = divided(end)
+    assert pieces[0] == 0 and pieces[-1] == (number > 1).sum() > 0.95 * len(end)
+    assert (1 / number).sum() == pytest.approx(whole) and len(end) > 8 * whole
     assert end.m.sum() == pytest.approx(whole * 2703 * 4e-4**3, rel=1e-12)
     ratio = np.array(thermo["c_book[9]"])
     made = np.flatnonzero(np.diff(pieces))
@@ -91,10 +99,22 @@ def test_energy_of_spreading(ball, tmp_path):
 def test_number_of_pieces(ball, tmp_path, words, most):
     """as many to an edge as fragments, by their own size at the rate at which it failed, but no more than asked for"""
     thermo = ball("run 200\n" + DUMP.format("end.dump"), words=words, rate=3e6).thermo
-    end, mass = frame(tmp_path / "end.dump"), 2703 * 4e-4**3
-    number = np.round(mass / end.m).astype(int)
+    end = frame(tmp_path / "end.dump")
+    number = divided(end)
     assert set(number) <= {n**3 for n in range(1, most + 1)} and number.max() == most**3
-    assert end.m.sum() == pytest.approx(mass * thermo["Atoms"][0], rel=1e-12)
+    assert end.m.sum() == pytest.approx(MASS * thermo["Atoms"][0], rel=1e-12)
+
+
+def test_sizes_are_distributed(ball, tmp_path):
+    """Grady and Kipp (1985): the share of matter in fragments of less than x times the mean mass is 1 - (1 + x) exp(-x); so many particles are divided into 8, into 27, or stay whole"""
+    ball("run 250\n" + DUMP.format("end.dump"), rate=5.5e5)
+    end = frame(tmp_path / "end.dump")
+    number, size = divided(end), end["c_state[1]"]
+    assert (size > 0).all()
+    within = [1 - (1 + x) * np.exp(-x) for x in ((EDGE / (edges * size)) ** 3 for edges in (1.5, 2.5))]
+    for found, share in ((number > 1, within[0]), (number > 8, within[1])):
+        count, expected = (found / number).sum(), (share / number).sum()
+        assert abs(count - expected) < 4 * np.sqrt((share * (1 - share) / number).sum())
 
 
 def test_what_does_not_fail_stays(ball, tmp_path):
@@ -106,8 +126,9 @@ def test_what_does_not_fail_stays(ball, tmp_path):
 
 def test_quarter(ball, tmp_path):
     """between mirror planes: a quarter of the mass, of the pieces, of the energy; nothing beyond a plane"""
-    whole = ball("run 200\n" + DUMP.format("whole.dump")).thermo
-    part = ball("run 200\n" + DUMP.format("part.dump"), quarter=True).thermo
+    fast = {"words": "most 2", "rate": 2e6}  # fragments so small that all are divided, whatever their IDs
+    whole = ball("run 200\n" + DUMP.format("whole.dump"), **fast).thermo
+    part = ball("run 200\n" + DUMP.format("part.dump"), quarter=True, **fast).thermo
     one, four = frame(tmp_path / "part.dump"), frame(tmp_path / "whole.dump")
     assert 4 * len(one) == len(four) and 4 * one.m.sum() == pytest.approx(four.m.sum(), rel=1e-12) and one.x[:, :2].min() >= 0
     assert 4 * part["c_book[1]"][-1] == pytest.approx(whole["c_book[1]"][-1], rel=2e-3)

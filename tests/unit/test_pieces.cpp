@@ -59,3 +59,22 @@ TEST(Pieces, TheSameNumberTheSameTurn)
   EXPECT_EQ(Pieces::places(3, 5), Pieces::places(3, 5));
   EXPECT_NE(Pieces::places(3, 5), Pieces::places(3, 6));
 }
+
+// mass by mass of fragments whose numbers go as exp(-m/m0): below m0 lies 1 - 2/e of it, and its mean is 2 m0
+
+TEST(Pieces, WidthsOfFragments)
+{
+  const int many = 100000;
+  double mean = 0.0, below = 0.0, above = 0.0;
+  for (int number = 0; number < many; number++) {
+    const double m = std::pow(Pieces::width(number), 3);
+    ASSERT_TRUE(std::isfinite(m) && m > 0.0);
+    mean += m / many;
+    below += (m < 1.0) / (double) many;
+    above += (m > 8.0) / (double) many;
+  }
+  EXPECT_NEAR(mean, 2.0, 0.02);
+  EXPECT_NEAR(below, 1.0 - 2.0 / std::exp(1.0), 0.006);
+  EXPECT_NEAR(above, 9.0 * std::exp(-8.0), 0.001);
+  EXPECT_EQ(Pieces::width(7), Pieces::width(7));
+}

@@ -14,7 +14,8 @@
 #include <cstdint>
 #include <vector>
 
-// the n^3 equal parts of a cube of side 1, turned at random
+// fragments: how large the one is that a particle of the matter is in; the n^3 equal parts of a cube of side 1,
+// turned at random
 
 namespace HVI {
 
@@ -46,6 +47,17 @@ class Pieces {
   // the largest of these distances
 
   static double corner(int n) { return std::sqrt(0.75) * (1.0 - 1.0 / n); }
+
+  // Width over the mean width of the fragment that matter is in, at random by a number.  Numbers of fragments go
+  // as exp(-m/m0) over their mass m (Grady & Kipp, J. Appl. Phys. 58 (1985) 1210), mass as m/m0 exp(-m/m0): the
+  // sum of two exponential variables.
+
+  static double width(uint64_t number)
+  {
+    uint64_t state = ~number;    // not the numbers of the turn
+    const double u = 1.0 - uniform(state), v = 1.0 - uniform(state);
+    return std::cbrt(-std::log(u * v));
+  }
 
  private:
   static double middle(int i, int n) { return (i + 0.5) / n - 0.5; }
