@@ -14,8 +14,13 @@ A record is doc/records/NAME.jsonl: a head, then one line per row of the table.
      "row": {"dx mm": 1.0, "hole mm": 18.90}, "keys": {"hole mm": "result.yaml:hole_diameter_mm"}}
 
 Optional keys of a row, for --run: "folder", where the command is typed, from the root of the repository, if it does not begin with "cd FOLDER &&"; "keys", where
-numbers are found: "FILE:KEY" with KEY as in a.b.0 (YAML, JSON; of a CSV file ROW.COLUMN, ROW from 0), optionally " * FACTOR"; "run:core_s" and "run:wall_s" are the
-core-seconds and the seconds of the command. A value of the table has the digits that it has in the record.
+numbers are found, optionally with " * FACTOR" behind:
+
+    FILE:KEY                KEY as in a.b.0 (YAML, JSON; of a CSV file ROW.COLUMN, ROW from 0); [NAME=TEXT, ...] in place of a number is the only row that has these
+    said:PATTERN            the group of a regular expression in what the command has printed; . matches ends of lines, too
+    run:core_s, run:wall_s  core-seconds and seconds of the command
+
+A value of the table has the digits that it has in the record. ["{:.2f} / {:.0f}", KEY, KEY] writes several into one cell (str.format).
 
 "commit" is the state of the code that was run: a commit, "abc1234-dirty" with changes that were not committed, or "up to abc1234" where it was not noted: the commit
 that brought the numbers into the repository, so that the run is of it or of an earlier one. It is empty for values that others have measured. In a page:
@@ -267,22 +272,37 @@ def shadow(root, folder, target, build):
     return there
 
 
-def number_at(folder, where, core_s, wall_s):
-    """a value by its key"""
-    place, _, factor = where.partition(" * ")
+def within(value, part):
+    """what a part of a key names"""
+    if not part.startswith("["):
+        return value[int(part) if isinstance(value, list) else part]
+    wanted = dict(one.strip().split("=", 1) for one in part[1:-1].split(","))
+    found = [row for row in value if all(str(row[name]) == text for name, text in wanted.items())]
+    if len(found) != 1:
+        raise ValueError(f"{len(found)} rows {part}")
+    return found[0]
+
+
+def number_at(folder, where, ran):
+    """a value by its key; ran: core_s and wall_s of the command, said by it"""
+    if isinstance(where, list):
+        return where[0].format(*(number_at(folder, one, ran) for one in where[1:]))
+    place, factor = found.groups() if (found := re.fullmatch(r"(.*) \* ([-+.\deE]+)", where, re.S)) else (where, 1)
     file, _, key = place.partition(":")
     if file == "run":
-        value = {"core_s": core_s, "wall_s": wall_s}[key]
+        value = ran[key]
+    elif file == "said":
+        value = re.search(key, ran["said"], re.S | re.M)[1]
     else:
         import yaml
 
         path = folder / file
         with open(path, newline="") as opened:
             value = list(csv.DictReader(opened)) if path.suffix == ".csv" else yaml.safe_load(opened)
-        for part in key.split("."):
-            value = value[int(part) if isinstance(value, list) else part]
+        for part in re.findall(r"\[[^]]*\]|[^.]+", key):
+            value = within(value, part)
     try:
-        return float(value) * float(factor or 1)
+        return float(value) * float(factor)
     except ValueError:
         return value
 
@@ -315,12 +335,13 @@ def place_of(row):
     return folder, command
 
 
-def environment(root, folder, scratch):
-    """of a command; its python3 is one that has the modules of the examples"""
-    found = subprocess.run([str(ROOT / "cmake" / "find-python.sh"), "numpy", "scipy", "matplotlib", "yaml"], capture_output=True, text=True).stdout.strip()
+def environment(root, folder, build, scratch):
+    """of a command; its python3 is one that has the modules of the examples and of the tests, which run the programs of the build"""
+    found = subprocess.run([str(ROOT / "cmake" / "find-python.sh"), "numpy", "scipy", "matplotlib", "yaml", "pytest"], capture_output=True, text=True).stdout.strip()
     (scratch / "bin").mkdir()
     (scratch / "bin" / "python3").symlink_to(found or sys.executable)
-    return {**os.environ, "PATH": f"{scratch / 'bin'}:{os.environ['PATH']}", "PYTHONPATH": str(root / "python"), "LAMMPS_POTENTIALS": f"{root / 'potentials'}:{folder}"}
+    programs = {"HVI_LMP": build / "lmp", "HVI_LMP_STOCK": build / "lmp-stock", "HVI_PLUGIN": build / "hviplugin.so", "HVI_ROOT": root}
+    return {**os.environ, **{name: str(path) for name, path in programs.items()}, "PATH": f"{scratch / 'bin'}:{os.environ['PATH']}", "PYTHONPATH": str(root / "python"), "LAMMPS_POTENTIALS": f"{root / 'potentials'}:{folder}"}
 
 
 def run(root, name, number, build):
@@ -337,6 +358,8 @@ def run(root, name, number, build):
     chosen = [row for k, row in enumerate(record.rows, 1) if number in (None, k)]
     tasks = {}
     for row in chosen:
+        if number is None and row not in record.ran():
+            continue  # of others
         if not row.get("keys"):
             raise Wrong(f"{name}: row {record.rows.index(row) + 1} does not say where its numbers are found (keys)")
         tasks.setdefault(place_of(row), []).append(row)
@@ -344,19 +367,20 @@ def run(root, name, number, build):
         print(f"{folder}: {command}", flush=True)
         with tempfile.TemporaryDirectory() as scratch, tempfile.TemporaryDirectory() as programs:
             there = shadow(root, folder, pathlib.Path(scratch), build)
-            env = environment(root, there, pathlib.Path(programs))
+            env = environment(root, there, build, pathlib.Path(programs))
             others, start, spent = bench.Others(), time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
             done = subprocess.run([str(ROOT / "cmake" / "env.sh"), "bash", "-c", command], cwd=there, env=env, capture_output=True, text=True)
             wall, load, after = time.monotonic() - start, others.used(), resource.getrusage(resource.RUSAGE_CHILDREN)
             if done.returncode:
                 raise Wrong(f"{name}: {command} ended with {done.returncode}:\n{done.stdout[-1000:]}{done.stderr[-1000:]}")
-            core = after.ru_utime + after.ru_stime - spent.ru_utime - spent.ru_stime
+            ran = {"wall_s": wall, "said": done.stdout}
+            ran["core_s"] = after.ru_utime + after.ru_stime - spent.ru_utime - spent.ru_stime
             dirty = git(root, "status", "--porcelain", "--", *(f":(glob){path}" for path in record.head["depends"]))
             box = bench.machine()
             for row in rows:
                 for column, where in row["keys"].items():
                     try:
-                        row["row"][column] = like(row["row"][column], number_at(there, where, core, wall))
+                        row["row"][column] = like(row["row"][column], number_at(there, where, ran))
                     except (OSError, KeyError, IndexError, TypeError, ValueError) as problem:
                         raise Wrong(f"{name}: {column}: nothing at {where} ({type(problem).__name__}: {problem})") from None
                 row.update(commit=(git(root, "rev-parse", "--short=7", "HEAD") or "") + ("-dirty" if dirty else ""),

@@ -156,6 +156,9 @@ def test_run_again(tree, commits, capsys):
     assert row["row"] == {"dx mm": 0.5, "what": "a|b *c", "hole mm": 19.23} and row["commit"] == commits[2] and row["load"] in ("idle", "busy") and " cores of a" in row["machine"]
     text = (tree / "page.md").read_text()
     assert "| 0.50 | a\\|b *c | 19.23 |" in text and f"Commit {commits[2]}, " in text
+    with (tree / "doc/records/holes.jsonl").open("a") as record:  # of others: not run
+        record.write('{"command": "", "commit": "", "machine": "", "load": "", "row": {"what": "measured", "hole mm": 19.1}}\n')
+    assert call(tree, "--run", "holes", "--build", str(tree / "build")) == 0 and "| measured | 19.1 |" in (tree / "page.md").read_text()
     (tree / "src/a.cpp").write_text("changed")
     assert call(tree, "--run", "holes", "1") == 0 and f"Commit {commits[2]}-dirty, " in (tree / "page.md").read_text()
 
@@ -177,7 +180,20 @@ def test_digits(old, new, want):
     assert numbers.like(numbers.Digits(old), new) == want
 
 
-def test_number_of_a_table_and_of_the_run(tmp_path):
+RAN = {"core_s": 1.0, "wall_s": 2.0, "said": "case a: 1.5 of 7\ncase b: 2.5 of 8\n"}
+
+
+@pytest.mark.parametrize("where, want", [
+    ("t.csv:1.b", 4.5), ("t.csv:[a=1].b", 2.0), ("t.csv:[a=3,b=4.5].a", 3.0), ("t.yaml:rows.[of=x.y].value * 1e2", 250.0), ("t.yaml:rows.0.of", "x.y"), ("run:core_s", 1.0), ("run:wall_s * 1e3", 2000.0),
+    (r"said:case b: (\S+)", 2.5), (r"said:^case a.*of (\d+)$ * -1", -8.0), (["{:.2f} / {}", "t.csv:0.b", "t.yaml:rows.0.of"], "2.00 / x.y")])
+def test_number_of_a_table_of_the_run_and_of_what_it_said(tmp_path, where, want):
     (tmp_path / "t.csv").write_text("a,b\n1,2\n3,4.5\n")
-    assert numbers.number_at(tmp_path, "t.csv:1.b", 1.0, 2.0) == 4.5
-    assert numbers.number_at(tmp_path, "run:core_s", 1.0, 2.0) == 1.0 and numbers.number_at(tmp_path, "run:wall_s * 1e3", 1.0, 2.0) == 2000
+    (tmp_path / "t.yaml").write_text("rows: [{of: x.y, value: 2.5}, {of: z, value: 1}]\n")
+    assert numbers.number_at(tmp_path, where, RAN) == want
+
+
+@pytest.mark.parametrize("where", ["t.csv:[b=2].a", "t.csv:[a=5].b", "said:case c: (.)", ["{:.2f}", "t.csv:0.c"], ["{:.1f}", "said:(case)"]])
+def test_what_is_not_there_or_there_twice(tmp_path, where):
+    (tmp_path / "t.csv").write_text("a,b,c\n1,2,x\n3,2,y\n")
+    with pytest.raises((KeyError, IndexError, TypeError, ValueError)):
+        numbers.number_at(tmp_path, where, RAN)
