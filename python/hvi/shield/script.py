@@ -11,8 +11,7 @@ import pathlib
 import re
 import shutil
 
-import yaml
-
+from ..jobs.engine import yaml_of
 from ..material import library
 from . import elements, geometry, projectile
 
@@ -422,4 +421,4 @@ class Shield:
         """{file: text}: the inputs, the material files, so that LAMMPS alone can run the folder, and the case of this run, for judge"""
         names = dict.fromkeys((self.case.material, *(wall.material for wall in self.case.walls)))
         return {BEGIN: self.text(), CONTINUE: self.text(new=False), **{pathlib.Path(name).name: library.find(name).read_text(errors="replace") for name in names},
-                CASE: yaml.safe_dump(self.case.one(self.which, self.shift).mapping(), sort_keys=False)}
+                CASE: yaml_of(self.case.one(self.which, self.shift).mapping())}
