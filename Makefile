@@ -76,7 +76,7 @@ demo-dem:
 test:
 	@cmake/deps.sh build test
 	@$(MAKE) build
-	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
+	@ctest --test-dir $(BUILD) --output-on-failure -j $$(($(JOBS) + 1))  # tests that wait leave a core idle
 
 PORTABLE_BUILD = $(BUILD)-portable
 verify:

@@ -168,7 +168,7 @@ def borne(material, rate, sigma=None, steps=250):
     for k in range(1, steps + 1):
         rho, bears = eos.rho0 / (1.0 + k * stretch), sigma * np.maximum(1.0 - D, 1e-9)
         low, high = phi, np.maximum(phi, 1.0 - rho / eos.rho0)  # of the voids at the end of the step
-        for _ in range(30):
+        for _ in range(20):
             middle = 0.5 * (low + high)
             tension = np.maximum(-(1.0 - middle) * eos.pressure(rho / (1.0 - middle), e), 0.0)
             grows = bears * (np.log((1.0 - phi) / (1.0 - middle)) * rate / (stretch * v["rate"])) ** v["m"] < tension
