@@ -67,7 +67,7 @@ if __name__ == "__main__":
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     a.add_argument("--lmp", default=TESTS.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
     a.add_argument("--out", default="verify-solids", type=pathlib.Path)
-    a.add_argument("--only", default="", help="a part of the names: " + ", ".join(scene.__name__ for _, scene, _ in LONG))
+    a.add_argument("--only", default="", help="a name or a part of names: " + ", ".join(scene.__name__ for _, scene, _ in LONG))
     a.add_argument("--spacing", type=lambda s: int(s) if s.isdigit() else float(s),
                    help="only this one, in cm (Taylor's cylinder: m); of walls, blocks, bars: layers")
     a.add_argument("--words", help="of the pair style, in place of those of the long form, like 'viscosity 0.1 0.5'")
@@ -81,8 +81,9 @@ if __name__ == "__main__":
     lmp = runner(args.lmp, args.out)
     more = {k: v for k, v in (("kernel", args.kernel), ("h", args.h)) if v is not None}
     report = "# Solids\n"
+    whole = args.only in [scene.__name__ for _, scene, _ in LONG]
     for title, scene, cases in LONG:
-        if args.only not in scene.__name__:
+        if args.only != scene.__name__ if whole else args.only not in scene.__name__:
             continue
         rows = []
         cases = [c for c in cases if args.spacing in (None, c[0])] or [(args.spacing, cases[0][1])]
