@@ -229,7 +229,7 @@ def kept(file, now, source, busy):
 
 
 def show(record):
-    said = record["failed"] or record["cannot"] or " ".join(f"{k} {v:.4g}" for k, v in record["errors"].items())
+    said = record["failed"] or record["cannot"] or " ".join(f"{k} {v:.4g}" for k, v in [*record["errors"].items(), *record.get("numbers", {}).items()])
     cost = "" if record["cannot"] else f"; {record.get('loop_s', 0) * record['ranks']:.1f} core-s"
     cost += "" if record["idle"] or record["cannot"] else f", busy: others used {record['load']} cores"
     return f"{record['case']} {' '.join(f'{k}={v}' for k, v in record['settings'].items())}: {said}{cost}"

@@ -40,7 +40,7 @@ def shell(lmp, folder, s):
     else:
         o = vt.verney(lmp, folder, 2.0 / s["layers"], t_end=115.0, octant=True, **of_particles(s))
     errors = {"inner radius": off(o["inner"] / 4), "strength": off(vt.strength(o["inner"]))}
-    return o, errors, {"inner_cm": o["inner"], "stops_at_us": o["stops_at"]}
+    return o, errors, {"inner_cm": o["inner"], "stops_at_us": o["stops_at"], "strength_over_exact": vt.strength(o["inner"])}
 
 
 def cylinder(lmp, folder, s):

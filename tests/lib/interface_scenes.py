@@ -144,7 +144,7 @@ def mistake(one, pulse):
     return v[there].max() / (0.5 * SPEED), np.abs(v - 0.5 * SPEED * exact)[there].max() / (0.5 * SPEED)
 
 
-def squeezed(lmp, folder, n=2, kernel="cubic 1.2", pair="", ragged=False, strain=1e-3, steps=200, name="squeezed"):
+def squeezed(lmp, folder, n=2, kernel="cubic 1.2", pair="", ragged=False, strain=1e-3, steps=200, fem="", name="squeezed"):
     """Elements, particles, elements: all are moved so that strain along x is uniform, then set free at rest, the ends held
 
     Largest forces at once, on nodes and on free particles, over what the stress makes on one of their sides; largest speed since, over stress/(rho c)
@@ -175,7 +175,7 @@ velocity all set 0 0 0
 dump d all custom {steps // 4} {name}.dump id type x y z vx vy vz fx fy fz
 dump_modify d format float %.12g
 run {steps}"""
-    result = lmp(scene(mesh, folder, name, kernel, pair, more, 20, "convert no", then))
+    result = lmp(scene(mesh, folder, name, kernel, pair, more, 20, f"convert no {fem}", then))
     all_frames = frames(folder / f"{name}.dump")
     first = all_frames[0]
     count, inner = len(mesh.nodes), mesh.embedded.size // 3

@@ -103,6 +103,15 @@ def unexpected(case, outcome, rows=None):
     return "; ".join(more + worse + less)
 
 
+def ranges(rows):
+    """lines with the least and the largest number of each measure, of rows of hard.csv"""
+    found = {}
+    for row in rows:
+        for measure, value in numbers(row).items():
+            found.setdefault(measure, []).append(value)
+    return [f"{measure} {min(values):.3g} to {max(values):.3g}" for measure, values in found.items()]
+
+
 def cases():
     return [*hard_gas.CASES, *hard_solids.CASES]
 
@@ -186,7 +195,7 @@ def main():
         return print(table(read()), end="")
     out = args.out.resolve()
     out.mkdir(parents=True, exist_ok=True)
-    rows, wrong = [], []
+    rows, wrong, ran = [], [], []
     if args.add and (out / "hard.csv").exists():
         rows = [[r[k] for k in COLUMNS] for r in read(out / "hard.csv")]
     for case in cases():
@@ -201,11 +210,13 @@ def main():
             rows = [r for r in rows if r[:2] != [case.name, method]] + [as_row(case, o)]
             if unexpected(case, o):
                 wrong.append(f"{case.name}, {method}: {unexpected(case, o)}")
+            ran.append(dict(zip(COLUMNS, rows[-1])))
             print(" | ".join(rows[-1]), flush=True)
             with open(out / "hard.csv", "w", newline="") as f:
                 f.write("# python3 tests/verify/hard.py --form long\n")
                 w = csv.writer(f, lineterminator="\n")
                 w.writerow(COLUMNS), w.writerows(rows)
+    print("\n".join(ranges(ran)))
     print("\n".join(wrong) or "all as it is said", f"\n{out}/hard.csv", sep="")
     if wrong:
         sys.exit(1)

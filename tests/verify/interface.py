@@ -37,19 +37,20 @@ OBLIQUE = [(CUBIC, 0, False), (WENDLAND, 0, False), (CUBIC, 30, False), (CUBIC, 
 
 
 class Study:
-    def __init__(self, exe, folder):
-        self.folder, self.lmp, self.known = folder, runner(exe, folder), {}
+    def __init__(self, exe, folder, far=100, fem=""):
+        self.folder, self.lmp, self.known, self.far, self.fem = folder, runner(exe, folder), {}, far, fem
 
     def run(self, free, **words):
         """of a bar without an interface once only"""
-        words = dict(n=2, kernel=CUBIC, side=-1, pair=RIEMANN, hold=4 if words.get("n") == 1 else 2) | words
+        words = dict(n=2, kernel=CUBIC, side=-1, pair=RIEMANN, hold=4 if words.get("n") == 1 else 2, far=self.far) | words
+        words["fem"] = f"{words.get('fem', '')} {self.fem}"
         if free == "right":
             return bar(self.lmp, self.folder, free, **words)
         if free == "all" and words.get("n") == 1:  # the same particles
             words["n"] = 2
         key = free, *sorted((k, v) for k, v in words.items() if k in ("n", "pulse", "angle", "side", "far") or (free == "all" and k in ("kernel", "pair")))
         if key not in self.known:
-            self.known[key] = bar(self.lmp, self.folder, free, **{k: v for k, v in words.items() if k not in ("hold", "ragged", "fem")})
+            self.known[key] = bar(self.lmp, self.folder, free, **{k: v for k, v in words.items() if k not in ("hold", "ragged")} | dict(fem=self.fem))
         return self.known[key]
 
     def reflects(self, **words):
@@ -57,15 +58,20 @@ class Study:
         return one, reflection(one, self.run("none" if words.get("side", -1) < 0 else "all", **words))
 
     def pulses(self):
+        drifts, momenta, across = {-1: [], 1: []}, [], {False: [], True: []}
         yield "| interface | n | kernel | pair style | layers | smooth | steep | energy | momentum | sideways |"
         yield "|---|---|---|---|---|---|---|---|---|---|"
         for title, rows in ROWS.items():
             for words in rows:
                 found = [self.reflects(pulse=p, **words) for p in PULSES]
                 drift, momentum, sideways = (max(one[k] for one, _ in found) for k in ("drift", "momentum", "sideways"))
+                drifts[words.get("side", -1)].append(drift), momenta.append(momentum), across["ragged" in words].append(sideways)
                 n = words.get("n", 2)
                 yield (f"| {title} | {n} | {words.get('kernel', CUBIC)} | {words.get('pair', RIEMANN)} | {words.get('hold', 4 if n == 1 else 2)} | "
                        f"{' | '.join(f'{100 * r:.2f} %' for _, r in found)} | {drift:.0e} | {momentum:.0e} | {sideways:.0e} |")
+        yield ""
+        yield (f"Energy {min(drifts[-1]):.0e} to {max(drifts[-1]):.0e}, from particles {min(drifts[1]):.0e} to {max(drifts[1]):.0e}; momentum at most "
+               f"{max(momenta):.0e}; sideways at most {max(across[False]):.0e}, ragged {max(across[True]):.0e}")
 
     def oblique(self):
         yield "| angle | kernel | interface | wave packet |"
@@ -77,8 +83,10 @@ class Study:
     def alone(self):
         yield "| bar of | kernel | pair style | smooth: peak | largest difference | steep: peak | largest difference |"
         yield "|---|---|---|---|---|---|---|"
-        for name, free, words in (*((f"elements of {n} spacings", "none", dict(n=n)) for n in (1, 2, 3)),
-                                  *(("particles", "all", dict(kernel=k, pair=p, side=1)) for k in (CUBIC, WENDLAND) for p in (RIEMANN, MONAGHAN))):
+        bars = [(f"elements of {n} spacings", "none", dict(n=n)) for n in (1, 2, 3)]
+        if not self.fem:
+            bars += [("particles", "all", dict(kernel=k, pair=p, side=1)) for k in (CUBIC, WENDLAND) for p in (RIEMANN, MONAGHAN)]
+        for name, free, words in bars:
             found = [mistake(self.run(free, pulse=p, **words), p) for p in PULSES]
             yield (f"| {name} | {words.get('kernel', '')} | {words.get('pair', '')} | " +
                    " | ".join(f"{peak:.3f} | {100 * off:.1f} %" for peak, off in found) + " |")
@@ -87,7 +95,7 @@ class Study:
         yield "| n | kernel | interface | nodes: largest force | free particles | speed later |"
         yield "|---|---|---|---|---|---|"
         for n, kernel, ragged in [(n, k, r) for k in (CUBIC, WENDLAND) for n in (1, 2) for r in (False, True)]:
-            out = squeezed(self.lmp, self.folder, n, kernel, RIEMANN, ragged)
+            out = squeezed(self.lmp, self.folder, n, kernel, RIEMANN, ragged, fem=self.fem)
             yield f"| {n} | {kernel} | {'ragged' if ragged else 'flat'} | {out['nodes']:.1e} | {out['free']:.1e} | {out['speed']:.1e} |"
 
     def spin(self):
@@ -126,10 +134,12 @@ def main():
     parser.add_argument("--lmp", required=True, type=pathlib.Path)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."))
     parser.add_argument("--only", help="one of pulses, oblique, alone, at_rest, spin, picture")
+    parser.add_argument("--far", type=int, default=100, help="where pulses start, in spacings; not packets")
+    parser.add_argument("--fem", default="", help="more words of fix hvi/fem, as in 'hourglass/viscous 0.1'; not of blocks that turn")
     args = parser.parse_args()
     folder = args.out / "interface"
     folder.mkdir(parents=True, exist_ok=True)
-    study = Study(args.lmp.resolve(), folder)
+    study = Study(args.lmp.resolve(), folder, args.far, args.fem)
     with open(args.out / "interface.md", "w") as report:
         for name, title in (("pulses", "Pulses at normal incidence, reflected"), ("oblique", "Packets of waves 30 spacings long"), ("alone", "Without an interface"),
                             ("at_rest", "A body at rest under uniaxial strain"), ("spin", "A block of 6 x 6 x 12 spacings that turns by 0.8 rad")):

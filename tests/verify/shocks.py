@@ -62,6 +62,22 @@ def as_row(case, o, order):
             " ".join(f"{k}:{v:.2g}" for k, v in o.numbers.items()), " ".join(missed(case, o, order)), o.error]
 
 
+def seen(o):
+    """what pictures show of density and pressure: the densest particle; the median of density where the exact one is largest; by how much pressure
+    falls below that on both sides of a contact, in the inner two thirds between the waves next to it, %"""
+    _, exact, got, inside = o.picture
+    rho, p = exact[0], exact[2]
+    out = f"densest {got[0][inside].max():.4g}, plateau {np.median(got[0][inside & (rho > 0.99 * rho[inside].max())]):.4g}"
+    same = np.abs(np.diff(p)) < 1e-6 * p[1:]
+    found = np.flatnonzero(same & (np.abs(np.diff(rho)) > 0.01 * rho[1:]) & inside[1:] & inside[:-1])
+    if CASES[o.case].dim > 1 or len(found) != 1:
+        return out
+    waves = np.flatnonzero(~same)
+    left, right = waves[waves < found[0]].max(initial=0) + 1, waves[waves > found[0]].min(initial=len(p) - 1)
+    near = slice(found[0] + 1 - (2 * (found[0] + 1 - left)) // 3, found[0] + 1 + (2 * (right - found[0])) // 3)
+    return f"{out}, dip {100 * (1 - (got[2][near] / p[near]).min(initial=np.inf)):.3g}"
+
+
 def picture(case, outcomes, path):
     """profiles of the finest run of every method beside the exact solution"""
     import matplotlib
@@ -197,6 +213,8 @@ def main():
                 order = order_of(last, o) if last else {}
                 rows.append(as_row(case, o, order))
                 print(" ".join(str(a) for a in rows[-1]), flush=True)
+                if o.picture:
+                    print(f"  {seen(o)}", flush=True)
                 last = o if not o.error else last
             if last:
                 finest.append(last)

@@ -18,7 +18,7 @@ sys.path[:0] = [str(TESTS), str(TESTS / "lib"), str(TESTS.parent / "python")]
 import face_scenes  # noqa: E402
 from face_scenes import bending, borne, contact, mirror_face, rubble, spinning, spinning_cube, stairs, verney_cylinder, wave  # noqa: E402
 from lammps_runs import runner  # noqa: E402
-from tensile_scenes import rings  # noqa: E402
+from tensile_scenes import rings, strip  # noqa: E402
 from verney_taylor_scenes import taylor, verney  # noqa: E402
 
 
@@ -28,6 +28,13 @@ def ring_pair(lmp, folder, dx, words, h=1.5, kernel="cubic"):
     return dict(spacing=dx, kernel=kernel, h=h, words=words, particles=len(r.frames[0]["x"]), steps=int(r.thermo["Step"][-1]), seconds=time.time() - start,
                 pieces=max(f["pieces"] for f in frames), nearest=min(f["near"] for f in frames), rebound=-frames[-1]["v"],
                 drift=np.abs(r.thermo["c_book[9]"] - 1).max())
+
+
+def stretched(lmp, folder, strain, words, h=1.5, kernel="cubic"):
+    start = time.time()
+    r, near = strip(lmp, folder, words, kernel, h, strain=strain)
+    return dict(strain=strain, kernel=kernel, h=h, words=words, particles=len(r.frames[0]["x"]), steps=int(r.thermo["Step"][-1]), seconds=time.time() - start,
+                nearest=near.min(), farthest=near.max(), drift=np.abs(r.thermo["c_book[9]"] - 1).max())
 
 
 def table(rows):
@@ -47,6 +54,8 @@ LONG = [
      [(dx, words) for dx in (0.8e-3, 0.64e-3) for words in ("viscosity 1 2", f"viscosity 1 2 {ART}")]),
     ("Rubber rings: pieces of the worse ring, nearest neighbor (1 %) in spacings, speed after in units of that before", ring_pair,
      [(dx, words) for dx in (0.2, 0.1) for words in ("viscosity 1 2", f"viscosity 1 2 {ART}")]),
+    ("A strip that is stretched: distances to the nearest neighbor over the median", stretched,
+     [(strain, words) for strain in (0.1, 0.2) for words in ("viscosity 1 2", f"viscosity 1 2 {ART}")]),
     ("Verney's cylinder: as the shell, plane strain", verney_cylinder, [(dx, LOW) for dx in (0.5, 0.35, 0.25)]),
     ("Standing waves in the plane of a wall: part of stress that is borne, part that the law has, stiffness and speed they give; then shear", borne,
      [(n, LITTLE) for n in (1, 2, 4, 0)]),
@@ -67,9 +76,9 @@ if __name__ == "__main__":
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     a.add_argument("--lmp", default=TESTS.parent / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
     a.add_argument("--out", default="verify-solids", type=pathlib.Path)
-    a.add_argument("--only", default="", help="a part of the names: " + ", ".join(scene.__name__ for _, scene, _ in LONG))
+    a.add_argument("--only", default="", help="a name or a part of names: " + ", ".join(scene.__name__ for _, scene, _ in LONG))
     a.add_argument("--spacing", type=lambda s: int(s) if s.isdigit() else float(s),
-                   help="only this one, in cm (Taylor's cylinder: m); of walls, blocks, bars: layers")
+                   help="only this one, in cm (Taylor's cylinder: m); of walls, blocks, bars: layers; strain of the strip")
     a.add_argument("--words", help="of the pair style, in place of those of the long form, like 'viscosity 0.1 0.5'")
     a.add_argument("--kernel", help="not with Taylor's cylinder")
     a.add_argument("--h", type=float, help="in spacings")
@@ -81,8 +90,9 @@ if __name__ == "__main__":
     lmp = runner(args.lmp, args.out)
     more = {k: v for k, v in (("kernel", args.kernel), ("h", args.h)) if v is not None}
     report = "# Solids\n"
+    whole = args.only in [scene.__name__ for _, scene, _ in LONG]
     for title, scene, cases in LONG:
-        if args.only not in scene.__name__:
+        if args.only != scene.__name__ if whole else args.only not in scene.__name__:
             continue
         rows = []
         cases = [c for c in cases if args.spacing in (None, c[0])] or [(args.spacing, cases[0][1])]

@@ -74,3 +74,8 @@ if __name__ == "__main__":
     text += ["| " + " | ".join(HEAD) + " |", "|---" * len(HEAD) + "|"] + [marked(r) for r in table]
     (o.out / "states.md").write_text("\n".join(text) + "\n")
     print("largest on plateaus: " + worst(table))
+    for kernel, h, variable in kernels:
+        print(f"of these {kernel} {h}, h {'variable' if variable else 'constant'}: "
+              + worst([r for r in table if r[1:3] == [f"{kernel} {h}", "variable" if variable else "constant"]]))
+    contact = [float(r[HEAD.index("contact sigma_x")]) for r in table]
+    print(f"stress at contacts: {min(contact):.1f} to {max(contact):.1f}")

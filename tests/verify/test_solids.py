@@ -505,17 +505,19 @@ def test_spinning_disc(lmp, tmp_path, kernel, h):
         assert max(momentum_error(r.thermo)) < 1e-12 * len(r.frames[0]["x"]), R
 
 
-@pytest.mark.parametrize("kernel, h, words", [("cubic", 1.2, ""), ("quintic", 1.6, ""), ("quintic", 1.6, "artstress 0.3 4")])
-def test_disc_under_stress(lmp, tmp_path, kernel, h, words):
+@pytest.mark.parametrize("kernel, h, words, bound", [("cubic", 1.2, "", 1e-12), ("quintic", 1.6, "", 1e-12), ("quintic", 1.6, "artstress 0.3 4", 5e-3),
+                                                     pytest.param("cubic", 1.5, "artstress 0.3 4", 2e-2, marks=pytest.mark.long),
+                                                     pytest.param("cubic", 1.2, "artstress 0.3 4", 5e-2, marks=pytest.mark.long)])
+def test_disc_under_stress(lmp, tmp_path, kernel, h, words, bound):
     """the same under stress of changing sign, of some percent of strain, while it turns
 
     Forces of artstress are not central, so that a lattice that is strained has a torque of the order of the strain; without it there is none.
     """
     r, J, K, angle = disc(lmp, tmp_path, 12, 0.1, kernel, h, words=f"viscosity 0 0 {words}", pulse=0.03)
     vm = [f["vm"].max() for f in r.frames]
-    print(kernel, words, "J", J.min(), J.max(), "kinetic", K.min(), "turned", angle, "strain", max(vm) / (2 * np.sqrt(3) * 6))
+    print(kernel, h, words, f"gained {100 * np.abs(J - 1).max():.2g} %", "J", J.min(), J.max(), "kinetic", K.min(), "turned", angle, "strain", max(vm) / (2 * np.sqrt(3) * 6))
     assert max(vm) > 2 * np.sqrt(3) * 6 * 0.02
-    assert np.abs(J - 1).max() < (5e-3 if words else 1e-12)
+    assert np.abs(J - 1).max() < bound
     assert angle == pytest.approx(90, abs=3)
     assert np.abs(r.thermo["c_book[9]"] - 1).max() < ENERGY
     assert max(momentum_error(r.thermo)) < 1e-12 * len(r.frames[0]["x"])
