@@ -1,14 +1,22 @@
 """Scenes of fix hvi/fem that mechanics has exact answers to: patches, spinning blocks, waves, Taylor's cylinder, Verney's shell, collisions.
 
 Unless said otherwise of an aluminum that stays elastic, in SI units, elements without particles.
+
+    python3 tests/lib/fem_mechanics_scenes.py --lmp build/lmp verney radial=8 t_end=115 "fem=hourglass/viscous 0.1"
 """
 
+import pathlib
 import re
+import sys
 
 import numpy as np
-from hvi.model.mesh import assemble, block, volumes
-from hvi.model.mesh_plate import plate
-from solid_runs import material
+
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS.parent / "python")]
+from hvi.model.mesh import assemble, block, volumes  # noqa: E402
+from hvi.model.mesh_plate import plate  # noqa: E402
+from lammps_runs import command_line  # noqa: E402
+from solid_runs import material  # noqa: E402
 
 RHO, C, G = 2703.0, 5240.0, 27.6e9
 K = RHO * C**2
@@ -403,3 +411,7 @@ def collision(lmp, folder, kind, speed, steps, n=2, edge=1e-3, share=0.0, fem=""
                 momentum=max(np.abs(t[f"c_book[{k}]"] - t[f"c_book[{k}]"][0]).max() for k in (10, 11, 12)) / unit, hourglass=t["f_wall[8]"][-1] / t["f_wall[10]"].max(),
                 kinetic=t["c_book[1]"][-1] / t["c_book[1]"][0], left=t["f_wall"][-1] / len(m.elements), dt=t["Dt"].min() / stable(edge, 1.0),
                 over=(t["Dt"] / t["f_wall[11]"]).max(), thermo=t)
+
+
+if __name__ == "__main__":
+    command_line(__doc__, (standing, yielding, taylor, verney, collision, spin, gap, pulse), STEEL=STEEL, COPPER=COPPER)
