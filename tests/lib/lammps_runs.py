@@ -132,7 +132,7 @@ def command_line(doc, scenes, **values):
 
     scenes = {scene.__name__: scene for scene in scenes}
     a = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
-    a.add_argument("--lmp", default=ENV.parents[1] / "build" / "lmp", type=lambda p: pathlib.Path(p).resolve())
+    a.add_argument("--lmp", default=os.environ.get("HVI_LMP", ENV.parents[1] / "build" / "lmp"), type=lambda p: pathlib.Path(p).resolve())
     a.add_argument("scene", choices=scenes)
     a.add_argument("words", nargs="*", metavar="NAME=VALUE", help="arguments of the scene")
     o = a.parse_args()
