@@ -1,6 +1,6 @@
 """The input of Howto_fem, "An input", with other meshes and words.
 
-    python3 tests/lib/fem_page.py --lmp build/lmp run "mesh=--core 19e-3 --hold 19.5e-3" "fem=strain 0.1"
+    python3 tests/lib/fem_page.py --lmp build/lmp run "mesh=--core 18e-3 --hold 19e-3" "fem=strain 0.1"
 
 mesh: options in place of those of the page; without: one to leave out; fem: further words of fix hvi/fem. Prints, of the last line of output, elements gone, hole in mm,
 heat of conversion and hourglass energy over the energy of the start, and how well energy is kept.
