@@ -1,14 +1,22 @@
 """Scenes of fix hvi/fem that mechanics has exact answers to: patches, spinning blocks, waves, Taylor's cylinder, Verney's shell, collisions.
 
 Unless said otherwise of an aluminum that stays elastic, in SI units, elements without particles.
+
+    python3 tests/lib/fem_mechanics_scenes.py --lmp build/lmp verney radial=8 t_end=115 "fem=hourglass/viscous 0.1"
 """
 
+import pathlib
 import re
+import sys
 
 import numpy as np
-from hvi.model.mesh import assemble, block, volumes
-from hvi.model.mesh_plate import plate
-from solid_runs import material
+
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS.parent / "python")]
+from hvi.model.mesh import assemble, block, volumes  # noqa: E402
+from hvi.model.mesh_plate import plate  # noqa: E402
+from lammps_runs import command_line  # noqa: E402
+from solid_runs import material  # noqa: E402
 
 RHO, C, G = 2703.0, 5240.0, 27.6e9
 K = RHO * C**2
@@ -18,6 +26,7 @@ NU = (3 * K - 2 * G) / (2 * (3 * K + G))
 PLATE = E / (1 - NU**2)
 EOS = f"eos gruneisen rho0 {RHO} C {C} S1 1.4 g0 1.97"
 ELASTIC = f"strength perfect G {G} Y 1e11"
+GRADIENT = np.array([[0.02, 0.1, 0.03], [-0.05, 0.01, 0.07], [0.04, -0.06, -0.025]]) * 1e6  # of patches, 1/s
 PROBE = "p sxx syy szz sxy sxz syz vm vx vy vz".split()
 
 SCENE = """units {units}
@@ -131,7 +140,8 @@ def patch(lmp, folder, gradient, steps, dt=None, n=5, edge=1e-3, laws=(EOS, ELAS
     inner = ~outer[final["id"] - 1]
     size = np.abs(stress).max()
     return dict(stress=stress.mean(axis=0), size=size, spread=np.ptp(stress, axis=0).max() / size,
-                volume=volumes(m.corners).sum(), force=np.abs(final["f"][inner]).max() / (size * edge**2), thermo=r.thermo, x=final["x"], x0=m.nodes, dt=dt or stable(edge, 0.1))
+                volume=volumes(m.corners).sum(), force=np.abs(final["f"][inner]).max() / (size * edge**2),
+                hourglass=np.abs(r.thermo["f_wall[8]"]).max() / r.thermo["f_wall[10]"][-1], thermo=r.thermo, x=final["x"], x0=m.nodes, dt=dt or stable(edge, 0.1))
 
 
 def stress_of(gradient, t_end):
@@ -185,7 +195,7 @@ def spin(lmp, folder, turns, speed=100.0, n=4, edge=1e-3, share=0.2, hourglass=0
     L = np.stack([t[f"v_L{a}"] for a in "xyz"], axis=1)
     total = t["c_book[8]"]
     return dict(steps=steps, turns=turns, momentum=np.abs(L - L[0]).max() / np.linalg.norm(L[0]), drift=np.abs(total / total[0] - 1).max(),
-                spring=t["f_wall[8]"] / total[0], kinetic=t["c_book[1]"] / total[0], vm=r.elements[-1]["vm"].max() / (RHO * speed**2), time=t["Time"])
+                spring=t["f_wall[8]"] / total[0], spring_max=(t["f_wall[8]"] / total[0]).max(), kinetic=t["c_book[1]"] / total[0], vm=r.elements[-1]["vm"].max() / (RHO * speed**2), time=t["Time"])
 
 
 def gap(lmp, folder, n=2, kernel="cubic", eta=1.2, ragged=False, spacing=1e-3, rate=1e3, pair="", shear=0.0, cells=(12, 4, 4)):
@@ -403,3 +413,7 @@ def collision(lmp, folder, kind, speed, steps, n=2, edge=1e-3, share=0.0, fem=""
                 momentum=max(np.abs(t[f"c_book[{k}]"] - t[f"c_book[{k}]"][0]).max() for k in (10, 11, 12)) / unit, hourglass=t["f_wall[8]"][-1] / t["f_wall[10]"].max(),
                 kinetic=t["c_book[1]"][-1] / t["c_book[1]"][0], left=t["f_wall"][-1] / len(m.elements), dt=t["Dt"].min() / stable(edge, 1.0),
                 over=(t["Dt"] / t["f_wall[11]"]).max(), thermo=t)
+
+
+if __name__ == "__main__":
+    command_line(__doc__, (patch, spin, gap, standing, yielding, pulse, taylor, verney, collision), GRADIENT=GRADIENT, STEEL=STEEL, COPPER=COPPER)

@@ -1,11 +1,15 @@
-"""What a run of LAMMPS leaves behind, and runs outside of pytest: executor() and runner(). In tests it is the fixture lmp of conftest.py that runs LAMMPS."""
+"""What a run of LAMMPS leaves behind, and runs outside of pytest: executor(), runner() and command_line(). In tests it is the fixture lmp of conftest.py that runs LAMMPS."""
 
+import argparse
+import ast
+import functools
 import os
 import pathlib
 import re
 import shlex
 import subprocess
 import sys
+import tempfile
 
 import numpy as np
 
@@ -113,3 +117,26 @@ def runner(exe, folder):
         return r
 
     return lmp
+
+
+def command_line(doc, scenes, **values):
+    """main of a module of scenes, functions scene(lmp, folder, ...): python3 MODULE [--lmp FILE] SCENE NAME=VALUE ..., which prints the numbers of what it returns
+
+    values: objects that a VALUE can name
+    """
+    def read(text):
+        try:
+            return values[text] if text in values else ast.literal_eval(text)
+        except (ValueError, SyntaxError):
+            return pathlib.Path(text).resolve() if text.endswith(".hvi") else text
+
+    scenes = {scene.__name__: scene for scene in scenes}
+    a = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
+    a.add_argument("--lmp", default=os.environ.get("HVI_LMP", ENV.parents[1] / "build" / "lmp"), type=lambda p: pathlib.Path(p).resolve())
+    a.add_argument("scene", choices=scenes)
+    a.add_argument("words", nargs="*", metavar="NAME=VALUE", help="arguments of the scene")
+    o = a.parse_args()
+    words = {name: read(text) for name, _, text in (word.partition("=") for word in o.words)}
+    with tempfile.TemporaryDirectory() as folder:
+        found = scenes[o.scene](functools.partial(executor(o.lmp, pathlib.Path(folder)), timeout=36000), pathlib.Path(folder), **words)
+    print(" ".join(f"{k} {v:.6g}" for k, v in found.items() if isinstance(v, (int, float, np.number))))

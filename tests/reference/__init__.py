@@ -7,5 +7,6 @@ gas.py     shocks in an ideal gas: Riemann problems, Noh, Sedov, blasts between 
 impedance.py  plates that meet, sound at a step of impedance
 elastic_plastic.py  plates of elastic, perfectly plastic solids that meet
 measures.py  errors of particle runs against these
+eos_curves.py  Hugoniots and releases of laws of the package against measured ones and each other
 rule.py    how rules for the dissipation do on random layers
 """

@@ -154,7 +154,7 @@ run 0
         tag, p = read_dump(tmp_path / "out").table.T
         assert len(p) == n and p.min() > -10, parts  # all stand at their limits
         weakest = -p.reshape(volumes, parts).max(1)
-        print(parts, weakest.mean(), weakest.std() / volumes**0.5)
+        print(f"{parts} particles: weakest {weakest.mean():.4f} +- {weakest.std() / volumes**0.5:.4f}")
         assert abs(weakest.mean() - 1) < 3 * weakest.std() / volumes**0.5, parts
         without.append(factor(4, 100 + parts, tag).reshape(volumes, parts).min(1).mean())
     assert without[2] < 0.6 * without[0]

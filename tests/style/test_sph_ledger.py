@@ -52,7 +52,7 @@ def test_drift_falls_with_the_step(lmp, tmp_path):
     """leapfrog: second order, so half the step leaves about a quarter of the drift; the table of Howto_sph_verification"""
     drift = {C: np.abs(run(lmp, tmp_path, "h variable", C=C, until=4.0)["c_book[9]"] - 1).max() for C in (0.05, 0.1, 0.2, 0.3, 0.6)}
     for C, largest in drift.items():
-        print(f"C {C}: largest drift / energy {largest:.1e}")
+        print(f"C {C}: largest drift / energy {largest:.3e}")
     assert drift[0.1] < 0.4 * drift[0.2] and drift[0.05] < 0.4 * drift[0.1]
     assert drift[0.2] < 5e-3
 

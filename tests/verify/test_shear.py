@@ -7,78 +7,22 @@ import functools
 
 import numpy as np
 import pytest
-from dumps import read_dump
-from reference.flow2d import Flow
-from sph_scenes import Fluid, ideal_gas, scene, tait
+from shear_scenes import KERNELS, LAWS, prototype, solve, vortex
+from shear_scenes import layer as run_layer
 
 WORDS = {"monaghan 1 2": "viscosity 1 2", "monaghan 0.1 0.2": "viscosity 0.1 0.2", "riemann": "dissipation riemann"}
-LAWS = {"tait": ("tait 1.0 10.0 7", tait(1.0, 10.0), 0.0), "gas": ("idealgas 1.4", ideal_gas(1.4), 100 / 0.56)}  # c = 10
-KERNELS = {"tait": "cubic", "gas": "quintic"}
-ETA = 1.2
-
-RUN = """fix step all hvi/dt 0.3
-variable t equal f_step[2]
-compute K all ke
-compute book all hvi/energy
-variable L atom mass*((x-{center})*vy-(y-{center})*vx)
-compute L all reduce sum v_L
-thermo_style custom step v_t c_K c_L c_book[9]
-thermo_modify norm no format float %.16g
-thermo 50
-fix stop all halt 1 v_t > {t} error continue message no
-run 100000
-write_dump all custom last x y vx vy modify sort id format float %.15g
-"""
-
-
-def square(n, jitter):
-    """positions (n^2, 2) in the unit square"""
-    x = np.stack(np.meshgrid(np.arange(n), np.arange(n), indexing="ij"), -1).reshape(-1, 2) + 0.5
-    return (x + np.random.default_rng(1).uniform(-jitter, jitter, x.shape)) / n % 1
-
-
-def solve(lmp, tmp_path, x, v, e, n, words, eos, kernel, t, rho=None, box=1.0, center=0.5, more=""):
-    """thermo; x, v at the end"""
-    flat = lambda a: np.hstack([a, np.zeros((len(a), 1))])
-    m = 1 / n**2
-    s = Fluid(flat(x), flat(v), np.ones(len(x)) if rho is None else rho, m * e * np.ones(len(x)), np.ones(len(x), int), {1: m}, {1: ETA / n},
-              np.array([box, box, 20 / n]), (box == 1, box == 1, True), 2)
-    pair = f"pair_style hvi/sph {kernel} {words}\npair_coeff * * eos {eos} h {ETA / n}\n"
-    thermo = lmp(scene(s, tmp_path / "s.data", pair, skin=0.3 / n) + more + RUN.format(t=t, center=center)).thermo
-    a = read_dump(tmp_path / "last").table
-    if not more:
-        assert np.abs(thermo["c_book[9]"] - 1).max() < 1e-3
-    return thermo, a[:, :2], a[:, 2:]
 
 
 # ------------------------------------------------------------------ shear layer: v_x = sin(2 pi y), c = 10, one crossing
-
-
-def viscosity(kinetic, t):
-    """which makes a layer lose this part of its energy"""
-    return -np.log(kinetic) / (8 * np.pi**2 * t)
-
-
-def shear(x):
-    return np.stack([np.sin(2 * np.pi * x[:, 1]), np.zeros(len(x))], 1)
 
 
 @pytest.fixture
 def layer(lmp, tmp_path):
     @functools.cache
     def run(name, law, n, jitter):
-        x, (eos, _, e) = square(n, jitter), LAWS[law]
-        thermo, _, _ = solve(lmp, tmp_path, x, shear(x), e, n, WORDS[name], eos, KERNELS[law], 1.0)
-        return viscosity(thermo["c_K"][-1] / thermo["c_K"][0], thermo["v_t"][-1])
+        return run_layer(lmp, tmp_path, WORDS[name], law, n, jitter)
 
     return run
-
-
-def prototype(law, n, jitter, **more):
-    x, (_, laws, e) = square(n, jitter), LAWS[law]
-    flow = Flow(x, shear(x), np.ones(len(x)), np.full(len(x), e), 1 / n**2, ETA / n, laws, KERNELS[law], **more)
-    kinetic = flow.advance(1.0, 0.25 * ETA / n / 10)
-    return viscosity(kinetic[-1] / kinetic[0], flow.t)
 
 
 @pytest.mark.parametrize("jitter", [0.0, 0.1])
@@ -112,30 +56,11 @@ def test_prototype_and_switches(layer):
 # ------------------------------------------------------------------ rotation
 
 
-def gresho(r):
-    """v, p: a triangle of velocity, highest at r = 0.2, that pressure holds"""
-    s = np.maximum(r, 1e-9)
-    v = np.where(r < 0.2, 5 * r, np.where(r < 0.4, 2 - 5 * r, 0))
-    p = np.where(r < 0.2, 5 + 12.5 * r**2, np.where(r < 0.4, 9 + 12.5 * r**2 - 20 * r + 4 * np.log(s / 0.2), 3 + 4 * np.log(2)))
-    return v, p
-
-
 def test_gresho_vortex(lmp, tmp_path):
     """one turn of the innermost, c = 2.9, quintic, n = 32"""
-    n = 32
-    x = square(n, 0.0)
-    d = x - 0.5
-    r = np.hypot(*d.T)
-    speed, p = gresho(r)
-    turn = lambda d, r: np.stack([-d[:, 1], d[:, 0]], 1) / r[:, None]
     kept, error = {}, {}
     for name, words in WORDS.items():
-        thermo, y, v = solve(lmp, tmp_path, x, speed[:, None] * turn(d, r), 1.5 * p, n, words, f"idealgas {5 / 3!r}", "quintic", 0.4 * np.pi)
-        d1 = y - 0.5
-        r1 = np.hypot(*d1.T)
-        kept[name] = thermo["c_K"][-1] / thermo["c_K"][0]
-        error[name] = np.abs((v * turn(d1, r1)).sum(1) - gresho(r1)[0])[r1 < 0.5].mean()
-        momentum = thermo["c_L"][-1] / thermo["c_L"][0]
+        kept[name], error[name], momentum = vortex(lmp, tmp_path, words, 32)
         print(f"vortex {name:16} kinetic energy kept {kept[name]:.3f}, mean error of v {error[name]:.3f}, angular momentum {momentum:.3f}")
         assert momentum == pytest.approx(1, abs=0.15), name
     assert kept["riemann"] > 1.25 * kept["monaghan 1 2"] and error["riemann"] < 0.92 * error["monaghan 1 2"]

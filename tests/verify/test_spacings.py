@@ -21,4 +21,6 @@ def test_plates_of_different_spacings(lmp, tmp_path, solid):
                 assert abs(g[name][0]) < 0.01 and g[name][2] < 0.05
             assert abs(g[name][0] - got[1][name][0]) < 0.01 and abs(g[name][1] - got[1][name][1]) < 0.002
             assert g[name][2] < ({1: 0.05, 2: 0.1, 4: 0.2}[ratio] if solid else got[1][name][2] + 0.035)
+        stress, rho = max((g[name][0] for name in ("fine", "coarse")), key=abs), max(g[name][2] for name in ("fine", "coarse"))
+        print(f"{'solid' if solid else 'liquid'} 1 and {ratio}, larger errors: stress {100 * stress:+.2f} %, rho next to the contact {100 * rho:.1f} %")
         assert g["energy"] < 1e-3, ratio

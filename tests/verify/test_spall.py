@@ -58,7 +58,7 @@ def test_stretched_at_a_constant_rate(lmp, root, tmp_path, epsdot):
     found = -t["c_M[1]"].min(), RHO0 * t["c_M[2]"][bad], epsdot * t["Time"][bad]
     scale = k["sigma"] * (epsdot / k["rate"]) ** k["m"]
     print(f"{epsdot:.0e}: law {strength:.4e} {energy:.4e} {strain:.5f}, row", [f"{v:.4e}" for v in found], "of the scale",
-          strength / scale, energy / (0.5 * scale * k["phi_c"]))
+          strength / scale, energy / (0.5 * scale * k["phi_c"]), f"largest difference {100 * max(abs(a / b - 1) for a, b in zip(found, (strength, energy, strain))):.3f} %")
     assert found == pytest.approx((strength, energy, strain), rel=2e-3)
     assert 0.85 < strength / scale < 0.95
     assert 1.0 < energy / (0.5 * scale * k["phi_c"]) < 1.25
