@@ -156,7 +156,7 @@ def test_shock_into_coarser(lmp, tmp_path, name, dim, nx, rows, ratio, dense):
     one: riemann to 4.2 %, monaghan to 5 % in the same gas"""
     g = two_spacings(lmp, tmp_path, dim, nx, rows, DISSIPATIONS[name], 1.2, mach=1.2, ratio=ratio, dense=dense)
     jumps = g["jumps"]
-    print(f"{dim}D ratio {ratio} dense {dense} {name:9} jumps/exact (p, u):", *(f"{where} {a:.3f} {b:.3f}" for where, (a, b) in jumps.items()))
+    print(f"\n{dim}D ratio {ratio} dense {dense} {name} errors of jumps of p, u, %:", *(f"{where} {100 * a - 100:.1f} {100 * b - 100:.1f}" for where, (a, b) in jumps.items()))
     off = 0.05 if name == "riemann" else 0.08
     assert jumps["fine"] == pytest.approx((1, 1), abs=off)
     assert jumps["coarse"] == pytest.approx((1, 1), abs=off)
