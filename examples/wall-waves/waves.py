@@ -171,13 +171,35 @@ def main():
                   f"| {SOURCE.get((wall, distance), '')} |".replace("nan", ""))
             before = record["r"], row[1]
         print(f"\nwall {wall}, bending: speed of the group between two probes, mm/us\n\n| from | to mm | 1/us | length mm | measured | Mindlin | ratio |\n|---|---|---|---|---|---|---|")
+        ranges = []
         for near, far in zip(args.at[:-1], args.at[1:]):
-            for omega, length, speed, theory in bending(records[wall, near], records[wall, far], plate):
+            rows = bending(records[wall, near], records[wall, far], plate)
+            for omega, length, speed, theory in rows:
                 print(f"| {near:g} | {far:g} | {omega:.3f} | {length:.1f} | {speed:.3f} | {theory:.3f} | {speed / theory:.3f} |")
+            if rows:
+                _, length, speed, theory = np.array(rows).T
+                ranges.append(f"wall {wall}, bending, {near:g} to {far:g} mm: length {length.min():.1f} to {length.max():.1f} mm, ratio {(speed / theory).min():.2f} to {(speed / theory).max():.2f}")
+        print("", *ranges, sep="\n")
+    log = pathlib.Path(args.folder, "log.lammps")
+    if log.exists():
+        print(f"\nenergy - 1, largest of the rows of {log.name}: {largest_drift(log):.2e}")
     if args.figure:
         draw(args, records, plate, struck)
     if args.maps:
         maps(args, records)
+
+
+def largest_drift(log):
+    """what c_book[9] of thermo is off 1 where it is farthest"""
+    rows, column = [0.0], None
+    for words in (line.split() for line in log.read_text().splitlines()):
+        if words[:1] == ["Step"]:
+            column = words.index("c_book[9]")
+        elif words[:2] == ["Loop", "time"]:
+            column = None
+        elif column is not None and len(words) > column and words[0].isdigit():
+            rows.append(float(words[column]) - 1)
+    return max(rows, key=abs)
 
 
 def maps(args, records):
