@@ -174,7 +174,7 @@ def measured(shots):
     fig, ax = plt.subplots(1, 2, figsize=(10.4, 4.8), layout="constrained")
     rows = [["shot", "flyer / target mm", "v m/s", "peak GPa: paper, here", "rate /s: paper", "without fracture", "of the record", "sigma* GPa: measured", "voids 64", "128", "of the measured", "128, sigma raised", "principal 128",
              "file's sigma at the second rate", "largest -p GPa", "first failure, mm below the surface"]]
-    found = {}
+    found, strengths = {}, {}
     for s in shots:
         name = "shot-" + s["name"].replace(" ", "_")
         k = voids.constants(pathlib.Path(root), s["target"])
@@ -186,6 +186,7 @@ def measured(shots):
         spalls, pulls = w["record"] == "ok", w["record"] == "ok" or w["record"].startswith("a pull-back")
         color, filled = METAL[s["target"]][1], s["flyer"] != "quartz"
         if pulls:
+            strengths[s["name"]] = w["spall_strength_GPa"]
             ax[0].loglog(sigma, w["spall_strength_GPa"], "o" if spalls else "x", color=color, mfc=color if filled else "none")
         if p and p["record"] == "ok":
             ax[0].loglog(sigma, p["spall_strength_GPa"], "^", color="C3", mfc="C3" if filled else "none", ms=4)
@@ -241,6 +242,13 @@ def measured(shots):
                         f"{sigma.max() / sigma.min():.2f}", f"{peak.min():.2f} to {peak.max():.2f}", f"{phi_c:.3f}", f"{100 * raised(name) - 100:.0f} %",
                         str(len(then)), f"{then.mean():.2f}" if len(then) else "-"])
     table(summary)
+    powers = [["shots of", "power of the published rate: measured", "computed, 128 per flyer"]]
+    for paper in dict.fromkeys(s["paper"] for s in shots):
+        own = [(float(s["rate"]), float(s["sigma"]), strengths[s["name"]]) for s in shots if s["paper"] == paper and s["note"] == "t" and s["name"] in strengths]
+        if len(own) > 2:
+            rate, of, got = np.log(own).T
+            powers.append([paper, *(f"{np.polyfit(rate, y, 1)[0]:.3f}" for y in (of, got))])
+    table(powers)
 
 
 if __name__ == "__main__":
