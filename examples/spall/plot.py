@@ -2,7 +2,7 @@
 """Records of plate impacts, and what the runs of run.sh gave.
 
     python3 plot.py FOLDER...   one or more runs after hvi measure (result.yaml, surface.dat, profile.dat): draws FOLDER/record.png
-    python3 plot.py             the runs of run.sh under runs/: the figures of README.md, its tables on the screen, and found.csv, all columns of all shots
+    python3 plot.py             the runs of run.sh under runs/: the figures of README.md, its tables on the screen, found.csv, all columns of all shots, and runs/metals.csv
     python3 plot.py --raised    writes runs/raised/FILE.hvi: sigma so large that matter stretched at the file's rate bears the file's sigma, for run.sh
 
 The strength of matter that is stretched at a constant rate (tests/reference/voids.py) is drawn beside what records give.
@@ -233,15 +233,15 @@ def measured(shots):
             plain(axis, (0.4, 0.6, 0.8, 1, 1.5, 2, 3, 4))
     fig.savefig("shots.png", dpi=110)
     table(rows, "found.csv")
-    summary = [["metal", "shots", "with a pull-back", "parted", "of the measured: mean", "least", "most", "scatter about the mean", "measured: most of the least", "peak, of the published", "phi_c", "sigma raised by", "parted then", "of the measured then"]]
+    summary = [["metal", "shots", "with a pull-back", "parted", "of the measured: mean", "least", "most", "scatter about the mean", "measured: most of the least", "peak, of the published", "phi_c", "sigma raised by %", "parted then", "of the measured then"]]
     for name, values in found.items():
         sigma, got, parted, _, more, peak = np.array(values).T
         of, then = (got / sigma)[got == got], (more / sigma)[more == more]
         phi_c = voids.constants(pathlib.Path(root), name)["phi_c"]
         summary.append([METAL[name][0], str(len(sigma)), str(len(of)), f"{parted.sum():.0f}", *(f"{x:.2f}" for x in (of.mean(), of.min(), of.max(), of.std() / of.mean())),
-                        f"{sigma.max() / sigma.min():.2f}", f"{peak.min():.2f} to {peak.max():.2f}", f"{phi_c:.3f}", f"{100 * raised(name) - 100:.0f} %",
+                        f"{sigma.max() / sigma.min():.2f}", f"{peak.min():.2f} to {peak.max():.2f}", f"{phi_c:.3f}", f"{100 * raised(name) - 100:.0f}",
                         str(len(then)), f"{then.mean():.2f}" if len(then) else "-"])
-    table(summary)
+    table(summary, os.path.abspath("runs/metals.csv"))
     powers = [["shots of", "power of the published rate: measured", "computed, 128 per flyer"]]
     for paper in dict.fromkeys(s["paper"] for s in shots):
         own = [(float(s["rate"]), float(s["sigma"]), strengths[s["name"]]) for s in shots if s["paper"] == paper and s["note"] == "t" and s["name"] in strengths]
