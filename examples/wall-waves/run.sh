@@ -12,4 +12,4 @@ mesh() { # wall, core, hold, type, options
 mesh 1 8e-3 14e-3 2
 mesh 2 30e-3 50e-3 4 --bottom 60.8e-3
 $lmp -in "$here"/in.waves || exit 1
-for wall in 1 2; do $python3 "$here"/waves.py . --wall $wall --figure waves$wall.png --maps walls$wall.png || exit 1; done
+for wall in 1 2; do $python3 "$here"/waves.py . --wall $wall --table waves$wall.csv --figure waves$wall.png --maps walls$wall.png || exit 1; done
