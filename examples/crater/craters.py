@@ -2,6 +2,7 @@
 """Craters beside the fit of Cour-Palais: runs in.crater for each row of craters.csv that has no depth yet, and writes what is found into it.
 
     python3 craters.py [--ranks R]    # runs what is left, writes craters.csv
+    python3 craters.py --again        # runs the rows that have a depth once more
     python3 craters.py --table        # only prints the table
 """
 
@@ -24,7 +25,7 @@ TABLE = HERE / "craters.csv"
 DEEP = 3.5  # thickness and radius of the target, in depths of the fit
 TSTOP = 3.0  # us per mm of its depth
 GIVEN = ("projectile", "target", "D_mm", "km_s", "across", "damage", "rate_D", "rate_p")  # rate_D, 1/s, and rate_p: keys D and p of strength johnson-cook, of both
-FOUND = ("depth_mm", "diameter_mm", "volume_mm3", "fit_mm", "error_percent", "particles", "core_s")
+FOUND = ("depth_mm", "diameter_mm", "depth_over_diameter", "volume_mm3", "fit_mm", "error_percent", "particles", "core_s")
 
 
 def read():
@@ -58,22 +59,23 @@ def run(row, folder, ranks):
     words = [word for name, value in values.items() for word in ("-var", name, str(value))]
     start = time.time()
     with open(folder / "screen", "w") as screen:
-        subprocess.run([ROOT / "cmake" / "env.sh", "mpirun", "-np", str(ranks), ROOT / "build" / "lmp", "-in", HERE / "in.crater", *words], cwd=folder, check=True, stdout=screen,
+        subprocess.run([ROOT / "cmake" / "env.sh", "mpirun", "-np", str(ranks), os.environ.get("HVI_LMP", ROOT / "build" / "lmp"), "-in", HERE / "in.crater", *words], cwd=folder, check=True, stdout=screen,
                        env={**os.environ, "LAMMPS_POTENTIALS": str(folder)})
     frame = hvi.Dump(folder / "crater.dump")[0]
     found = crater.measure(frame, 1e-3 * dx, [2])
-    row.update(depth_mm=f"{1e3 * found.depth:.3f}", diameter_mm=f"{1e3 * found.diameter:.3f}", volume_mm3=f"{1e9 * found.volume:.1f}", fit_mm=f"{depth:.3f}",
+    row.update(depth_mm=f"{1e3 * found.depth:.3f}", diameter_mm=f"{1e3 * found.diameter:.3f}", depth_over_diameter=f"{found.depth / found.diameter:.3f}", volume_mm3=f"{1e9 * found.volume:.1f}", fit_mm=f"{depth:.3f}",
                error_percent=f"{100 * (1e3 * found.depth / depth - 1):+.1f}", particles=len(hvi.Dump(folder / "crater.dump", mirror="none")[0]), core_s=f"{ranks * (time.time() - start):.0f}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--again", action="store_true")
     parser.add_argument("--ranks", type=int, default=1)
     args = parser.parse_args()
     rows = read()
     for number, row in enumerate(rows, 1):
-        if row.get("depth_mm") or args.table:
+        if args.table or bool(row.get("depth_mm")) != args.again:
             continue
         run(row, HERE / "runs" / str(number), args.ranks)
         tables.write_csv(TABLE, (*GIVEN, *FOUND), [[row.get(name) or "" for name in (*GIVEN, *FOUND)] for row in rows])

@@ -206,11 +206,16 @@ def main():
             print(f"| alpha_rho {kind}, n {a.n} to {b.n} | " + " | ".join("%.2f" % o for o in order) + " |")
 
     print("\n| gauges | shocks late by, in spacings over the wave speed (A; B; C) | mean over plateaus less exact, % of u0 |\n|---|---|---|")
+    worst = {}  # of all cases without a gap
     for name, run in runs.items():
         if name.split("-")[0] in cases:
             late, flat = zip(*run.judge_gauges())
             text = lambda lists, form: "; ".join(" ".join(form % v for v in values) or "-" for values in lists)
             print(f"| {name} | {text(late, '%.2f')} | {text([[100 * v for v in f] for f in flat], '%.2f')} |")
+            late, flat = (max(np.abs(np.concatenate(lists)), default=0.0) for lists in (late, flat))
+            worst[run.label()] = np.maximum(worst.get(run.label(), 0.0), (late, 100 * flat))
+    for label, (late, flat) in worst.items():
+        print(f"| largest, {label} | {late:.2f} | {flat:.3f} |")
 
 
 if __name__ == "__main__":

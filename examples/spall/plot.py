@@ -2,7 +2,7 @@
 """Records of plate impacts, and what the runs of run.sh gave.
 
     python3 plot.py FOLDER...   one or more runs after hvi measure (result.yaml, surface.dat, profile.dat): draws FOLDER/record.png
-    python3 plot.py             the runs of run.sh under runs/: the figures of README.md, its tables on the screen, and found.csv, all columns of all shots
+    python3 plot.py             the runs of run.sh under runs/: the figures of README.md, its tables on the screen, found.csv, all columns of all shots, and runs/metals.csv
     python3 plot.py --raised    writes runs/raised/FILE.hvi: sigma so large that matter stretched at the file's rate bears the file's sigma, for run.sh
 
 The strength of matter that is stretched at a constant rate (tests/reference/voids.py) is drawn beside what records give.
@@ -174,7 +174,7 @@ def measured(shots):
     fig, ax = plt.subplots(1, 2, figsize=(10.4, 4.8), layout="constrained")
     rows = [["shot", "flyer / target mm", "v m/s", "peak GPa: paper, here", "rate /s: paper", "without fracture", "of the record", "sigma* GPa: measured", "voids 64", "128", "of the measured", "128, sigma raised", "principal 128",
              "file's sigma at the second rate", "largest -p GPa", "first failure, mm below the surface"]]
-    found = {}
+    found, strengths = {}, {}
     for s in shots:
         name = "shot-" + s["name"].replace(" ", "_")
         k = voids.constants(pathlib.Path(root), s["target"])
@@ -186,6 +186,7 @@ def measured(shots):
         spalls, pulls = w["record"] == "ok", w["record"] == "ok" or w["record"].startswith("a pull-back")
         color, filled = METAL[s["target"]][1], s["flyer"] != "quartz"
         if pulls:
+            strengths[s["name"]] = w["spall_strength_GPa"]
             ax[0].loglog(sigma, w["spall_strength_GPa"], "o" if spalls else "x", color=color, mfc=color if filled else "none")
         if p and p["record"] == "ok":
             ax[0].loglog(sigma, p["spall_strength_GPa"], "^", color="C3", mfc="C3" if filled else "none", ms=4)
@@ -232,15 +233,22 @@ def measured(shots):
             plain(axis, (0.4, 0.6, 0.8, 1, 1.5, 2, 3, 4))
     fig.savefig("shots.png", dpi=110)
     table(rows, "found.csv")
-    summary = [["metal", "shots", "with a pull-back", "parted", "of the measured: mean", "least", "most", "scatter about the mean", "measured: most of the least", "peak, of the published", "phi_c", "sigma raised by", "parted then", "of the measured then"]]
+    summary = [["metal", "shots", "with a pull-back", "parted", "of the measured: mean", "least", "most", "scatter about the mean", "measured: most of the least", "peak, of the published", "phi_c", "sigma raised by %", "parted then", "of the measured then"]]
     for name, values in found.items():
         sigma, got, parted, _, more, peak = np.array(values).T
         of, then = (got / sigma)[got == got], (more / sigma)[more == more]
         phi_c = voids.constants(pathlib.Path(root), name)["phi_c"]
         summary.append([METAL[name][0], str(len(sigma)), str(len(of)), f"{parted.sum():.0f}", *(f"{x:.2f}" for x in (of.mean(), of.min(), of.max(), of.std() / of.mean())),
-                        f"{sigma.max() / sigma.min():.2f}", f"{peak.min():.2f} to {peak.max():.2f}", f"{phi_c:.3f}", f"{100 * raised(name) - 100:.0f} %",
+                        f"{sigma.max() / sigma.min():.2f}", f"{peak.min():.2f} to {peak.max():.2f}", f"{phi_c:.3f}", f"{100 * raised(name) - 100:.0f}",
                         str(len(then)), f"{then.mean():.2f}" if len(then) else "-"])
-    table(summary)
+    table(summary, os.path.abspath("runs/metals.csv"))
+    powers = [["shots of", "power of the published rate: measured", "computed, 128 per flyer"]]
+    for paper in dict.fromkeys(s["paper"] for s in shots):
+        own = [(float(s["rate"]), float(s["sigma"]), strengths[s["name"]]) for s in shots if s["paper"] == paper and s["note"] == "t" and s["name"] in strengths]
+        if len(own) > 2:
+            rate, of, got = np.log(own).T
+            powers.append([paper, *(f"{np.polyfit(rate, y, 1)[0]:.3f}" for y in (of, got))])
+    table(powers)
 
 
 if __name__ == "__main__":

@@ -182,13 +182,30 @@ def table(runs):
         print("| %s | %s | %s | %.1e | %s | %d | %.2f |" % (name, " | ".join("%.2f" % (100 * a) for a in run.l1.values()), orders,
                                                         r["energy_ratio"] - 1, r["momentum_error"], r["steps"], r["wall_s"]))
         last = kind, run
-    print("\n| v0 m/s | dissipation | P GPa | exact | error of P % | of rho % | of u % | of Us % |\n|" + 8 * "---|")
+    print("\n| v0 m/s | dissipation | P GPa | exact | error of P % | of rho % | of u % | of Us % | largest of these three |\n|" + 9 * "---|")
     for name, run in sorted(runs.items(), key=lambda a: a[1].result.get("v0_m_s", 0)):
         r = run.result
         if run.problem == "flyer" and run.n == 200:
+            error = {k: 100 * float(r[f"{k}_error"]) for k in ("pressure", "density", "velocity", "shock_speed")}
             print("| %g%s | %s | %.3f | %.3f | %s |" % (r["v0_m_s"], "" if r["target"] == r["flyer"] else f", {r['flyer']} on {r['target']}".replace(".hvi", ""), run.method,
-                  1e-9 * r["pressure_Pa"], 1e-9 * r["pressure_exact_Pa"],
-                  " | ".join("%.3f" % (100 * float(r[f"{k}_error"])) for k in ("pressure", "density", "velocity", "shock_speed"))))
+                  1e-9 * r["pressure_Pa"], 1e-9 * r["pressure_exact_Pa"], " | ".join("%.3f" % e for e in (*error.values(), max(list(error.values())[1:], key=abs)))))
+    print("\n| largest error of P on the plateaus of aluminum plates, % | dissipation |\n|---|---|")
+    for d in COLORS:
+        of = [abs(100 * float(r.result["pressure_error"])) for name, r in runs.items() if r.problem == "flyer" and r.n == 200 and r.method == d and r.result["target"] == r.result["flyer"]]
+        if of:
+            print(f"| {max(of):.3f} | {d} |")
+    print("\n| run | density behind the shock | exact |\n|---|---|---|")
+    for name, run in runs.items():
+        if name.startswith(("blast", "noh")):
+            print("| %s | %.3f | %.3f |" % (name, *behind(run)))
+
+
+def behind(run):
+    """mean density of the particles in the middle half of the densest plateau of the exact solution, and the exact one"""
+    x, got, there, exact = run.fields()
+    plateau = there[exact[0] > (1 - 1e-6) * exact[0].max()]
+    middle, half = 0.5 * (plateau.min() + plateau.max()), 0.25 * np.ptp(plateau)
+    return got[0, np.abs(x - middle) < half].mean(), exact[0].max()
 
 
 def main():

@@ -26,6 +26,7 @@ CASES = {
     "shock2": ("in.shock", {"dim": "2"}, SHOCK),
     "shock3": ("in.shock", {"dim": "3"}, SHOCK),
     "collapse": ("in.collapse", {}, {name: {"style": name} for name in ("stock", "parity", "hvi")}),
+    "one": ("in.shock", {"dim": "2", "rho": "1"}, {name: {"style": name} for name in ("stock", "parity")}),  # gases of one type
 }
 WINDOW = 50.0  # on both sides of where the gases met: waves, and no more of the ends of the box than gas at rest
 MEMBRANE = 0.5  # between the last particle on the left and the first on the right
@@ -81,6 +82,14 @@ def table(args, case):
     return folders, {name: statistics.median(t) for name, t in times.items()}
 
 
+def apart(case, folders):
+    """distances of the places of particles between stock and parity"""
+    here, there = (np.loadtxt(os.path.join(folders[name], "profile.dat")) for name in ("stock", "parity"))
+    columns = slice(2, 4) if case == "collapse" else slice(0, 1)
+    distance = np.linalg.norm(here[:, columns] - there[:, columns], axis=1)
+    print(f"{case}: distance of places between stock and parity, mean {distance.mean():.2g}, largest {distance.max():.2g}", flush=True)
+
+
 def draw(args, done):
     import matplotlib
 
@@ -130,12 +139,15 @@ def main():
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--out", default=HERE)
-    parser.add_argument("--cases", default=",".join(CASES))
+    parser.add_argument("--cases", default="shock2,shock3,collapse", help="of these and one: in two dimensions, gases of one type")
     args = parser.parse_args()
     args.out = os.path.abspath(args.out)
     print("| case | style | error of rho | of u | of p | energy ratio - 1 | momentum error | steps | time s | stock/this |\n"
           "|---|---|---|---|---|---|---|---|---|---|")
     done = {case: table(args, case) for case in args.cases.split(",")}
+    print()
+    for case, (folders, _) in done.items():
+        apart(case, folders)
     if "shock2" in done:
         draw(args, done)
 

@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """Waves in walls, from waves.dat of in.waves: arrivals, speeds and peaks beside plate theory.
 
-    python3 waves.py FOLDER [--at 60 95 130] [--material Al2024-T3.hvi] [--thickness 0.8] [--share 0.1] [--wall 2] [--figure waves1.png] [--maps walls1.png]
+    python3 waves.py FOLDER [--at 60 95 130] [--material Al2024-T3.hvi] [--thickness 0.8] [--share 0.1] [--wall 2] [--table waves1.csv] [--figure waves1.png]
+                            [--maps walls1.png]
 """
 
 import argparse
+import csv
 import os
 import pathlib
+import re
 import sys
 
 import matplotlib
@@ -20,6 +23,9 @@ sys.path.insert(0, os.environ.get("HVI_PYTHON", str(here.parents[1] / "python"))
 from hvi.material import library
 
 NAMES = "us p sxx syy szz sxy sxz syz vm vx vy vz x y z".split()
+LONGITUDINAL = ("r mm", "arrival us", "middle of the rise us", "speed since the one before mm/us", "of plate theory", "peak us", "von Mises MPa", "radial stress MPa",
+                "radial velocity m/s", "source: von Mises MPa", "over the source's")
+DIGITS = (1, 2, 2, 3, 3, 2, 1, 1, 2, 1, 2)
 SOURCE = {(1, 60): 74.3, (1, 95): 68.4, (1, 130): 61.9, (2, 60): 63.9, (2, 95): 44.7, (2, 130): 37.2}  # MPa, the source's simulation
 
 
@@ -145,6 +151,7 @@ def main():
     parser.add_argument("--share", type=float, default=0.1, help="of the first peak of von Mises stress, which counts as arrival")
     parser.add_argument("--side", type=float, default=300, help="of the walls, mm: what comes back from the edge is left out")
     parser.add_argument("--wall", type=int, choices=(1, 2), help="this one alone")
+    parser.add_argument("--table", help="writes the longitudinal wave as CSV")
     parser.add_argument("--figure", help="draws the records")
     parser.add_argument("--maps", help="draws the walls, from elements.*.dump")
     args = parser.parse_args()
@@ -155,29 +162,55 @@ def main():
     plate = Plate(args.material, args.thickness)
     print(f"{args.material}: E {1e-9 * plate.E:.1f} GPa, nu {plate.nu:.3f}; speeds mm/us: plate {plate.plate:.3f}, "
           f"bulk {plate.bulk:.3f}, shear {plate.shear:.3f}, bending at most {plate.shear * np.pi / np.sqrt(12):.2f}")
-    struck = {}
+    struck, table = {}, []
     for wall in sorted({w for w, _ in records}):
         nearest = records[wall, min(args.at)]
         struck[wall] = membrane(nearest, args.share, np.inf)[0] - nearest["r"] / plate.plate
-        print(f"\nwall {wall}, longitudinal wave\n\n| r mm | arrival us | middle of the rise us | speed since the one before, mm/us | of plate theory | peak us | von Mises MPa "
-              "| radial stress MPa | radial velocity m/s | the source's von Mises MPa |\n|---|---|---|---|---|---|---|---|---|---|")
+        print(f"\nwall {wall}, longitudinal wave\n\n| {' | '.join(LONGITUDINAL)} |\n|{'---|' * len(LONGITUDINAL)}")
         before = None
         for distance in args.at:
             record = records[wall, distance]
             until = struck[wall] + (args.side - record["r"]) / plate.plate  # from the edge
             row = membrane(record, args.share, until)
             speed = (record["r"] - before[0]) / (row[1] - before[1]) if before else np.nan
-            print(f"| {record['r']:.1f} | {row[0]:.2f} | {row[1]:.2f} | {speed:.3f} | {speed / plate.plate:.3f} | {row[2]:.2f} | {row[3]:.1f} | {row[4]:.1f} | {row[5]:.2f} "
-                  f"| {SOURCE.get((wall, distance), '')} |".replace("nan", ""))
+            other = SOURCE.get((wall, distance), np.nan)
+            values = [f"{x:.{n}f}" if np.isfinite(x) else "" for x, n in zip((record["r"], *row[:2], speed, speed / plate.plate, *row[2:], other, row[3] / other), DIGITS)]
+            print("| " + " | ".join(values) + " |")
+            table.append([wall, f"{distance:g}", *values])
             before = record["r"], row[1]
         print(f"\nwall {wall}, bending: speed of the group between two probes, mm/us\n\n| from | to mm | 1/us | length mm | measured | Mindlin | ratio |\n|---|---|---|---|---|---|---|")
+        ranges = []
         for near, far in zip(args.at[:-1], args.at[1:]):
-            for omega, length, speed, theory in bending(records[wall, near], records[wall, far], plate):
+            rows = bending(records[wall, near], records[wall, far], plate)
+            for omega, length, speed, theory in rows:
                 print(f"| {near:g} | {far:g} | {omega:.3f} | {length:.1f} | {speed:.3f} | {theory:.3f} | {speed / theory:.3f} |")
+            if rows:
+                _, length, speed, theory = np.array(rows).T
+                ranges.append(f"wall {wall}, bending, {near:g} to {far:g} mm: length {length.min():.1f} to {length.max():.1f} mm, ratio {(speed / theory).min():.2f} to {(speed / theory).max():.2f}")
+        print("", *ranges, sep="\n")
+    if args.table:
+        with open(args.table, "w", newline="") as out:
+            csv.writer(out, lineterminator="\n").writerows([["wall", "at mm", *LONGITUDINAL], *table])
+    found = pathlib.Path(args.folder, "result.yaml"), pathlib.Path(args.folder, "log.lammps")
+    if all(path.exists() for path in found):
+        print(f"\nenergy - 1: at the end {float(re.search(r'energy_ratio: (.+?),', found[0].read_text())[1]) - 1:.1e}, largest of the rows of {found[1].name} {largest_drift(found[1]):.1e}")
     if args.figure:
         draw(args, records, plate, struck)
     if args.maps:
         maps(args, records)
+
+
+def largest_drift(log):
+    """what c_book[9] of thermo is off 1 where it is farthest"""
+    rows, column = [0.0], None
+    for words in (line.split() for line in log.read_text().splitlines()):
+        if words[:1] == ["Step"]:
+            column = words.index("c_book[9]")
+        elif words[:2] == ["Loop", "time"]:
+            column = None
+        elif column is not None and len(words) > column and words[0].isdigit():
+            rows.append(float(words[column]) - 1)
+    return max(rows, key=abs)
 
 
 def maps(args, records):

@@ -163,6 +163,7 @@ def test_shock_into_coarser(lmp, tmp_path, name, dim, nx, rows, ratio, dense):
     worst = 100 * np.abs(np.array(list(jumps.values())) - 1).max()
     WORST[name, ratio == 1] = max(worst, WORST.get((name, ratio == 1), 0))
     print(f"{name} {'equal' if ratio == 1 else 'unequal'}, largest error so far {WORST[name, ratio == 1]:.2f} %")
+    print(f"\n{dim}D ratio {ratio} dense {dense} {name} errors of jumps of p, u, %:", *(f"{where} {100 * a - 100:.1f} {100 * b - 100:.1f}" for where, (a, b) in jumps.items()))
     off = 0.05 if name == "riemann" else 0.08
     assert jumps["fine"] == pytest.approx((1, 1), abs=off)
     assert jumps["coarse"] == pytest.approx((1, 1), abs=off)
