@@ -159,7 +159,6 @@ def test_shock_into_coarser(lmp, tmp_path, name, dim, nx, rows, ratio, dense):
     one: riemann to 4.2 %, monaghan to 5 % in the same gas"""
     g = two_spacings(lmp, tmp_path, dim, nx, rows, DISSIPATIONS[name], 1.2, mach=1.2, ratio=ratio, dense=dense)
     jumps = g["jumps"]
-    print(f"{dim}D ratio {ratio} dense {dense} {name:9} jumps/exact (p, u):", *(f"{where} {a:.4f} {b:.4f}" for where, (a, b) in jumps.items()))
     worst = 100 * np.abs(np.array(list(jumps.values())) - 1).max()
     WORST[name, ratio == 1] = max(worst, WORST.get((name, ratio == 1), 0))
     print(f"{name} {'equal' if ratio == 1 else 'unequal'}, largest error so far {WORST[name, ratio == 1]:.2f} %")
