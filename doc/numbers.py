@@ -358,8 +358,9 @@ def run(root, name, number, build):
     chosen = [row for k, row in enumerate(record.rows, 1) if number in (None, k)]
     tasks = {}
     for row in chosen:
-        if number is None and row not in record.ran():
-            continue  # of others
+        if number is None and (row not in record.ran() or not row.get("keys") and any(other.get("keys") for other in chosen)):
+            print(f"{name}: row {record.rows.index(row) + 1} stays: " + ("it has no keys" if row in record.ran() else "it is of others"))
+            continue
         if not row.get("keys"):
             raise Wrong(f"{name}: row {record.rows.index(row) + 1} does not say where its numbers are found (keys)")
         tasks.setdefault(place_of(row), []).append(row)

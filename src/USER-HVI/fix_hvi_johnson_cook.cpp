@@ -122,6 +122,8 @@ void FixHVIJohnsonCook::read_options(int narg, char **arg)
                    HVI::law_names("damage"), value);
     } else if (key == "thermal") {
       options.thermal = utils::logical(FLERR, value, false, lmp);
+    } else if (key == "melt") {
+      options.melt = utils::logical(FLERR, value, false, lmp);
     } else if (key == "temperature") {
       if (value != "energy" && value != "work")
         error->all(FLERR, "Fix hvi/johnson-cook temperature must be energy or work, not {}", value);
@@ -156,6 +158,12 @@ void FixHVIJohnsonCook::read_options(int narg, char **arg)
                  "use damage no");
     options.damage = false;
   }
+  if (options.melt && options.spall != HVI::Spall::VOIDS)
+    error->all(FLERR, "Fix hvi/johnson-cook melt yes needs spall voids, whose strength it ends");
+  if (options.melt && (!options.thermal || options.strength == "none"))
+    error->all(FLERR,
+               "Fix hvi/johnson-cook melt yes needs a strength that knows the temperature: not "
+               "strength none, nor thermal no");
   if (options.reference > 0.0 && !(options.weibull > 0.0))
     error->all(FLERR, "Fix hvi/johnson-cook weibull_size needs weibull, whose scatter it scales");
   if (options.reference > 0.0 && options.weibull < 1.0)
@@ -191,6 +199,7 @@ std::string FixHVIJohnsonCook::settings() const
       fmt::format("strength {} damage {} spall {} temperature {} thermal {}", options.strength,
                   damage, HVI::spall_model(options.spall).name,
                   options.from_work ? "work" : "energy", options.thermal ? "yes" : "no");
+  if (options.melt) text += " melt yes";
   if (options.weibull > 0.0) text += fmt::format(" weibull {} {}", options.weibull, options.seed);
   if (options.reference > 0.0) text += fmt::format(" weibull_size {}", options.reference);
   return text;

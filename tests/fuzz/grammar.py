@@ -59,7 +59,7 @@ RULES = {
     "fix_hvi_sph": {"walls": GROUP, "sleep": pick("exact", "no", "1e-8", "1e-4"), "lists": LISTS, "bad": pick("error", "freeze 5", "delete 5", "delete 1000")},
     "fix_hvi_johnson_cook": {
         "strength": pick("johnson-cook", "steinberg-guinan", "cowper-symonds", "zerilli-armstrong", "perfect", "none"), "damage": pick("yes", "no", "johnson-cook"),
-        "spall": SPALL, "temperature": pick("energy", "work"), "thermal": YES, "weibull": each(between(0.5, 20), pick("1", "4711")), "weibull_size": pick("0", "1")},
+        "spall": SPALL, "temperature": pick("energy", "work"), "thermal": YES, "melt": YES, "weibull": each(between(0.5, 20), pick("1", "4711")), "weibull_size": pick("0", "1")},
     "fix_hvi_debris": {"every": pick("1", "5", "20"), "most": pick("2", "3")},
     "fix_hvi_dt": {"min": pick("0", "1e-12"), "max": pick("0.1", "1e-6"), "floor": pick("0", "0.1"), "every": pick("1", "2", "7")},
     "fix_hvi_fem": {

@@ -355,6 +355,38 @@ TEST(SolidModel, Melts)
   EXPECT_FALSE(s.failed());
 }
 
+// with melt, what is molten bears no tension; compressed it is whole
+
+TEST(SolidModel, MeltsBearNoTension)
+{
+  const std::string VOIDS = "spall voids\nsigma 1.2\nrate 1\nm 0.2\nphi_c 0.1\n";
+  for (const bool melt : {true, false})
+    for (const double above : {-1.0, 1.0}) {
+      SolidOptions o = options("johnson-cook");
+      o.spall = Spall::VOIDS;
+      o.thermal = true;
+      o.melt = melt;
+      const auto model = made(EOS + COOK + VOIDS, o);
+      SolidState s = begun(*model, input({}));
+      const double e = 5.0 * (600.0 + above);
+      for (const double p : {1.0, 0.0}) step(*model, s, input(uniaxial(1.0), p, e), 0.01);
+      EXPECT_FALSE(s.failed());
+      step(*model, s, input(uniaxial(1.0), -1e-6, e), 0.01);
+      const bool parts = melt && above > 0.0;
+      EXPECT_EQ(s.failed(), parts);
+      EXPECT_EQ(s.spalled, parts ? 1.0 : 0.0);
+      EXPECT_EQ(model->fragments(s) > 0.0, false);    // it did not expand
+      if (parts) { EXPECT_GE(borne(*model, s, -0.5), -1e-200); }
+    }
+  SolidOptions o = options("none");    // of which no melting is known
+  o.spall = Spall::VOIDS;
+  o.thermal = o.melt = true;
+  const auto model = made(EOS + VOIDS, o);
+  SolidState s = begun(*model, input({}));
+  step(*model, s, input(uniaxial(1.0), -1e-6, 5.0 * 1e4), 0.01);
+  EXPECT_FALSE(s.failed());
+}
+
 /* ----------------------------------------------------------------------
    the beginning of runs
 ------------------------------------------------------------------------- */

@@ -91,6 +91,8 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
     return nullptr;
   }
 
+  model->melt = options.melt && options.thermal && strength != &none;
+
   if (options.damage) {
     const Section *const damage = damage_section(material, options.damage_law, problem);
     if (!damage) return nullptr;
@@ -183,10 +185,22 @@ bool SolidModel::parts(SolidState &s, double rho, double p, double Y, double lim
   return s.voids.D >= 1.0;
 }
 
-// where there are voids or may be; returns p_min() of the end
+// above the melting temperature of its law of strength
+
+bool SolidModel::molten(const SolidState &s, const SolidInput &in) const
+{
+  return law->shear_modulus(conditions(s, in)) == 0.0;
+}
+
+// where there are voids or may be; returns p_min() of the end.  With melt: the spall strength of preheated
+// aluminum drops steeply towards melting (Kanel et al., J. Appl. Phys. 79 (1996) 8310).
 
 double SolidModel::grow_voids(SolidState &s, const SolidInput &in, double limit, double dt) const
 {
+  if (with_voids && melt && in.p < 0.0 && !s.failed() && molten(s, in)) {
+    s.voids.D = 1.0;
+    return closed(true, in);
+  }
   if (with_voids && !s.failed() && (in.p < 0.0 || s.voids.phi > 0.0)) {
     SpallVoids own = voids;
     own.sigma *= limit;

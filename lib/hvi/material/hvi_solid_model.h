@@ -69,6 +69,7 @@ struct SolidOptions {
   Spall spall = Spall::PRINCIPAL;
   bool thermal = true;       // strength depends on temperature
   bool from_work = false;    // which is that of the plastic work, not of the equation of state
+  bool melt = false;         // a melt bears no tension; with voids
   double weibull = 0.0;      // modulus of the scatter of failure strains, 0: none
   int seed = 0;
   double reference =
@@ -204,7 +205,7 @@ class SolidModel {
   SpallGrady grady = {};
   double fragment_energy = 0.0;            // per volume, 0: unknown
   double T0 = 0.0, cp = 0.0, chi = 1.0;    // temperature from plastic work
-  bool thermal = false, from_work = false;
+  bool thermal = false, from_work = false, melt = false;
   double weibull = 0.0, reference = 0.0;
   int seed = 0, dim = 3;
 
@@ -240,6 +241,7 @@ class SolidModel {
                           own_limit() && !failed ? threshold(in) * sigma_p : sigma_p);
   }
   Conditions conditions(const SolidState &, const SolidInput &) const;
+  bool molten(const SolidState &, const SolidInput &) const;
 };
 
 }    // namespace HVI
