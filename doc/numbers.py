@@ -23,7 +23,7 @@ numbers are found, optionally with " * FACTOR" behind:
 A value of the table has the digits that it has in the record. ["{:.2f} / {:.0f}", KEY, KEY] writes several into one cell (str.format).
 
 "commit" is the state of the code that was run: a commit, "abc1234-dirty" with changes that were not committed, or "up to abc1234" where it was not noted: the commit
-that brought the numbers into the repository, so that the run is of it or of an earlier one. It is empty for values that others have measured. In a page:
+that brought the numbers into the repository, so that the run is of it or of an earlier one. The command is the one that runs the row today. It is empty for values that others have measured. In a page:
 
     <!-- numbers NAME -->             .. numbers NAME
     <!-- /numbers -->                 .. /numbers
@@ -302,7 +302,7 @@ def number_at(folder, where, ran):
         for part in re.findall(r"\[[^]]*\]|[^.]+", key):
             value = within(value, part)
     try:
-        return float(value) * float(factor)
+        return float(value) * float(factor) + 0.0
     except ValueError:
         return value
 
@@ -311,6 +311,7 @@ def like(old, new):
     """a number in the digits of the old one"""
     if not isinstance(new, float) or not math.isfinite(new):
         return str(new)
+    new += 0.0  # not -0
     digits = re.sub(r"[eE].*", "", old).lstrip("-").replace(".", "").lstrip("0") if isinstance(old, Digits) else ""
     n = max(len(digits), 1) if isinstance(old, Digits) else 6
     if isinstance(old, Digits) and "." not in old and "e" not in old.lower():
@@ -357,12 +358,15 @@ def run(root, name, number, build):
         raise Wrong(f"{name}: no row {number}; there are {len(record.rows)}")
     chosen = [row for k, row in enumerate(record.rows, 1) if number in (None, k)]
     tasks = {}
-    for row in chosen:
-        if number is None and (row not in record.ran() or not row.get("keys") and any(other.get("keys") for other in chosen)):
-            print(f"{name}: row {record.rows.index(row) + 1} stays: " + ("it has no keys" if row in record.ran() else "it is of others"))
+    some = any(row.get("keys") for row in chosen)
+    for k, row in enumerate(record.rows, 1):
+        if number not in (None, k):
+            continue
+        if some and not row.get("keys"):
+            print(f"{name}: row {k} stays, as it does not say where its numbers are found")
             continue
         if not row.get("keys"):
-            raise Wrong(f"{name}: row {record.rows.index(row) + 1} does not say where its numbers are found (keys)")
+            raise Wrong(f"{name}: row {k} does not say where its numbers are found (keys)")
         tasks.setdefault(place_of(row), []).append(row)
     for (folder, command), rows in tasks.items():
         print(f"{folder}: {command}", flush=True)
@@ -382,7 +386,7 @@ def run(root, name, number, build):
                 for column, where in row["keys"].items():
                     try:
                         row["row"][column] = like(row["row"][column], number_at(there, where, ran))
-                    except (OSError, KeyError, IndexError, TypeError, ValueError) as problem:
+                    except (OSError, KeyError, IndexError, TypeError, ValueError, re.error) as problem:
                         raise Wrong(f"{name}: {column}: nothing at {where} ({type(problem).__name__}: {problem})") from None
                 row.update(commit=(git(root, "rev-parse", "--short=7", "HEAD") or "") + ("-dirty" if dirty else ""),
                            machine=f"{box['cores']} cores of a{'n' if box['cpu'][0] in 'AEIOaeio' else ''} {box['cpu']}", load="idle" if bench.is_idle(load, wall) else "busy")

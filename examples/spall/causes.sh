@@ -24,9 +24,13 @@ for n in 64 128 256; do
   run cause-1100-$n Al1100-O.hvi 3.200 5.875 1007 $n
   run cause-304-$n steel-304.hvi 0.75 1.51 300 $n
 done
-for phi_c in 0.03 0.075; do run cause-1100-phi_c-$phi_c "$(other Al1100-O 'spall voids' phi_c $phi_c)" 3.200 5.875 1007 128; done
-run cause-304-phi_c-0.075 "$(other steel-304 'spall voids' phi_c 0.075)" 0.75 1.51 300 128
-soft=$(other Al6061-T6 'strength johnson-cook' A 0.11e9 'spall voids' phi_c 0.0275)
+for phi_c in 0.03 0.075; do
+  file=$(other Al1100-O 'spall voids' phi_c $phi_c) || exit 1
+  run cause-1100-phi_c-$phi_c "$file" 3.200 5.875 1007 128
+done
+file=$(other steel-304 'spall voids' phi_c 0.075) || exit 1
+run cause-304-phi_c-0.075 "$file" 0.75 1.51 300 128
+soft=$(other Al6061-T6 'strength johnson-cook' A 0.11e9 'spall voids' phi_c 0.0275) || exit 1
 for file in Al6061-T6.hvi "$soft"; do
   [ "$file" = "$soft" ] && name=soft || name=file
   run cause-6061-14-$name "$file" 14 28 196 128

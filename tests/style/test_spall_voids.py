@@ -185,3 +185,55 @@ def test_settings_and_warnings(lmp, tmp_path, material):
     material.write_text(MATERIAL.format(sigma_p=3.0))
     r = lmp(start(s, tmp_path, material, steps=1, jc=JC))
     assert any("has no section spall voids and does not spall" in w for w in r.warnings)
+
+
+MELT = """
+units si
+newton on
+atom_style sph
+boundary f f f
+region box block -1e-2 1e-2 -1e-2 1e-2 -1e-2 1e-2 units box
+create_box 1 box
+lattice sc 1e-4
+region ball sphere 0 0 0 6e-4 units box
+create_atoms 1 region ball
+mass 1 $(2703*1e-4^3)
+pair_style hvi/sph cubic dissipation riemann
+pair_coeff 1 1 file Al6061-T6.hvi spacing 1e-4
+set group all sph/e $(2703*1e-4^3*{e})
+variable vx atom 1e6*x
+variable vy atom 1e6*y
+variable vz atom 1e6*z
+velocity all set v_vx v_vy v_vz
+"""
+MODEL = """
+fix move all hvi/sph
+fix solid all hvi/johnson-cook damage no spall voids{melt}
+fix step all hvi/dt 0.3
+compute state all hvi/atom spalled p T
+compute sums all reduce sum c_state[1]
+compute least all reduce min c_state[2]
+compute T all reduce ave c_state[3]
+thermo_style custom step atoms c_sums c_least c_T
+thermo 1
+run {steps}
+"""
+
+
+@pytest.mark.parametrize("above", [-150, 150])
+def test_melts(lmp, root, tmp_path, above):
+    """a ball that opens evenly, below and above its melting temperature: with melt yes the hot one parts as soon as there is tension, else as long as voids bear it"""
+    e = 885 * (775 + above - 300) * 1.1  # it cools as it expands
+    env = {"LAMMPS_POTENTIALS": str(root / "potentials")}
+    runs = {melt: lmp(MELT.format(e=e) + MODEL.format(melt=melt, steps=60) + "write_restart melt.restart\n", env=env, cwd=tmp_path).thermo for melt in ("", " melt yes")}
+    plain, melts = runs[""], runs[" melt yes"]
+    tension = np.array(plain["c_least"]) < -0.2e9
+    assert tension.any() and (np.array(plain["c_sums"])[np.argmax(tension)] == 0)
+    at = np.argmax(tension)
+    assert (above > 0) == (plain["c_T"][at] > 775)
+    if above < 0:
+        assert np.array_equal(plain["c_least"], melts["c_least"])
+        return
+    assert melts["c_sums"][at] > 0.2 * melts["Atoms"][at]
+    again = lmp("units si\natom_modify map array\nread_restart melt.restart\n" + MODEL.format(melt="", steps=0), env=env, cwd=tmp_path, expect_fail=True)
+    assert "melt yes" in again.error and "spall voids" in again.error

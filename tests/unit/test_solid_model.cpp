@@ -371,11 +371,14 @@ TEST(SolidModel, MeltsBearNoTension)
       const double e = 5.0 * (600.0 + above);
       for (const double p : {1.0, 0.0}) step(*model, s, input(uniaxial(1.0), p, e), 0.01);
       EXPECT_FALSE(s.failed());
-      step(*model, s, input(uniaxial(1.0), -1e-6, e), 0.01);
+      SolidInput pulled = input(uniaxial(1.0), -1e-6, e);
+      pulled.expansion = 3.0;
+      step(*model, s, pulled, 0.01);
       const bool parts = melt && above > 0.0;
       EXPECT_EQ(s.failed(), parts);
       EXPECT_EQ(s.spalled, parts ? 1.0 : 0.0);
-      EXPECT_EQ(model->fragments(s) > 0.0, false);    // it did not expand
+      EXPECT_EQ(model->fragments(s) > 0.0, parts);
+      EXPECT_EQ(s.expansion, parts ? 3.0 : 0.0);
       if (parts) { EXPECT_GE(borne(*model, s, -0.5), -1e-200); }
     }
   SolidOptions o = options("none");    // of which no melting is known
@@ -385,6 +388,23 @@ TEST(SolidModel, MeltsBearNoTension)
   SolidState s = begun(*model, input({}));
   step(*model, s, input(uniaxial(1.0), -1e-6, 5.0 * 1e4), 0.01);
   EXPECT_FALSE(s.failed());
+
+  // voids that were there before
+
+  o = options("johnson-cook");
+  o.spall = Spall::VOIDS;
+  o.thermal = o.melt = true;
+  const auto cook = made(EOS + COOK + VOIDS, o);
+  s = begun(*cook, input({}));
+  s.voids.phi = 0.01;
+  s.voids.D = 0.1;
+  step(*cook, s, input(uniaxial(1.0), -1e-6, 5.0 * 601.0), 0.01);
+  EXPECT_TRUE(s.failed());
+
+  // what never melts
+
+  o.strength = "perfect";
+  EXPECT_NE(refused(parsed(EOS + PERFECT + VOIDS), o).find("never melts"), std::string::npos);
 }
 
 /* ----------------------------------------------------------------------

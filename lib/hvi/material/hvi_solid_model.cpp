@@ -109,6 +109,13 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
 
   const Eos &eos = *material.eos;
   model->T0 = eos.temperature(eos.rho0(), 0.0);
+  const Conditions hot = {model->rho0, model->rho0, 0.0, 1.0e9};
+  if (model->melt && model->with_voids &&
+      !(model->law->shear_modulus(hot) == 0.0 && std::isfinite(model->T0))) {
+    problem = "never melts: melt yes needs strength johnson-cook, steinberg-guinan or "
+              "zerilli-armstrong and an equation of state with a temperature";
+    return nullptr;
+  }
   const double little = 1.0e-4 * eos.c0() * eos.c0();
   model->cp = little / (eos.temperature(eos.rho0(), little) - model->T0);
   model->take_energy(material);

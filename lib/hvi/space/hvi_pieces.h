@@ -48,9 +48,9 @@ class Pieces {
 
   static double corner(int n) { return std::sqrt(0.75) * (1.0 - 1.0 / n); }
 
-  // Width over the mean width of the fragment that matter is in, at random by a number.  Numbers of fragments go
-  // as exp(-m/m0) over their mass m (Grady & Kipp, J. Appl. Phys. 58 (1985) 1210), mass as m/m0 exp(-m/m0): the
-  // sum of two exponential variables.
+  // Width of the fragment that matter is in over that of a fragment of the mean mass, at random by a number.
+  // Numbers of fragments go as exp(-m/m0) over their mass m (Grady & Kipp, J. Appl. Phys. 58 (1985) 1210), mass
+  // as m/m0 exp(-m/m0): the sum of two exponential variables.
 
   static double width(uint64_t number)
   {

@@ -29,8 +29,8 @@ def said_of(summary):
     return [(name, n, *(f"{100 * value:.1f}" if n else "-" for value in values)) for name, n, *values in summary]
 
 
-def save(folder, study, found, equations, picture=False):
-    """limits.csv and limits.md, with a picture limits.png, too; for the eye the table"""
+def save(folder, study, found, equations):
+    """limits.csv and limits.md; for the eye the table"""
     rows = [one.row() for one in found]
     names = list(rows[0])
     tables.write_csv(folder / "limits.csv", names, [["" if cell is None else cell for cell in row.values()] for row in rows])
@@ -41,9 +41,6 @@ def save(folder, study, found, equations, picture=False):
               *(percent(equations[row["bracket"]][name][1]) if name in equations[row["bracket"]] else "-" for name in equal)] for row in rows]
     summary = said_of(brackets.summary(rows, equations))
     (folder / "limits.md").write_text(f"{markdown(head, cells)}\n\n{markdown(SUMMARY, summary)}\n")
-    if picture:
-        from .. import figures
-        figures.save(figures.limit_brackets(study.brackets, rows, equations), folder / "limits.png")
     return f"{tables.text(head, cells)}\n\n{tables.text(SUMMARY, summary)}"
 
 
@@ -85,7 +82,9 @@ def main(args):
     try:
         failed = runner.run([job for _, job in first.values()], study.name, more)
     finally:
-        print(save(folder, study, found, equations, picture=True))
+        print(save(folder, study, found, equations))
+        from .. import figures
+        figures.save(figures.limit_brackets(study.brackets, [one.row() for one in found], equations), folder / "limits.png")
     print(f"table: {folder / 'limits.csv'}, {folder / 'limits.md'}, picture: {folder / 'limits.png'}")
     if failed:
         print(f"{study.name}: {len(failed)} failed: {', '.join(job.name for job in failed)}", flush=True)

@@ -10,6 +10,7 @@ import collections
 import contextlib
 import fcntl
 import hashlib
+import json
 import math
 import os
 import pathlib
@@ -188,7 +189,7 @@ class Job:
 
     def key(self):
         """checksum of what is run in the folder: of another case, or another state of the same, it is another"""
-        return digest(yaml_of(self.record).encode())
+        return digest(json.dumps(self.record, default=str).encode())
 
     def result(self):
         """the results if the job is done with these variables, input and files, else None"""
