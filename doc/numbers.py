@@ -356,12 +356,9 @@ def run(root, name, number, build):
         raise Wrong(next((one for one in wrong if f"/{name}.jsonl" in one), f"no record doc/records/{name}.jsonl"))
     if number is not None and not 1 <= number <= len(record.rows):
         raise Wrong(f"{name}: no row {number}; there are {len(record.rows)}")
-    chosen = [row for k, row in enumerate(record.rows, 1) if number in (None, k)]
-    tasks = {}
-    some = any(row.get("keys") for row in chosen)
-    for k, row in enumerate(record.rows, 1):
-        if number not in (None, k):
-            continue
+    chosen, tasks = {k: row for k, row in enumerate(record.rows, 1) if number in (None, k)}, {}
+    some = any(row.get("keys") for row in chosen.values())
+    for k, row in chosen.items():
         if some and not row.get("keys"):
             print(f"{name}: row {k} stays, as it does not say where its numbers are found")
             continue

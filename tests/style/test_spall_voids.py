@@ -189,7 +189,7 @@ def test_settings_and_warnings(lmp, tmp_path, material):
 
 MELT = """
 units si
-newton on
+newton {newton}
 atom_style sph
 boundary f f f
 region box block -1e-2 1e-2 -1e-2 1e-2 -1e-2 1e-2 units box
@@ -220,12 +220,12 @@ run {steps}
 """
 
 
-@pytest.mark.parametrize("above", [-150, 150])
-def test_melts(lmp, root, tmp_path, above):
+@pytest.mark.parametrize("above, nranks, newton", [(-150, 1, "on"), (150, 1, "on"), (150, 3, "off")])
+def test_melts(lmp, root, tmp_path, above, nranks, newton):
     """a ball that opens evenly, below and above its melting temperature: with melt yes the hot one parts as soon as there is tension, else as long as voids bear it"""
     e = 885 * (775 + above - 300) * 1.1  # it cools as it expands
     env = {"LAMMPS_POTENTIALS": str(root / "potentials")}
-    runs = {melt: lmp(MELT.format(e=e) + MODEL.format(melt=melt, steps=60) + "write_restart melt.restart\n", env=env, cwd=tmp_path).thermo for melt in ("", " melt yes")}
+    runs = {melt: lmp(MELT.format(e=e, newton=newton) + MODEL.format(melt=melt, steps=60) + "write_restart melt.restart\n", nranks=nranks, env=env, cwd=tmp_path).thermo for melt in ("", " melt yes")}
     plain, melts = runs[""], runs[" melt yes"]
     tension = np.array(plain["c_least"]) < -0.2e9
     assert tension.any() and (np.array(plain["c_sums"])[np.argmax(tension)] == 0)
