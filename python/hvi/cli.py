@@ -50,11 +50,11 @@ COMMANDS = {
 
 
 def options(name=None):
-    """The parser of the command line; of the commands it knows the options of this one, and no other is imported"""
+    """The parser of the command line; with the name of a command it knows this one and its options alone, and no other is imported"""
     parser = argparse.ArgumentParser(prog=program(), description=DESCRIPTION, epilog=f"{program()} COMMAND --help says more, with examples.")
     parser.add_argument("--version", action="version", version=f"lammps-hvi {version()}")
     several = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for command, text in COMMANDS.items():
+    for command, text in {name: COMMANDS[name]}.items() if name in COMMANDS else COMMANDS.items():
         sub = several.add_parser(command, help=text)
         if command == name:
             module = importlib.import_module(f".commands.{name}", __package__)
@@ -82,7 +82,7 @@ def join_negative(arguments):
 
 def parse(words):
     """what the words say, and in run the function that does it"""
-    return options(next((word for word in words if not word.startswith("-")), None)).parse_args(join_negative(words))
+    return options(words[0] if words else None).parse_args(join_negative(words))
 
 
 def shown(text):

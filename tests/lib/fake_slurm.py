@@ -20,8 +20,6 @@ import subprocess
 import sys
 import time
 
-import yaml
-
 HOME = pathlib.Path(os.environ["FAKE_SLURM"])
 QUEUE, CALLS = HOME / "queue", HOME / "calls"
 
@@ -32,6 +30,8 @@ def text_of(path):
 
 def elements(folder, indices, stop=False):
     """jobs of an array, all at a time; their states at the end"""
+    import yaml  # here, as most calls are of squeue
+
     tries = [pathlib.Path(run) / "tries" for run, *_ in yaml.safe_load((folder / "runs.yaml").read_text())["runs"]]
     before, processes = [text_of(path) for path in tries], []
     for index in indices:

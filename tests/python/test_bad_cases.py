@@ -18,6 +18,7 @@ import pytest
 import yaml
 from front_runs import CASE, case_folder  # noqa: F401
 from hvi import cli
+from hvi.figures import style
 from hvi.shield import case as cases
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -253,10 +254,11 @@ PLACES = {"--runs", "--write", "--out", "--figure", "--file", "--lmp", "--mpirun
 
 
 @pytest.mark.parametrize("command", every_third(TABLE["commands"]))
-def test_every_option(command, tmp_path):
+def test_every_option(command, tmp_path, monkeypatch):
     """with values that are none: an error in one line, or it runs and leaves no traceback"""
     row = TABLE["commands"][command]
     parser = next(action for action in cli.options(command)._actions if isinstance(action, argparse._SubParsersAction)).choices[command]
+    monkeypatch.setattr(style, "DPI", 10)
     words = [command, *row["words"].split(), *(["--mpirun", "/bin/true"] if "--dry-run" in row["words"] else [])]
     for option in (action for action in parser._actions if action.option_strings and action.nargs != 0 and not set(action.option_strings) & PLACES):
         for value in NUMBERS:

@@ -52,7 +52,7 @@ def error(name, tmp_path, k):
     return np.abs(vectors(dump, "f") - f).max() / np.abs(f).max()
 
 
-@pytest.mark.parametrize("nranks, comm", LAYOUTS)
+@pytest.mark.parametrize("nranks, comm", [pytest.param(*layout, marks=[pytest.mark.long] * (layout in ((4, "brick"), (2, "tiled")))) for layout in LAYOUTS])
 @pytest.mark.parametrize("name", SCENES)
 def test_forces_are_those_of_all_pairs(lmp, tmp_path, name, nranks, comm):
     """newton on and off, at the ends of three runs, with the list as old as it may be; flight takes less lists than with displacement; none is late"""

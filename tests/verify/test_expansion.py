@@ -48,6 +48,7 @@ def test_ring_does_not_spall(lmp, root, tmp_path):
             assert n == 1 and f["void_damage"].max() < 0.02 and np.median(f["vm"]) == pytest.approx(Y, rel=0.06)
 
 
+@pytest.mark.long
 def test_ring_with_johnson_cook(lmp, root, tmp_path):
     """strain breaks it: damage johnson-cook with scatter, artificial stress against clumping; the number is Grady's within a factor of five at any rate"""
     ratio = []

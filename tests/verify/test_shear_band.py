@@ -1,6 +1,7 @@
 """Damage with softening by plastic displacement: the energy that a shear band takes up does not go with the spacing."""
 
 import numpy as np
+import pytest
 from dumps import read_dump
 
 H, V, Y, D1, U_F, COLUMNS = 1e-3, 20.0, 0.3e9, 0.05, 30e-6, 6
@@ -65,13 +66,14 @@ write_dump inner custom out.{n} y c_S[*] modify format float %.9g sort id
     return layers[:, 1], layers[:, 2]
 
 
-def test_energy_per_area(lmp, tmp_path):
-    """four times as many layers: the same energy, that of 2.2 layers in each of the bands, where a law of strain would have a quarter
+@pytest.mark.parametrize("layers", [(16, 32), pytest.param((16, 32, 64), marks=pytest.mark.long)], ids=len)
+def test_energy_per_area(lmp, tmp_path, layers):
+    """two and four times as many layers: the same energy, that of 2.2 layers in each of the bands, where a law of strain would have a half and a quarter
 
     A layer that has failed has taken up Y u_f/2 per area, one of damage D the part 2 D - D^2 of that. Bands come at both sides, where the strip is held.
     """
     taken = {}
-    for n in (16, 32, 64):
+    for n in layers:
         D, eps = band(lmp, tmp_path, n)
         D = np.minimum(D, 1)
         bands = 1 + (np.diff(np.flatnonzero(D > 0.05)) > 2).sum()

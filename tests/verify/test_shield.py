@@ -365,7 +365,7 @@ def test_half_a_plate_is_not_mirrored(shield, tmp_path):
     undecided(r, "no plate in one piece is left around the place that is struck")
 
 
-@pytest.mark.parametrize("quarter", ["yes", "no"])
+@pytest.mark.parametrize("quarter", ["yes", pytest.param("no", marks=pytest.mark.long)])
 def test_a_wall_with_a_core(shield, tmp_path, quarter):
     """fine particles in its middle, coarser ones around: what is planned is what is run, and pictures know the outer part as the same wall"""
     r = shield(wall(0.8), wall(2.4, gap=8, core_mm=3.5), D=3, dx=0.4, v=5, tstop=8, material="Al6061-T6", quarter=quarter, nranks=2)

@@ -11,7 +11,7 @@ FRONT, REAR = wall(0.8, radius=10), wall(0.8, gap=12, radius=16)
 SMALL = dict(dx=0.4, tstop=5)
 
 
-@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("nranks", [pytest.param(1, marks=pytest.mark.long), 2])
 def test_hybrid_walls(shield, tmp_path, nranks):
     """beside all-SPH: holes, clouds, momentum; and what became of the elements"""
     r = shield({**FRONT, "core_mm": 4, "hold_mm": 8}, {**REAR, "core_mm": 7, "hold_mm": 14}, nranks=nranks, method="hybrid", **SMALL)

@@ -224,7 +224,7 @@ def test_rotated_stress(lmp, tmp_path):
     assert np.array(drift[0]) / drift[1] == pytest.approx(4.0, rel=0.05) and max(drift[1]) < 2e-4
 
 
-@pytest.mark.parametrize("kind", ["elastic", "johnson-cook", "temperature work"])
+@pytest.mark.parametrize("kind", [pytest.param("elastic", marks=pytest.mark.long), "johnson-cook", pytest.param("temperature work", marks=pytest.mark.long)])
 def test_simple_shear(lmp, tmp_path, kind):
     """v_x = y up to gamma 1.5: the constitutive law integrated by itself"""
     sections = dict(elastic=("eos linear rho0 1 K 16", "strength johnson-cook G 6 A 1e6 B 0 n 1 C 0 m 1 epsdot0 1 Tref 300 Tm 900"))

@@ -32,6 +32,7 @@ def test_rings(lmp, tmp_path, kernel, h):
     assert max(momentum_error(r.thermo)) < 1e-11
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("words", [pytest.param(ART, marks=pytest.mark.long), "dissipation riemann artstress 0.3 4"])
 def test_rings_with_a_law_of_spall(lmp, tmp_path, words):
     """the rubber bears 2.6 times the tension that comes: nothing fails, nothing comes apart, and the rings bounce as without the law"""

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from ..errors import writing
 
 WIDTH = 6.4  # inches
+DPI = 200
 BODIES = ("#c8373a", "#2f62a8", "#5a9a57", "#8a5aa3", "#d8892f", "#6b6b6b")  # types 1, 2, ...
 STYLE = {"size": 9, "line": 1.4}
 SINGLE = "#c9c9c9"
@@ -22,7 +23,7 @@ def save(figure, name):
     paths = [str(name)] if end in (".png", ".pdf") else [f"{name}.png", f"{name}.pdf"]
     for path in paths:
         with writing(path):
-            figure.savefig(path, dpi=200, metadata={"CreationDate": None} if path.endswith(".pdf") else None)
+            figure.savefig(path, dpi=DPI, metadata={"CreationDate": None} if path.endswith(".pdf") else None)
     return paths
 
 

@@ -363,12 +363,17 @@ def limits(case_at, low, high, samples=200):
 
     case_at: value -> case. Over speed there may be several.
     """
-    def excess(name, value):
+    @functools.cache
+    def at(value):
         case = case_at(value)
-        return critical_diameter(name, from_case(case), case.speed_km_s, case.angle_deg)[0] - 0.1 * case.diameter_mm
+        return from_case(case), case.speed_km_s, case.angle_deg, 0.1 * case.diameter_mm
+
+    def excess(name, value):
+        shield, speed, angle, diameter = at(value)
+        return critical_diameter(name, shield, speed, angle)[0] - diameter
 
     found, values = {}, [low + (high - low) * k / samples for k in range(samples + 1)]
-    for name in equations(from_case(case_at(low))):
+    for name in equations(at(low)[0]):
         holds, places = [excess(name, value) >= 0 for value in values], []
         for k in range(samples):
             if holds[k] != holds[k + 1]:
@@ -376,8 +381,8 @@ def limits(case_at, low, high, samples=200):
                 places.append(bisect(lambda value: sign * excess(name, value), values[k], values[k + 1]))
         left = []
         for value in places:
-            case = case_at(value)
-            left += critical_diameter(name, from_case(case), case.speed_km_s, case.angle_deg)[1]
+            shield, speed, angle, _ = at(value)
+            left += critical_diameter(name, shield, speed, angle)[1]
         found[name] = {"limits": [round(value, 5) for value in places], "low_side": "holds" if holds[0] else "fails", "outside": list(dict.fromkeys(left))}
     return found
 
