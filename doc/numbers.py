@@ -125,7 +125,9 @@ class Record:
 
 
 def plain(value):
-    return "-" if value is None else {True: "yes", False: "no"}[value] if isinstance(value, bool) else str(value)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return "-" if value is None else re.sub(r"^-(0(\.0*)?)$", r"\1", str(value))
 
 
 def markdown(record):
