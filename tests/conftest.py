@@ -16,7 +16,7 @@ import pytest
 ROOT = pathlib.Path(os.environ.get("HVI_ROOT", pathlib.Path(__file__).resolve().parents[1]))
 sys.path[:0] = [str(ROOT / folder) for folder in ("tests/lib", "python", "bench", "doc/ext")]  # pytest itself puts tests there, for reference
 from corrected_scenes import commands_of_pair  # noqa: E402
-from lammps_runs import Result  # noqa: E402
+from lammps_runs import Result, alone  # noqa: E402
 from solid_scenes import MATERIAL  # noqa: E402
 
 
@@ -103,8 +103,9 @@ def lmp(tmp_path, lmp_exe):
             values = value if isinstance(value, (list, tuple)) else [value]
             command += ["-var", name, *map(str, values)]
         command = [str(c) for c in [*command, *extra]]
+        quicker = alone(tmp_path.parent / f"{tmp_path.name}.mpi" / str(count)) if nranks == 1 else {}
         # a group of its own: on a hang mpirun and all its ranks end
-        process = subprocess.Popen(command, cwd=cwd, env={**os.environ, **(env or {})}, text=True, errors="replace",
+        process = subprocess.Popen(command, cwd=cwd, env={**os.environ, **quicker, **(env or {})}, text=True, errors="replace",
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    start_new_session=True)
         try:

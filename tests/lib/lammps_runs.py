@@ -16,6 +16,11 @@ import numpy as np
 ENV = pathlib.Path(__file__).resolve().parents[2] / "cmake" / "env.sh"
 
 
+def alone(folder):
+    """Environment of a program on one rank: Open MPI starts no daemon for it, which takes three times as long as the rest; folder: its own, as others' would be mixed up."""
+    return {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_orte_tmpdir_base": str(folder)}
+
+
 class Result:
     """What one LAMMPS run left behind.
 

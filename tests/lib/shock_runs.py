@@ -8,6 +8,7 @@ import subprocess
 
 import numpy as np
 from dumps import named, read_dump
+from lammps_runs import alone
 from shock_scenes import COURANT, ETA, KERNEL, METHODS, Blasts
 
 STOCK_ROWS, STOCK_H, STOCK_ALPHA = 8, 4.0, 0.75  # its own example's: examples/PACKAGES/sph/shock_tube
@@ -188,7 +189,7 @@ def run(case, method, n, lmp, folder, ranks=1, timeout=1800, eta=ETA, mirrors=Fa
     for old in folder.glob("frame.*"):
         old.unlink()
     command = ([] if ranks == 1 else ["mpirun", "-np", str(ranks)]) + [str(lmp), "-in", "in.shock", "-log", "log", "-screen", "none"]
-    env = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1"}
+    env = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1", **(alone(folder / "mpi") if ranks == 1 else {})}
     try:
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=env, timeout=timeout, stdin=subprocess.DEVNULL)
     except subprocess.TimeoutExpired:
