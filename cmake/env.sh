@@ -13,7 +13,7 @@ export OMPI_MCA_hwloc_base_binding_policy="${OMPI_MCA_hwloc_base_binding_policy:
 export PRTE_MCA_hwloc_default_binding_policy="${PRTE_MCA_hwloc_default_binding_policy:-none}"
 # a rank that waits in a loop for another would take the core from what it waits for: two tests beside each other, eight times slower
 export OMPI_MCA_mpi_yield_when_idle="${OMPI_MCA_mpi_yield_when_idle:-1}"
-# a quicker start: no search for networks. Not ess_singleton_isolated: programs that start at once then share a folder, and some stop
+# a quicker start: no search for networks. Not ess_singleton_isolated: programs that start at once then share a folder, and some stop (tests give each its own)
 export OMPI_MCA_pml="${OMPI_MCA_pml:-ob1}"
 # containers often forbid copies between processes; nothing is launched on another machine
 export OMPI_MCA_btl_vader_single_copy_mechanism="${OMPI_MCA_btl_vader_single_copy_mechanism:-none}"

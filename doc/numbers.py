@@ -127,7 +127,7 @@ class Record:
 def plain(value):
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return "-" if value is None else re.sub(r"^-(0(\.0*)?)$", r"\1", str(value))
+    return "-" if value is None else re.sub(r"^-(0(\.0*)?(e[-+]?\d+)?)$", r"\1", str(value))
 
 
 def markdown(record):

@@ -82,7 +82,7 @@ def join_negative(arguments):
 
 def parse(words):
     """what the words say, and in run the function that does it"""
-    return options(words[0] if words else None).parse_args(join_negative(words))
+    return options(next((word for word in words if not word.startswith("-")), None)).parse_args(join_negative(words))
 
 
 def shown(text):

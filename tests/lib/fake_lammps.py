@@ -27,7 +27,7 @@ given = sys.argv[sys.argv.index("-in") + 1]
 shield = given in ("in.shield", "in.continue")
 until, to = float(variables.get("until", ["0"])[0]), variables.get("to", ["shield.restart"])[0]
 if shield:
-    variables = {name: value if isinstance(value, list) else [value] for name, value in yaml.load(open("job.yaml"), yaml.CSafeLoader)["variables"].items()}
+    variables = {name: value if isinstance(value, list) else [value] for name, value in yaml.load(open("job.yaml"), getattr(yaml, "CSafeLoader", yaml.SafeLoader))["variables"].items()}
 
 with open("tries", "a") as tries:
     tries.write(f"{'yes' if given == 'in.continue' else 'no'}\n")

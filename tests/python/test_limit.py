@@ -127,7 +127,6 @@ def test_limit_at_another_gap_and_angle(folder, monkeypatch, capsys):
     assert found["limit"] == 5.25 and found["case"]["angle_deg"] == 10 and found["case"]["walls"][1]["gap_mm"] == 100 and not (folder / "runs/emi/limit-D").exists()
 
 
-@pytest.mark.long
 def test_curve_over_gap(folder, capsys, monkeypatch):
     """a column with its name, equations at each gap; the picture says over what it is"""
     monkeypatch.setenv("FAKE_GAP", "0.02")

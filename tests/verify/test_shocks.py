@@ -19,7 +19,7 @@ LONG = ("woodward-colella", "noh-2d", "interface-100")
 
 
 def is_long(name, method):
-    """not in make test; riemann is there in all cases but the longest; of those hard.py has others in make test"""
+    """not in make test; riemann is there in all cases but the longest: others of their kind are, interface-100 in test_hard.py"""
     return name in LONG or method != "riemann" and name in COSTLY or method == "stock" and name == "interface-10"
 
 
