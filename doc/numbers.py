@@ -313,7 +313,6 @@ def like(old, new):
     """a number in the digits of the old one"""
     if not isinstance(new, float) or not math.isfinite(new):
         return str(new)
-    new += 0.0  # not -0
     digits = re.sub(r"[eE].*", "", old).lstrip("-").replace(".", "").lstrip("0") if isinstance(old, Digits) else ""
     n = max(len(digits), 1) if isinstance(old, Digits) else 6
     if isinstance(old, Digits) and "." not in old and "e" not in old.lower():

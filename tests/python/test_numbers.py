@@ -180,6 +180,12 @@ def test_digits(old, new, want):
     assert numbers.like(numbers.Digits(old), new) == want
 
 
+@pytest.mark.parametrize("value, want", [("-0.000", "0.000"), ("-0e+00", "0e+00"), ("-0.001", "-0.001"), ("-0.5", "-0.5"), (True, "yes"), (None, "-")])
+def test_cells(value, want):
+    """no zero has a sign"""
+    assert numbers.plain(value) == want
+
+
 RAN = {"core_s": 1.0, "wall_s": 2.0, "said": "case a: 1.5 of 7\ncase b: 2.5 of 8\n"}
 
 

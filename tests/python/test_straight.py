@@ -100,9 +100,9 @@ def test_front_door_runs_it(root, lmp_exe, tmp_path, capsys, monkeypatch):
     assert status in (0, 3, 4) and "1 runs, 0 done before, 1 to run" in capsys.readouterr().out
     assert cli.main(words) == status and "1 runs, 1 done before, 0 to run" in capsys.readouterr().out
     assert (tmp_path / "runs/c/verdict.yaml").exists() and not list(tmp_path.glob("runs/c/*/chain.yaml"))
-    assert cli.main(["report", "runs/c"]) == 0 and (tmp_path / "runs/c/report.html").stat().st_size > 1e5
+    assert cli.main(["report", "runs/c"]) == 0
     page = (tmp_path / "runs/c/report.html").read_text()
-    assert "Plane of wall 2" in page and "Wall 2: no picture" not in page
+    assert page.count("data:image/png") > 12 and "Plane of wall 2" in page and "Wall 2: no picture" not in page
 
 
 @pytest.mark.long
