@@ -285,12 +285,15 @@ void HVIFEMCoupling::gather_sums()
   mesh.of_paired.gather(
       [&](int i) {
         PairSums sums = {};
-        std::copy_n(&records.gradv[i].xx, 9, sums.L);
-        std::copy_n(&records.gradv[i].mxx, 6, sums.M);
+        const HVI::VelocityGradient L = records.gradv[i].gradient();
+        const HVI::Symmetric M = records.gradv[i].moment();
+        std::copy_n(&L.xx, 9, sums.L);
+        std::copy_n(&M.xx, 6, sums.M);
         if (!records.contact || !(records.contact[i].nu > 0.0)) return sums;
         const HVI::SphGradV &contact = records.contact[i];
         sums.trace_L_of_others = contact.xx + contact.yy + contact.zz;
-        std::copy_n(&contact.mxx, 6, sums.M_of_others);
+        const HVI::Symmetric M_of_others = contact.moment();
+        std::copy_n(&M_of_others.xx, 6, sums.M_of_others);
         return sums;
       },
       [this](int k, const PairSums &of_particle) {
@@ -322,21 +325,22 @@ void HVIFEMCoupling::show()
 {
   struct Shown {
     HVI::SolidState solid;
-    double rho, p, L[9];
+    double rho, p;
+    HVI::VelocityGradient L;
   };
   const HVI::SphView &records = store->fields.view();
   mesh.of_paired.scatter(
       [this](int k) {
         const HVI::ElementStep &step = mesh.step_of(k);
         Shown now = {mesh.element_of(k).solid, mesh.element_of(k).rho, step.p, {}};
-        std::copy_n(step.L, 9, now.L);
+        std::copy_n(step.L, 9, &now.L.xx);
         return now;
       },
       [&](int i, const Shown &now) {
         strength->embed(i, now.solid);
         records.traction[i].rho = now.rho;
         records.traction[i].p = now.p;
-        std::copy_n(now.L, 9, &records.gradv[i].xx);
+        records.gradv[i].set_gradient(now.L);
       });
 }
 
@@ -380,12 +384,13 @@ void HVIFEMCoupling::gather_forces()
         const HVI::SphTraction &T = records.traction[i];
         const HVI::SphGradV &g = records.gradv[i];
         Acted now = {{rates.fx, rates.fy, rates.fz},
-                     rates.de + rates.fx * T.vx + rates.fy * T.vy + rates.fz * T.vz,
+                     rates.de() + rates.fx * T.vx + rates.fy * T.vy + rates.fz * T.vz,
                      {}};
         const double factor = records.state[i].w / T.volume;
+        const HVI::VelocityGradient rows = T.by_rows();
         const double m[9] = {g.mxx, g.mxy, g.mxz, g.mxy, g.myy, g.myz, g.mxz, g.myz, g.mzz};
         for (int k = 0; k < 9; k++) {
-          const double *const t = &T.xx + 3 * (k / 3);
+          const double *const t = &rows.xx + 3 * (k / 3);
           now.K[k] = factor * (t[0] * m[k % 3] + t[1] * m[3 + k % 3] + t[2] * m[6 + k % 3]);
         }
         if (!records.contact || !(records.contact[i].nu > 0.0)) return now;
@@ -443,7 +448,7 @@ void HVIFEMCoupling::take_forces(std::vector<std::array<double, 3>> &node_forces
         now[0] -= rates.fx;
         now[1] -= rates.fy;
         now[2] -= rates.fz;
-        if (fields.settings.energy) now[3] -= rates.de;
+        if (fields.settings.energy) now[3] -= rates.de();
         return now;
       },
       [&](int k, const Taken &now) {

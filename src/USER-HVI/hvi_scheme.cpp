@@ -405,7 +405,7 @@ void HVIScheme::scatter()
     f[i][2] += rates[i].fz;
     atom->drho[i] += rates[i].drho;
     if (!set.energy) continue;
-    atom->desph[i] += rates[i].de;
+    atom->desph[i] += rates[i].de();
     if (atom->mask[i] & integrated) heating += rates[i].heat;
   }
   fields.viscous_power = heating;

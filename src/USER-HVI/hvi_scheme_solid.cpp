@@ -242,35 +242,18 @@ static Symmetric inverse(const SphGradV &M, double full, const bool *along)
   static constexpr double ALONE = 0.2, ENOUGH = 0.35;
   const double part = MAX(0.0, MIN(1.0, (full - ALONE) / (ENOUGH - ALONE)));
   if (part == 0.0) return {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
-  const Symmetric N = {along[0] ? M.mxx / M.nu : 1.0,
-                       along[1] ? M.myy / M.nu : 1.0,
-                       along[2] ? M.mzz / M.nu : 1.0,
-                       M.mxy / M.nu,
-                       M.mxz / M.nu,
-                       M.myz / M.nu};
+  const double by = 1.0 / M.nu;
+  const Symmetric N = {along[0] ? M.mxx * by : 1.0,
+                       along[1] ? M.myy * by : 1.0,
+                       along[2] ? M.mzz * by : 1.0,
+                       M.mxy * by,
+                       M.mxz * by,
+                       M.myz * by};
   Symmetric inverse = HVI::limited_inverse(N);
   const double counts = part * part * (3.0 - 2.0 * part);
   double *const c = &inverse.xx;
-  for (int k = 0; k < 6; k++) c[k] = counts * c[k] / M.nu + (k < 3 ? 1.0 - counts : 0.0);
+  for (int k = 0; k < 6; k++) c[k] = counts * by * c[k] + (k < 3 ? 1.0 - counts : 0.0);
   return inverse;
-}
-
-static VelocityGradient gradient(const SphGradV &L)
-{
-  return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
-}
-
-static void put_gradient(const VelocityGradient &L, SphGradV &g)
-{
-  g.xx = L.xx;
-  g.xy = L.xy;
-  g.xz = L.xz;
-  g.yx = L.yx;
-  g.yy = L.yy;
-  g.yz = L.yz;
-  g.zx = L.zx;
-  g.zy = L.zy;
-  g.zz = L.zz;
 }
 
 /* ----------------------------------------------------------------------
@@ -287,7 +270,7 @@ static VelocityGradient corrected(const SphGradV &sum, double full, const bool *
   middle.mxy -= half * (sum.xy + sum.yx);
   middle.mxz -= half * (sum.xz + sum.zx);
   middle.myz -= half * (sum.yz + sum.zy);
-  return product(gradient(sum), inverse(middle, full, along));
+  return product(sum.gradient(), inverse(middle, full, along));
 }
 
 // what of the stress is normal to the contact, in place of L of what touches
@@ -295,9 +278,7 @@ static VelocityGradient corrected(const SphGradV &sum, double full, const bool *
 static void put_normal(SphGradV &contact, double nu)
 {
   Symmetric normal = {};
-  if (contact.mxx + contact.myy + contact.mzz > 0.0)
-    normal = HVI::along_largest(
-        {contact.mxx, contact.myy, contact.mzz, contact.mxy, contact.mxz, contact.myz});
+  if (contact.mxx + contact.myy + contact.mzz > 0.0) normal = HVI::along_largest(contact.moment());
   double *const n = &normal.xx;
   for (int k = 0; k < 6; k++) n[k] *= MIN(1.0, 4.0 * contact.nu / nu);
   contact.set_normal(normal);
@@ -339,11 +320,11 @@ void HVISchemeSolid::correct_gradients()
       const Symmetric by_all = inverse(all, scale * all.nu, fields.along);
       L_all = corrected(all, scale * all.nu, fields.along, half);
       put_normal(contact, all.nu);
-      contact.set_inverse(by_all);
+      contact.set_moment(by_all);
     }
     T.div = L_all.xx + L_all.yy + L_all.zz;
-    put_gradient(s.is_rubble() ? L_all : L, own);
-    own.set_inverse(by_own);
+    own.set_gradient(s.is_rubble() ? L_all : L);
+    own.set_moment(by_own);
   });
 }
 
@@ -400,12 +381,12 @@ void HVISchemeSolid::find_tractions()
     const bool held = is_embedded(i);
     if (held && touches(i))
       put_normal(records.contact[i], records.state[i].w / T.volume);    // nu of a lattice
-    const Symmetric by_own = held ? ONE : records.gradv[i].inverse();
+    const Symmetric by_own = held ? ONE : records.gradv[i].moment();
     Symmetric by_all = by_own;
     double rest = 0.0;
     if (touches(i)) {
       const SphGradV &contact = records.contact[i];
-      if (!held) by_all = contact.inverse();
+      if (!held) by_all = contact.moment();
       const Symmetric n = contact.normal();
       if (borne.shear > 0.0)
         rest = -(n.xx * S.xx + n.yy * S.yy + n.zz * S.zz +

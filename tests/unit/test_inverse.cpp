@@ -79,8 +79,7 @@ TEST(LimitedInverse, of_a_multiple_of_1)
 TEST(Stretch, is_the_symmetric_part)
 {
   HVI::SphGradV g = {};
-  const double L[9] = {1.0, 2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0};
-  std::copy_n(L, 9, &g.xx);
+  g.set_gradient({1.0, 2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0});
   g.keep_stretch();
   const Symmetric s = g.stretch();
   EXPECT_EQ(s.xx, 1.0);

@@ -163,8 +163,8 @@ void settle(Random &random, const State &s, std::vector<SphSlopes> &slopes,
     fill(&slopes[i].xx, 9, 0.5);
     slopes[i].replace_sums(between(random, 0.7, 1.3),
                            s.scene & H ? between(random, 0.6, 1.4) : 1.0);
-    fill(&gradv[i].xx, 9, 0.5);
-    fill(&traction[i].xx, 13, 1.0);
+    fill(&gradv[i].xx, SphGradV::SENT, 0.5);
+    fill(&traction[i].xx, SphTraction::SENT, 1.0);
     traction[i].volume = between(random, 0.7, 1.3);
     fill(&push[i].xx, 7, 1.0);
     fill(&art[i].xx, 6, 1.0);
@@ -239,10 +239,16 @@ Found run(const SphSweeps &sweeps, const State &s)
       found.momentum[k] += (&rates[i].fx)[k];
       found.power += (&rates[i].fx)[k] * v[k];
     }
-    found.energy += rates[i].de;
+    found.energy += rates[i].de();
   }
   images.fold(work.records, true);
-  found.keep("rates", rates, 0, 6);
+  found.keep("rates", rates, 0, 4);
+  found.keep("rates 4", rates, [](const SphRates &r) {
+    return r.de();
+  });
+  found.keep("rates 5", rates, [](const SphRates &r) {
+    return r.heat;
+  });
   found.numbers.push_back({"fastest", {work.fastest}});
   found.numbers.push_back({"virial", {found.virial, found.virial + 9}});
   found.numbers.push_back({"planes", {images.force, images.force + 3}});
@@ -253,11 +259,12 @@ Found run(const SphSweeps &sweeps, const State &s)
 
 std::string kind(const std::string &name)
 {
-  static const char *const RATES[] = {"force", "force", "force", "de", "drho", "heat"};
+  static const char *const RATES[] = {"force", "force", "force", "drho", "de", "heat"};
   if (name.rfind("rates", 0) == 0) return RATES[name.back() - '0'];
   const int k = name.find(' ') == std::string::npos ? 0 : std::stoi(name.substr(name.find(' ')));
   if (name.rfind("slopes", 0) == 0) return k < 6 ? "grad v" : k < 9 ? "grad p" : name;
-  return k < 9 ? name.substr(0, 5) + " L" : k < 15 ? name.substr(0, 5) + " M" : name;
+  if (k == 15) return name;
+  return name.substr(0, 5) + (k % 4 < 3 && k < 12 ? " L" : " M");
 }
 
 void expect_same(const Found &got, const Found &want, const std::string &what)

@@ -69,8 +69,10 @@ Symmetric limited_inverse(const Symmetric &N)
   if (xx > 0.0 && xx * yy > N.xy * N.xy &&
       xx * (yy * zz - N.yz * N.yz) + N.xy * (N.xz * N.yz - N.xy * zz) +
               N.xz * (N.xy * N.yz - yy * N.xz) >
-          0.0)
-    return {cxx / det, cyy / det, czz / det, cxy / det, cxz / det, cyz / det};
+          0.0) {
+    const double by = 1.0 / det;
+    return {cxx * by, cyy * by, czz * by, cxy * by, cxz * by, cyz * by};
+  }
 
   // Newton's interpolation of g at the eigenvalues a <= b <= c (Smith, Commun. ACM 4 (1961) 168).  Those of
   // nearly equal eigenvalues are known to half of the digits only, which is of no account here: the error of

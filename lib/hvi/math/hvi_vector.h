@@ -19,8 +19,9 @@ namespace HVI {
 
    Four lanes also where registers have eight (AVX-512): that is 5 to 10 % faster
    on Zen 4, since rows turn into columns with less shuffling, fewer lanes are
-   left empty at the end of a list, and the square roots take as long.  Two where
-   registers are short: vectors that the compiler must split are far slower.
+   left empty at the end of a list, and the square roots take as long; on a Xeon the
+   sweeps of solids take as long with either.  Two where registers are short: vectors
+   that the compiler must split are far slower.
 ------------------------------------------------------------------------- */
 
 #if defined(__AVX__)
@@ -79,11 +80,27 @@ static inline double sum(const Vec &x)
 
 #define HVI_INLINE static inline __attribute__((always_inline))
 
-// four doubles of a record
+// four doubles of a record; a vector of space that has another number in the last place
 
 template <class Record> static inline Vec4 &part(Record *record, int n)
 {
   return *((Vec4 *) record + n);
+}
+
+template <class Record> static inline const Vec4 &part(const Record *record, int n)
+{
+  return *((const Vec4 *) record + n);
+}
+
+HVI_INLINE Vec4 of_four(double x)
+{
+  return Vec4{x, x, x, x};
+}
+
+HVI_INLINE Vec4 with_last(const Vec4 &space, double last)
+{
+  typedef long long Which __attribute__((vector_size(32)));
+  return Which{0, 0, 0, -1} ? of_four(last) : space;
 }
 
 // GCC has the other name since version 12
@@ -94,6 +111,8 @@ typedef long long Index __attribute__((vector_size(8 * LANES)));
 #else
 #define HVI_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #endif
+
+static constexpr int IN_TURN[4] = {0, 1, 2, 3};    // of records one after the other
 
 // one number of the records
 

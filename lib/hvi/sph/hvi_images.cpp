@@ -129,8 +129,9 @@ void Images::fill_sums(const SphView &records) const
       records.traction[a] = records.traction[i];
       reflect.tensor(records.traction[a]);
       reflect.velocity(records.traction[a]);
-      records.gradv[a].stretch() = records.gradv[i].stretch();
-      reflect.symmetric(records.gradv[a].stretch());
+      Symmetric stretch = records.gradv[i].stretch();
+      reflect.symmetric(stretch);
+      records.gradv[a].set_stretch(stretch);
       if (records.art) {
         records.art[a] = records.art[i];
         reflect.symmetric(records.art[a]);

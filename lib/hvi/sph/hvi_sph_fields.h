@@ -92,11 +92,7 @@ class SphFields {
   // of solids: velocity gradient of the middle of the step, its trace with all neighbors, which changes density;
   // forces of SPH alone
 
-  VelocityGradient velocity_gradient(int i) const
-  {
-    const SphGradV &L = gradv[i];
-    return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
-  }
+  VelocityGradient velocity_gradient(int i) const { return gradv[i].gradient(); }
   double divergence(int i) const { return traction[i].div; }
   const double *own_force(int i) const { return &rates[i].fx; }
   bool asleep(int i) const { return (std::size_t) i < sleepers.size() && sleepers[i]; }

@@ -44,10 +44,9 @@ static inline bool sph_fluid(int i, const SphPlace &pi, const SphState *state, i
   Vec fastest = near.fastest;
 
   for (int m = 0; m < nlanes; m += LANES) {
-    static constexpr int in_turn[4] = {0, 1, 2, 3};
     const int *const j = near.j + m;
     Vec d[4], first[4], second[4];
-    read_columns(near.d + m, in_turn, 0, d);
+    read_columns(near.d + m, IN_TURN, 0, d);
     read_columns(state, j, 0, first);
     read_columns(state, j, 1, second);
     const Vec V_j = first[3], p_j = second[0], c_j = second[1], rho_j = second[2];
@@ -80,7 +79,7 @@ static inline bool sph_fluid(int i, const SphPlace &pi, const SphState *state, i
     const Vec soft = rsq + 0.01 * h * h;
     const Vec Pi = sph_viscosity(h, soft, rdotv, c_i + c_j, rho_i + rho_j, a, b);
     const Vec visc = V_i * rho_i * V_j * rho_j * Pi;
-    keep_fastest(sph_signal(h, r, soft, rdotv, c_i > c_j ? zero + c_i : c_j, a, b), fastest);
+    sph_signal(h, r, soft, rdotv, c_i > c_j ? zero + c_i : c_j, a, b, fastest);
 
     const Vec VV = acts * V_i * V_j;
     const Vec press_i = VV * p_i, press_j = VV * p_j;
@@ -111,10 +110,10 @@ static inline bool sph_fluid(int i, const SphPlace &pi, const SphState *state, i
     drho += drho_i;
     heat += qheat;
     for (int k = 0; k < 3; k++) first[k] = -f[k];
-    first[3] = press_j * g + qheat;
-    second[0] = drho_j;
-    second[1] = qheat;
-    second[2] = second[3] = zero;
+    first[3] = drho_j;
+    second[0] = press_j * g + qheat;
+    second[1] = second[2] = zero;
+    second[3] = qheat;
     add_columns(rates, j, 0, first);
     add_columns(rates, j, 1, second);
   }
@@ -123,7 +122,7 @@ static inline bool sph_fluid(int i, const SphPlace &pi, const SphState *state, i
   total.fx += sum(fx);
   total.fy += sum(fy);
   total.fz += sum(fz);
-  total.de += sum(de);
+  total.de_x += sum(de);
   total.drho += sum(drho);
   total.heat += sum(heat);
   return sum(overlaps) > 0.0;

@@ -28,10 +28,16 @@ struct SphRows : SphLaws {
 
 struct alignas(64) SphNear {
   static constexpr int MAX = 128, SIZE = MAX + LANES;
-  Vec4 d[SIZE];                           // from the neighbor to the particle; difference in h
-  double force[SIZE];                     // on i along d, opposite on j; without SPH_SOLID
-  double fx[SIZE], fy[SIZE], fz[SIZE];    // on i, with SPH_SOLID
+  Vec4 d[SIZE];          // from the neighbor to the particle; difference in h
+  double force[SIZE];    // on i along d, opposite on j; without SPH_SOLID
+
+  // with it: what is one number of a pair; and the force on i
+
+  double weight_i[SIZE], weight_j[SIZE], nu_i[SIZE], nu_j[SIZE], bonded[SIZE], share[SIZE];
+  double pull[SIZE], heat[SIZE];
+  Vec4 f[SIZE];
   int j[SIZE];
+
   Vec fastest;    // see sph_signal(), of all pairs there have been
 };
 
@@ -51,28 +57,28 @@ static inline int sph_fill_up(int i, const SphPlace &pi, int n, SphNear &near)
 /* ----------------------------------------------------------------------
    For the time step, of pairs that approach: (c + approach + viscosity)/h, Monaghan 1992 eq 4.5 with
    the speed at which the pair approaches in place of |v|, which depends on the frame.  soft is r^2 +
-   0.01 h^2, rdotv is r times the speed.
+   0.01 h^2, rdotv is r times the speed.  A quotient is taken of what is fastest so far only.
 ------------------------------------------------------------------------- */
 
-HVI_INLINE Vec sph_signal(const Vec &h, const Vec &r, const Vec &soft, const Vec &rdotv,
-                          const Vec &c, const Vec &a, const Vec &b)
+HVI_INLINE void keep_fastest(const Vec &all, const Vec &over, const Vec &rdotv, Vec &fastest)
+{
+  const Bits more = (rdotv < 0.0) & (all > fastest * over);
+  if (any(more)) fastest = more ? all / over : fastest;
+}
+
+HVI_INLINE void sph_signal(const Vec &h, const Vec &r, const Vec &soft, const Vec &rdotv,
+                           const Vec &c, const Vec &a, const Vec &b, Vec &fastest)
 {
   const Vec all = c * (1.0 + 0.6 * a) * r * soft - rdotv * (soft + 0.6 * b * h * r);
-  return rdotv < 0.0 ? all / (h * r * soft) : Vec{};
+  keep_fastest(all, h * r * soft, rdotv, fastest);
 }
 
 // the same of Riemann problems, whose viscosity is that with a = 1 and, of shocks that are faster by
 // 1.2 |u|, h mu/r = 0.6 |u| in place of b mu: particles that nearly touch do not make it larger
 
-HVI_INLINE Vec sph_signal(const Vec &h, const Vec &r, const Vec &rdotv, const Vec &c)
+HVI_INLINE void sph_signal(const Vec &h, const Vec &r, const Vec &rdotv, const Vec &c, Vec &fastest)
 {
-  const Vec all = 1.6 * c * r - 1.36 * rdotv;
-  return rdotv < 0.0 ? all / (h * r) : Vec{};
-}
-
-HVI_INLINE void keep_fastest(const Vec &rate, Vec &fastest)
-{
-  fastest = rate > fastest ? rate : fastest;
+  keep_fastest(1.6 * c * r - 1.36 * rdotv, h * r, rdotv, fastest);
 }
 
 // Monaghan 1992, for pairs that approach: mu = h v.x/(r^2 + 0.01 h^2),

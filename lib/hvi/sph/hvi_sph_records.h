@@ -10,6 +10,7 @@
 #define LMP_HVI_SPH_RECORDS_H
 
 #include "hvi_inverse.h"
+#include "hvi_stress.h"
 #include "hvi_vector.h"
 
 #include <cstdint>
@@ -73,12 +74,13 @@ struct alignas(64) SphState {
 // the forces: what its neighbors do to it; drho of solids is written between the sweeps, too
 
 struct alignas(64) SphRates {
-  static constexpr int FORCE = 3, WITH_POWER = 4;    // its first numbers
+  static constexpr int FORCE = 3, WITH_POWER = 7;    // its first numbers
   double fx, fy, fz;                                 // force
-  double de;                                         // of the internal energy of the particle
   double drho;
-  double heat;    // viscous part of de
-  double unused[2];
+  double de_x, de_y, de_z;    // of the internal energy of the particle, in parts
+  double heat;                // viscous part of it
+
+  double de() const { return de_x + de_y + de_z; }
 };
 
 // between the sweeps: artificial stress of solids
@@ -103,24 +105,45 @@ struct alignas(64) SphStress {
 
 struct alignas(64) SphGradV {
   static constexpr int SENT = 16;
-  double xx, xy, xz, yx;    // L_ab: of v_a along b
-  double yy, yz, zx, zy;
-  double zz, mxx, myy, mzz;
-  double mxy, mxz, myz;
-  double nu;
+  double xx, xy, xz, mxy;    // L_ab: of v_a along b
+  double yx, yy, yz, mxz;
+  double zx, zy, zz, myz;
+  double mxx, myy, mzz, nu;
 
-  Symmetric inverse() const { return {mxx, myy, mzz, mxy, mxz, myz}; }
+  VelocityGradient gradient() const { return {xx, xy, xz, yx, yy, yz, zx, zy, zz}; }
+  void set_gradient(const VelocityGradient &L)
+  {
+    xx = L.xx;
+    xy = L.xy;
+    xz = L.xz;
+    yx = L.yx;
+    yy = L.yy;
+    yz = L.yz;
+    zx = L.zx;
+    zy = L.zy;
+    zz = L.zz;
+  }
+  Symmetric moment() const { return {mxx, myy, mzz, mxy, mxz, myz}; }    // M, and afterwards M^-1
 
-  // its first numbers are, when forces are evaluated, what Riemann problems need of L M^-1: the symmetric part
+  // in place of L, when forces are evaluated, what Riemann problems need of L M^-1: the symmetric part
 
-  static constexpr int SENT_STRETCH = 6;
-  Symmetric &stretch() { return reinterpret_cast<Symmetric &>(xx); }
+  static constexpr int SENT_STRETCH = 7;    // the first numbers, with one of M^-1 between
+  Symmetric stretch() const { return {xx, xy, xz, yx, yy, yz}; }
+  void set_stretch(const Symmetric &s)
+  {
+    xx = s.xx;
+    xy = s.yy;
+    xz = s.zz;
+    yx = s.xy;
+    yy = s.xz;
+    yz = s.yz;
+  }
   void keep_stretch()
   {
-    stretch() = {xx, yy, zz, 0.5 * (xy + yx), 0.5 * (xz + zx), 0.5 * (yz + zy)};
+    set_stretch({xx, yy, zz, 0.5 * (xy + yx), 0.5 * (xz + zx), 0.5 * (yz + zy)});
   }
   Symmetric normal() const { return {xx, yy, zz, xy, xz, yz}; }
-  void set_inverse(const Symmetric &s)
+  void set_moment(const Symmetric &s)
   {
     mxx = s.xx;
     myy = s.yy;
@@ -144,15 +167,18 @@ struct alignas(64) SphGradV {
 // else is known at the end of the step only: see fix hvi/sph
 
 struct alignas(64) SphTraction {
-  static constexpr int SENT = 13;
-  double xx, xy, xz, yx;    // T
-  double yy, yz, zx, zy;
-  double zz;
+  static constexpr int SENT = 15;
+  double xx, yx, zx;    // T, by columns
   double p;             // pressure
+  double xy, yy, zy;
+  double volume;    // filled: m/rho
+  double xz, yz, zz;
+  double rho;           // density
   double vx, vy, vz;    // velocity at that time, with which forces do work
-  double volume;        // filled: m/rho
-  double rho;           // density; of owned particles only, as is the next
-  double div;           // trace of the velocity gradient by which that density is advanced
+  double
+      div;    // of owned particles: trace of the velocity gradient by which that density is advanced
+
+  VelocityGradient by_rows() const { return {xx, xy, xz, yx, yy, yz, zx, zy, zz}; }
 };
 
 // between the sweeps, in solids: the part of T that is a pressure, which also acts between bodies

@@ -26,22 +26,22 @@ namespace {
   using Vector = Eigen::Vector3d;
   using Matrix = Eigen::Matrix3d;
 
-  // numbers of records, from the one that they begin with: three of a vector, nine of a matrix by rows,
-  // six of a symmetric one
+  // numbers of records: three of a vector and six of a symmetric matrix, from the one that they begin with
 
   Eigen::Map<Vector> vector(double &x)
   {
     return Eigen::Map<Vector>(&x);
   }
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> matrix(double &xx)
+  Matrix matrix(const VelocityGradient &t)
   {
-    return Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(&xx);
+    return (Matrix() << t.xx, t.xy, t.xz, t.yx, t.yy, t.yz, t.zx, t.zy, t.zz).finished();
   }
   Matrix symmetric(const double &xx)
   {
     const double *const t = &xx;
     return (Matrix() << t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2]).finished();
   }
+
   void add_symmetric(double &xx, const Matrix &m)
   {
     const double add[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
@@ -214,7 +214,7 @@ namespace {
                                            : fluid(work, pair);
       const auto add = [&](SphRates &to, double sign, double de, double drho) {
         vector(to.fx) += sign * change.force;
-        to.de += de;
+        to.de_x += de;
         to.drho += drho;
         to.heat += change.heat;
       };
@@ -469,8 +469,11 @@ namespace {
   {
     const Vector middle = pair.x - work.half_step * pair.v;
     const auto add = [&](SphGradV &to, double w, double F, double width) {
-      matrix(to.xx) -= w * F * pair.v * middle.transpose();
-      add_symmetric(to.mxx, -w * F * pair.x * pair.x.transpose());
+      const Matrix L = matrix(to.gradient()) - w * F * pair.v * middle.transpose();
+      const Matrix M = symmetric(to.moment().xx) - w * F * pair.x * pair.x.transpose();
+      to.set_gradient(
+          {L(0, 0), L(0, 1), L(0, 2), L(1, 0), L(1, 1), L(1, 2), L(2, 0), L(2, 1), L(2, 2)});
+      to.set_moment({M(0, 0), M(1, 1), M(2, 2), M(0, 1), M(0, 2), M(1, 2)});
       to.nu += w * W(work.laws, pair.r, width);
     };
     const auto add_both = [&](SphGradV *to, double share) {
@@ -510,7 +513,7 @@ namespace {
     };
 
     if (bonded(pair) == 1.0)
-      act(ww * matrix(T_i.xx) * pair.grad_i(), ww * matrix(T_j.xx) * pair.grad_j());
+      act(ww * matrix(T_i.by_rows()) * pair.grad_i(), ww * matrix(T_j.by_rows()) * pair.grad_j());
     else {
       const SphPush &P_i = work.records.push[pair.i], &P_j = work.records.push[pair.j];
       const double share = P_i.p + P_j.p > 0.0 ? touching(pair) : 0.0;

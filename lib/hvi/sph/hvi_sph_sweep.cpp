@@ -108,7 +108,7 @@ namespace {
       __builtin_prefetch(&state[j]);
       if (SCENE & SPH_SOLID) {
         __builtin_prefetch(&work.records.traction[j]);
-        __builtin_prefetch(&work.records.traction[j].zz);
+        __builtin_prefetch(&work.records.traction[j].xz);
         if (SCENE & SPH_RIEMANN) { __builtin_prefetch(&work.records.gradv[j]); }
       } else if (SCENE & SPH_RIEMANN) {
         __builtin_prefetch(&work.records.rates[j], 1);
@@ -254,9 +254,9 @@ namespace {
   {
     for (int m = 0; m < n; m++) {
       const double d[3] = {near.d[m][0], near.d[m][1], near.d[m][2]}, along = near.force[m];
-      const double f[3] = {SCENE & SPH_SOLID ? near.fx[m] : along * d[0],
-                           SCENE & SPH_SOLID ? near.fy[m] : along * d[1],
-                           SCENE & SPH_SOLID ? near.fz[m] : along * d[2]};
+      const double f[3] = {SCENE & SPH_SOLID ? near.f[m][0] : along * d[0],
+                           SCENE & SPH_SOLID ? near.f[m][1] : along * d[1],
+                           SCENE & SPH_SOLID ? near.f[m][2] : along * d[2]};
       work.watcher->tally(i, near.j[m], d, f);
     }
   }

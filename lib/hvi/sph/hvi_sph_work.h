@@ -31,7 +31,10 @@ struct SphKept {
   std::vector<int> j, number, some;
   void make_room(std::size_t pairs, std::size_t particles);
   int *room_for(std::size_t some_neighbors);
-  double bytes() const { return (j.capacity() + number.capacity() + some.capacity()) * sizeof(int); }
+  double bytes() const
+  {
+    return (j.capacity() + number.capacity() + some.capacity()) * sizeof(int);
+  }
 };
 
 // is told about pairs; d from j to i, f on i
