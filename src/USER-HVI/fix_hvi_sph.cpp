@@ -104,6 +104,7 @@ constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
     {"work_vz", RATES, offsetof(Extra, v_work[2])},
     {"new_rho", RATES, offsetof(Extra, new_rho)},
     {"step", RATES, offsetof(Extra, step)},
+    {"weight", RATES, offsetof(Extra, weight)},
     {"frozen", RATES, offsetof(Extra, frozen)},
     {"body", RATES, offsetof(Extra, body)},
 
@@ -368,6 +369,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
       e.rates_rho = atom->rho[i];
       e.rates_esph = atom->esph[i];
       e.old_drho = NAN;
+      e.weight = 1.0;
       for (int k = 0; k < 3; k++) e.v_work[k] = atom->v[i][k];
     }
 
@@ -514,6 +516,10 @@ double FixHVISPH::first_half_solid(int i, double dtfm)
   atom->esph[i] -= kick;
   extrapolate(atom->rho[i], drho, e.drho);
   atom->esph[i] += de + e.de;
+
+  // w = V (rho/rho0)^(1/3), to second order in the step
+
+  e.weight = (atom->rho[i] + 2.0 * e.new_rho) / (3.0 * e.new_rho);
   return kick + dtf * beyond;
 }
 
@@ -592,7 +598,8 @@ bool FixHVISPH::may_be_still(int i) const
   if (!store->fields.asleep(i) || !is_left_alone(i)) return false;
   for (int k = 0; k < 3; k++)
     if (e.old_a[k] != 0.0 || e.v_work[k] != atom->v[i][k]) return false;
-  return std::isnan(e.old_drho) && e.old_de == 0.0 && e.drho == 0.0 && e.de == 0.0;
+  return std::isnan(e.old_drho) && e.old_de == 0.0 && e.drho == 0.0 && e.de == 0.0 &&
+      e.weight == 1.0;
 }
 
 bool FixHVISPH::is_still(int i) const
@@ -735,6 +742,7 @@ void FixHVISPH::let_go(int i, double de)
   if (!has_body(i)) e.body = 0.0;    // of what hangs on elements
   e.new_rho = e.rates_rho = atom->rho[i];
   e.rates_esph = atom->esph[i];
+  e.weight = 1.0;
 }
 
 /* ----------------------------------------------------------------------

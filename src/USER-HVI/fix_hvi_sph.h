@@ -52,6 +52,8 @@ struct HVISPHExtra {
   // that ended with the last forces; 0: none; below 0, in a run: the particle is still, see FixHVISPH::is_still()
 
   double step = 0.0;
+  double weight =
+      1.0;    // of solids, in sums over neighbors: that of the middle of this step over that of its end
 };
 
 class FixHVISPH :
@@ -86,6 +88,7 @@ class FixHVISPH :
 
   const double *work_velocity(int i) const;
   double step() const { return last; }
+  double middle_weight(int i) const { return integrates(i) ? extra[i].weight : 1.0; }
   bool is_due() const { return due; }
   double advance_density(int i, double div);
   void advanced() { due = false; }

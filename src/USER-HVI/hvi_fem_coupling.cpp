@@ -286,13 +286,13 @@ void HVIFEMCoupling::gather_sums()
       [&](int i) {
         PairSums sums = {};
         const HVI::VelocityGradient L = records.gradv[i].gradient();
-        const HVI::Symmetric M = records.gradv[i].moment();
+        const HVI::Symmetric M = records.gradv[i].middle_moment();
         std::copy_n(&L.xx, 9, sums.L);
         std::copy_n(&M.xx, 6, sums.M);
         if (!records.contact || !(records.contact[i].nu > 0.0)) return sums;
         const HVI::SphGradV &contact = records.contact[i];
         sums.trace_L_of_others = contact.xx + contact.yy + contact.zz;
-        const HVI::Symmetric M_of_others = contact.moment();
+        const HVI::Symmetric M_of_others = contact.middle_moment();
         std::copy_n(&M_of_others.xx, 6, sums.M_of_others);
         return sums;
       },

@@ -94,10 +94,10 @@ void HVISchemeSolid::gather_limits()
   limits.resize(nall);
   for (int i = 0; i < nlocal; i++) {
     const auto before = strength->before(i);
-    limits[i] = {before.p_min, before.shear};
+    limits[i] = {before.p_min, before.shear, integrator->middle_weight(i)};
     if (has_inactive() && !fields.asleep(i)) limits[i].shear = -limits[i].shear;
   }
-  forward(limits.data(), 2);
+  forward(limits.data(), sizeof(Limits) / sizeof(double));
   if (!has_inactive()) return;
 
   const HVI::RelativeMotion &motion = pairs.lists->cells();
@@ -127,6 +127,7 @@ double HVISchemeSolid::gather(int i, const EosState &eos, HVI::SphState &s)
     T.vz = v[2];
   }
   s.w = T.volume * eos.width;
+  fields.view().gradv[i].weight = limit.weight;
   s.p = T.p;
   s.body = HVI::SphState::code(atom->type[i], integrator->body(i),
                                limit.p_min == 0.0 && limit.shear == 0.0);
@@ -237,18 +238,18 @@ static VelocityGradient product(const VelocityGradient &a, const Symmetric &b)
    volume that the neighborhood has, 0.15 of two particles, 0.4 at the corner of a cube, 0.5 in a sheet
 ------------------------------------------------------------------------- */
 
-static Symmetric inverse(const SphGradV &M, double full, const bool *along)
+static Symmetric inverse(const Symmetric &M, double nu, double full, const bool *along)
 {
   static constexpr double ALONE = 0.2, ENOUGH = 0.35;
   const double part = MAX(0.0, MIN(1.0, (full - ALONE) / (ENOUGH - ALONE)));
   if (part == 0.0) return {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
-  const double by = 1.0 / M.nu;
-  const Symmetric N = {along[0] ? M.mxx * by : 1.0,
-                       along[1] ? M.myy * by : 1.0,
-                       along[2] ? M.mzz * by : 1.0,
-                       M.mxy * by,
-                       M.mxz * by,
-                       M.myz * by};
+  const double by = 1.0 / nu;
+  const Symmetric N = {along[0] ? M.xx * by : 1.0,
+                       along[1] ? M.yy * by : 1.0,
+                       along[2] ? M.zz * by : 1.0,
+                       M.xy * by,
+                       M.xz * by,
+                       M.yz * by};
   Symmetric inverse = HVI::limited_inverse(N);
   const double counts = part * part * (3.0 - 2.0 * part);
   double *const c = &inverse.xx;
@@ -256,21 +257,11 @@ static Symmetric inverse(const SphGradV &M, double full, const bool *along)
   return inverse;
 }
 
-/* ----------------------------------------------------------------------
-   L M^-1 with M of the middle of the step, which L belongs to: M - dt/2 (L + L^T), but for (dt/2)^2 v (x) v.
-   So nothing expands that turns, whether its M can be inverted or not.
-------------------------------------------------------------------------- */
+// of the middle of the step, to which L belongs: so nothing expands that turns, whether H can be inverted or not
 
-static VelocityGradient corrected(const SphGradV &sum, double full, const bool *along, double half)
+static VelocityGradient corrected(const SphGradV &sum, double full, const bool *along)
 {
-  SphGradV middle = sum;
-  middle.mxx -= half * 2.0 * sum.xx;
-  middle.myy -= half * 2.0 * sum.yy;
-  middle.mzz -= half * 2.0 * sum.zz;
-  middle.mxy -= half * (sum.xy + sum.yx);
-  middle.mxz -= half * (sum.xz + sum.zx);
-  middle.myz -= half * (sum.yz + sum.zy);
-  return product(sum.gradient(), inverse(middle, full, along));
+  return product(sum.gradient(), inverse(sum.middle_moment(), sum.nu, full, along));
 }
 
 // what of the stress is normal to the contact, in place of L of what touches
@@ -291,7 +282,7 @@ bool HVISchemeSolid::touches(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   In gradv L M^-1 of what hangs together, and M^-1 in place of M.  Where something else touches, in
+   In gradv L H^-1 of what hangs together, and M^-1 in place of M.  Where something else touches, in
    contact the M^-1 of all, and in place of L what of the stress is normal to the contact.  Its trace with
    all neighbors changes the density.  The law of the solid sees what hangs together; rubble as forces see
    it: it may have failed since.
@@ -300,7 +291,6 @@ bool HVISchemeSolid::touches(int i) const
 void HVISchemeSolid::correct_gradients()
 {
   const HVI::SphView &records = work.records;
-  const double half = 0.5 * integrator->step();
   each_active([&](int i) {
     if (is_embedded(i)) return;
     const HVI::SphState &s = records.state[i];
@@ -309,16 +299,16 @@ void HVISchemeSolid::correct_gradients()
     own.nu += s.w * sweeps->w(0.0) * set.laws.norm /
         MathSpecial::powint(records.place[i].h, set.laws.dim);
     const double scale = T.volume / s.w;
-    const Symmetric by_own = inverse(own, scale * own.nu, fields.along);
-    const VelocityGradient L = corrected(own, scale * own.nu, fields.along, half);
+    const Symmetric by_own = inverse(own.moment(), own.nu, scale * own.nu, fields.along);
+    const VelocityGradient L = corrected(own, scale * own.nu, fields.along);
     VelocityGradient L_all = L;
 
     if (touches(i)) {
       SphGradV &contact = records.contact[i];
       SphGradV all = own;
       for (int k = 0; k < SphGradV::SENT; k++) (&all.xx)[k] += (&contact.xx)[k];
-      const Symmetric by_all = inverse(all, scale * all.nu, fields.along);
-      L_all = corrected(all, scale * all.nu, fields.along, half);
+      const Symmetric by_all = inverse(all.moment(), all.nu, scale * all.nu, fields.along);
+      L_all = corrected(all, scale * all.nu, fields.along);
       put_normal(contact, all.nu);
       contact.set_moment(by_all);
     }

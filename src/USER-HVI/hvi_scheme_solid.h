@@ -30,10 +30,11 @@ class HVISchemeSolid : public HVIScheme {
   class FixHVIJohnsonCook *strength;    // keeps and integrates stress
   HVI::Mesh *mesh;                      // has elements; null: there are none
 
-  // of the begin of the step, owned and ghosts: least pressure borne, shear modulus
+  // of the begin of the step, owned and ghosts: least pressure borne, shear modulus; weight in the middle of the step
+  // over that at its end
 
   struct Limits {
-    double p_min, shear;
+    double p_min, shear, weight;
   };
   std::vector<Limits> limits;
 

@@ -140,7 +140,7 @@ pair_style hvi/sph cubic {pair}
 pair_coeff * * file steep.hvi h 1.3e-3
 fix move all hvi/sph bad freeze 400
 fix solid all hvi/johnson-cook damage no spall none {words}
-fix step all hvi/dt 0.3
+fix step all hvi/dt 0.3 floor 0
 neighbor 0.3e-3 bin
 compute book all hvi/energy
 compute s all hvi/atom eps sxx

@@ -169,8 +169,8 @@ def linear(s):
 
 @pytest.mark.parametrize("words", ["", "h variable", "dissipation riemann"])
 def test_linear_field(lmp, tmp_path, pair, words):
-    """the rate of density is exact in a linear field: inside, at faces, edges, corners; over a step density and the stress that the law
-    makes of L are of second order"""
+    """the rate of density is exact in a linear field: inside, at faces, edges, corners; over a step L of its middle is, and the density and
+    stress that follow from it"""
     s = linear(lump())
     riemann = "riemann" in words
     word = words if riemann else f"viscosity 0 0 {words}"
@@ -185,7 +185,7 @@ def test_linear_field(lmp, tmp_path, pair, words):
         middle = FIELD @ np.linalg.inv(np.eye(3) + 0.5 * dt * FIELD)
         want = dt * rate(middle, 0.5 * dt * rate(middle, np.zeros((3, 3))))
         early, late = read(tmp_path / "a"), read(tmp_path / "b")
-        return early, np.abs(as_tensor(late) - want).max() / np.abs(want).max(), np.abs(late["rho"] / s.rho * np.linalg.det(np.eye(3) + dt * FIELD) - 1).max()
+        return early, np.abs(as_tensor(late) - want).max() / np.abs(want).max(), np.abs(late["rho"] / s.rho * np.exp(dt * np.trace(middle)) - 1).max()
 
     shear = np.array([G[t] for t in s.type])[:, None, None]
     early, *errors = one_step(0.01)
@@ -194,11 +194,9 @@ def test_linear_field(lmp, tmp_path, pair, words):
     assert np.abs(early["drho"] - want).max() < 1e-13 * np.abs(want).max()
     if riemann:
         return
-    _, *finer = one_step(0.0025)
-    size = 0.01 * np.abs(FIELD).sum(1).max()
-    print("errors", errors, finer, size)
-    assert errors[0] < size**2 and errors[1] < size**3
-    assert errors[0] / finer[0] == pytest.approx(16, rel=0.15) and errors[1] / finer[1] == pytest.approx(64, rel=0.15)
+    _, *larger = one_step(0.1)
+    print("errors", errors, larger)
+    assert max(errors + larger) < 1e-13
 
 
 @pytest.mark.parametrize("n", [2, 5, 13])

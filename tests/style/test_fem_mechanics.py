@@ -135,9 +135,9 @@ def test_crash(lmp, tmp_path, kind, speed, n, share):
 
 def test_inside_out(lmp, tmp_path):
     """an element that is crushed is an error that names it, not a run with a right sum of wrong energies; with conversion the run goes on"""
-    r = collision(lmp, tmp_path, "blocks", 2000.0, 400, expect_fail=True)
+    r = collision(lmp, tmp_path, "blocks", 2500.0, 400, expect_fail=True)
     assert "turned inside out or collapsed at step" in r.error and "convert yes" in r.error
-    o = collision(lmp, tmp_path, "blocks", 2000.0, 400, convert="yes")
+    o = collision(lmp, tmp_path, "blocks", 2500.0, 400, convert="yes")
     print({k: v for k, v in o.items() if k != "thermo"})
     assert o["left"] < 0.9 and o["momentum"] < ROUND and o["drift"] < 2e-3 and o["kinetic"] < 1.0
 

@@ -46,7 +46,7 @@ def books(a, b, tolerance=0.0):
         assert np.abs(a[name][later] - b[name]).max() <= tolerance * size, name
 
 
-TIMES = [(20, 22, 0.0), (MIDDLE, 32, 0.0), (MIDDLE, END, 1e-12)]
+TIMES = [(15, 17, 0.0), (MIDDLE, 32, 0.0), (MIDDLE, END, 1e-12)]
 
 
 @pytest.mark.parametrize("spall, ranks, times", [

@@ -69,7 +69,7 @@ def test_wall_that_swings(lmp, tmp_path, pair):
 @pytest.mark.parametrize("speed", [0.2, 2e-4])
 @pytest.mark.parametrize("words", ["viscosity 0 0", "viscosity 1 2"])
 def test_order_in_time(lmp, tmp_path, pair, words, speed):
-    """a free elastic block that swings: of second order in small motions, of first with viscosity and in large ones"""
+    """a free elastic block that swings: of second order, of first with viscosity"""
     s = block()
     s.v = speed * body(seed=61, n=5, periodic=False, jitter=0.05).v
     text, steps = script(s, tmp_path, pair, words, UNBROKEN, elastic=True), (20, 40, 80, 160, 640)
@@ -77,7 +77,7 @@ def test_order_in_time(lmp, tmp_path, pair, words, speed):
     *stress, finest = (read(tmp_path / f"f{n}")["S"] for n in steps)
     error = [np.linalg.norm(S - finest) / np.linalg.norm(finest) for S in stress]
     print(words, speed, "errors of S", error)
-    assert error[0] < 0.2 and error[2] / error[3] > (3.5 if speed < 0.1 and words == "viscosity 0 0" else 1.8)
+    assert error[0] < 0.2 and error[2] / error[3] > (3.5 if words == "viscosity 0 0" else 1.8)
 
 
 def test_wall_across_the_box(lmp, tmp_path, pair):

@@ -83,14 +83,14 @@ FLUID = "pair_style hvi/sph cubic {0}\npair_coeff 1 1 file {1}/m.hvi h 1.25 stre
 
 # words, fix hvi/johnson-cook (None: none): records, numbers kept, sent forward and back, terms, laws of both types
 SCENES = [
-    ("", None, 160, 21, 0, 0, ["viscosity"], "", ""),
-    ("interface auto h variable energy no", None, 160, 21, 0, 0, ["viscosity", "interface density dissipation", "variable h", "no energy equation"], "", ""),
-    ("dissipation riemann", None, 160 + 96, 21, 11, 11, ["Riemann problems"], "", ""),
-    ("mirror x -0.1 lo", None, 160, 21, 0, 0, ["viscosity", "mirror planes"], "", ""),
-    # traction, and with bodies or rubble contact and push; limits, traction and push forward; L, M, nu of either back
-    ("", "", 160 + 128 + 128 + 128 + 64, 21 + 20, 2 + 13 + 7, 2 * 16 + 3, ["viscosity", "stress", "corrected forces"],
+    ("", None, 160, 22, 0, 0, ["viscosity"], "", ""),
+    ("interface auto h variable energy no", None, 160, 22, 0, 0, ["viscosity", "interface density dissipation", "variable h", "no energy equation"], "", ""),
+    ("dissipation riemann", None, 160 + 96, 22, 11, 11, ["Riemann problems"], "", ""),
+    ("mirror x -0.1 lo", None, 160, 22, 0, 0, ["viscosity", "mirror planes"], "", ""),
+    # traction, and with bodies or rubble contact and push; limits, traction and push forward; L, H, M, nu of either back
+    ("", "", 160 + 192 + 128 + 192 + 64, 22 + 20, 3 + 15 + 7, 2 * 22 + 3, ["viscosity", "stress", "corrected forces"],
      ", strength johnson-cook, damage johnson-cook, spall principal", ", liquid"),
-    ("dissipation riemann artstress 0.3 4", "damage no spall none", 160 + 128 + 128 + 128 + 64 + 64, 21 + 20, 8 + 13 + 7 + 6, 2 * 16 + 3,
+    ("dissipation riemann artstress 0.3 4", "damage no spall none", 160 + 192 + 128 + 192 + 64 + 64, 22 + 20, 3 + 6 + 15 + 7 + 7, 2 * 22 + 3,
      ["Riemann problems", "stress", "corrected forces", "artificial stress"], ", strength johnson-cook", ", liquid"),
 ]
 

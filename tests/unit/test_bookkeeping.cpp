@@ -117,7 +117,7 @@ TEST(Mirror, SignsOfComponents)
   struct Numbers {
     double xx = 1, yy = 1, zz = 1, xy = 1, xz = 1, yz = 1, yx = 1, zx = 1, zy = 1;
     double vx = 1, vy = 1, vz = 1, fx = 1, fy = 1, fz = 1, px = 1, py = 1, pz = 1;
-    double mxx = 1, myy = 1, mzz = 1, mxy = 1, mxz = 1, myz = 1;
+    double mxx = 1, myy = 1, mzz = 1, mxy = 1, mxz = 1, myz = 1, hxy = 1, hxz = 1, hyz = 1;
   };
   for (int op = 0; op < 8; op++) {
     const Reflection r(op);
@@ -155,6 +155,9 @@ TEST(Mirror, SignsOfComponents)
     EXPECT_EQ(n.mxy, x * y);
     EXPECT_EQ(n.mxz, x * z);
     EXPECT_EQ(n.myz, y * z);
+    EXPECT_EQ(n.hxy, x * y);
+    EXPECT_EQ(n.hxz, x * z);
+    EXPECT_EQ(n.hyz, y * z);
     EXPECT_EQ(n.xx * n.yy * n.zz * n.mxx * n.myy * n.mzz, 1.0);
   }
 }

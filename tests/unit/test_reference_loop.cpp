@@ -185,6 +185,8 @@ Found run(const SphSweeps &sweeps, const State &s)
   std::vector<SphRates> rates(n);
   std::vector<SphSlopes> slopes(n);
   std::vector<SphGradV> gradv(n), contact(n);
+  Random weights(78);
+  for (SphGradV &g : gradv) g.weight = between(weights, 0.9, 1.1);
   std::vector<SphTraction> traction(n);
   std::vector<SphPush> push(n);
   std::vector<SphStress> art(n);
@@ -225,8 +227,8 @@ Found run(const SphSweeps &sweeps, const State &s)
     if (riemann) {
       found.keep("slopes", slopes, 0, s.scene & H ? 11 : 10);
     } else {
-      found.keep("gradv", gradv, 0, 16);
-      if (s.scene & B) found.keep("contact", contact, 0, 16);
+      found.keep("gradv", gradv, 0, SphGradV::SENT);
+      if (s.scene & B) found.keep("contact", contact, 0, SphGradV::SENT);
     }
     Random random(77);
     settle(random, s, slopes, gradv, traction, push, art);

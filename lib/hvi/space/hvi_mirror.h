@@ -91,6 +91,9 @@ struct Reflection {
     L.mxy *= s[0] * s[1];
     L.mxz *= s[0] * s[2];
     L.myz *= s[1] * s[2];
+    L.hxy *= s[0] * s[1];
+    L.hxz *= s[0] * s[2];
+    L.hyz *= s[1] * s[2];
   }
 };
 

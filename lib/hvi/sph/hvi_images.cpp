@@ -52,7 +52,10 @@ void Images::fill(const MirrorPlanes &mirror, const SphView &records) const
     records.state[a] = records.state[image.owner];
     reflect.velocity(records.state[a]);
     records.rates[a] = {};
-    if (records.gradv) records.gradv[a] = {};
+    if (records.gradv) {
+      records.gradv[a] = {};
+      records.gradv[a].weight = records.gradv[image.owner].weight;
+    }
     if (records.contact) records.contact[a] = {};
     if (records.slopes) records.slopes[a] = {};
     a++;
@@ -143,8 +146,6 @@ void Images::fill_sums(const SphView &records) const
     }
   }
 }
-
-/* ---------------------------------------------------------------------- */
 
 const std::vector<int> &Images::near(int i, const int *jlist, int jnum)
 {

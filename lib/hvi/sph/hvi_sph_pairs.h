@@ -33,7 +33,8 @@ struct alignas(64) SphNear {
 
   // with it: what is one number of a pair; and the force on i
 
-  double weight_i[SIZE], weight_j[SIZE], nu_i[SIZE], nu_j[SIZE], bonded[SIZE], share[SIZE];
+  double middle_i[SIZE], middle_j[SIZE], weight_i[SIZE], weight_j[SIZE], nu_i[SIZE], nu_j[SIZE],
+      bonded[SIZE], share[SIZE];
   double pull[SIZE], heat[SIZE];
   Vec4 f[SIZE];
   int j[SIZE];

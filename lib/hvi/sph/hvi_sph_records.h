@@ -98,17 +98,21 @@ struct alignas(64) SphStress {
 
      L = - sum_j w_j v_ij (x) grad W_i,   M = - sum_j w_j x_ij (x) grad W_i,   nu = sum_j w_j W_i
 
-   M is 1 where particles are even all around.  Between the sweeps M^-1 takes the place of M, the velocity
-   gradient L M^-1 that of L; of what touches what of the stress is normal to the contact, n (x) n times a
+   M is 1 where particles are even all around.  L belongs to the middle of the step, as does the H that goes with
+   it, sums like M; M and nu, for forces, to its end.  Between the sweeps M^-1 takes the place of M, the velocity
+   gradient L H^-1 that of L; of what touches what of the stress is normal to the contact, n (x) n times a
    share, that of L.
 ------------------------------------------------------------------------- */
 
 struct alignas(64) SphGradV {
-  static constexpr int SENT = 16;
-  double xx, xy, xz, mxy;    // L_ab: of v_a along b
-  double yx, yy, yz, mxz;
-  double zx, zy, zz, myz;
-  double mxx, myy, mzz, nu;
+  static constexpr int SENT = 22;
+  double xx, xy, xz, hxy;    // L_ab: of v_a along b
+  double yx, yy, yz, hxz;
+  double zx, zy, zz, hyz;
+  double hxx, hyy, hzz, nu;
+  double mxx, myy, mzz, mxy;
+  double mxz, myz, unused;
+  double weight;    // filled: w in the middle of the step over that at its end
 
   VelocityGradient gradient() const { return {xx, xy, xz, yx, yy, yz, zx, zy, zz}; }
   void set_gradient(const VelocityGradient &L)
@@ -124,10 +128,11 @@ struct alignas(64) SphGradV {
     zz = L.zz;
   }
   Symmetric moment() const { return {mxx, myy, mzz, mxy, mxz, myz}; }    // M, and afterwards M^-1
+  Symmetric middle_moment() const { return {hxx, hyy, hzz, hxy, hxz, hyz}; }
 
-  // in place of L, when forces are evaluated, what Riemann problems need of L M^-1: the symmetric part
+  // in place of L, when forces are evaluated, what Riemann problems need of L H^-1: the symmetric part
 
-  static constexpr int SENT_STRETCH = 7;    // the first numbers, with one of M^-1 between
+  static constexpr int SENT_STRETCH = 7;    // the first numbers, with another between
   Symmetric stretch() const { return {xx, xy, xz, yx, yy, yz}; }
   void set_stretch(const Symmetric &s)
   {
@@ -191,7 +196,7 @@ struct alignas(64) SphPush {
   double unused;
 };
 
-static_assert(sizeof(SphStress) == 2 * sizeof(Vec4) && sizeof(SphGradV) == 4 * sizeof(Vec4) &&
+static_assert(sizeof(SphStress) == 2 * sizeof(Vec4) && sizeof(SphGradV) == 6 * sizeof(Vec4) &&
                   sizeof(SphTraction) == 4 * sizeof(Vec4) && sizeof(SphPush) == 2 * sizeof(Vec4),
               "records are read as vectors");
 static_assert(sizeof(SphPlace) == sizeof(Vec4) && sizeof(SphState) == 2 * sizeof(Vec4) &&

@@ -48,6 +48,16 @@ namespace {
     for (int k = 0; k < 6; k++) (&xx)[k] += add[k];
   }
 
+  void add_symmetric_to_middle(SphGradV &to, const Matrix &m)
+  {
+    to.hxx += m(0, 0);
+    to.hyy += m(1, 1);
+    to.hzz += m(2, 2);
+    to.hxy += m(0, 1);
+    to.hxz += m(0, 2);
+    to.hyz += m(1, 2);
+  }
+
   // two particles within reach of each other
 
   struct Pair {
@@ -463,14 +473,19 @@ namespace {
     return std::max(0.0, std::min(1.0, std::max(pushed, nearing)));
   }
 
-  // first sweep: L = - sum w v (x) F (x - dt/2 v), M = - sum w x (x) F x, F x = grad W; and nu
+  // first sweep, F x = grad W: L = - sum w v (x) F x and H = - sum w x (x) F x in the middle of the step; M, as H,
+  // and nu at its end
 
   void Reference::add_gradients(const SphWork &work, const Pair &pair) const
   {
-    const Vector middle = pair.x - work.half_step * pair.v;
-    const auto add = [&](SphGradV &to, double w, double F, double width) {
-      const Matrix L = matrix(to.gradient()) - w * F * pair.v * middle.transpose();
-      const Matrix M = symmetric(to.moment().xx) - w * F * pair.x * pair.x.transpose();
+    const Vector x = pair.x - work.half_step * pair.v;
+    const double r = x.norm();
+    const SphGradV &of_i = work.records.gradv[pair.i], &of_j = work.records.gradv[pair.j];
+    const auto add = [&](SphGradV &to, double w, double F_end, double width, double weight) {
+      const double wF = weight * w * F(work.laws, r, width);
+      const Matrix L = matrix(to.gradient()) - wF * pair.v * x.transpose();
+      const Matrix M = symmetric(to.moment().xx) - w * F_end * pair.x * pair.x.transpose();
+      add_symmetric_to_middle(to, -wF * x * x.transpose());
       to.set_gradient(
           {L(0, 0), L(0, 1), L(0, 2), L(1, 0), L(1, 1), L(1, 2), L(2, 0), L(2, 1), L(2, 2)});
       to.set_moment({M(0, 0), M(1, 1), M(2, 2), M(0, 1), M(0, 2), M(1, 2)});
@@ -478,8 +493,8 @@ namespace {
     };
     const auto add_both = [&](SphGradV *to, double share) {
       if (share == 0.0) return;
-      add(to[pair.i], share * pair.sj.w, pair.F_i, pair.width_i);
-      add(to[pair.j], share * pair.si.w, pair.F_j, pair.width_j);
+      add(to[pair.i], share * pair.sj.w, pair.F_i, pair.width_i, of_j.weight);
+      add(to[pair.j], share * pair.si.w, pair.F_j, pair.width_j, of_i.weight);
     };
     add_both(work.records.gradv, bonded(pair));
     add_both(work.records.contact, touching(pair));

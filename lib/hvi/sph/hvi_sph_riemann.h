@@ -114,23 +114,20 @@ static inline Vec limited(const Vec &a, const Vec &b)
 static constexpr double STEEP = 1.5;
 
 /* ----------------------------------------------------------------------
-   Impedances of either side, times r and times unit = rho_i c_i + rho_j c_j, which spares a quotient: each is hit by a shock of the velocity which the problem of sounds would
+   Impedances of either side, times r: each is hit by a shock of the velocity which the problem of sounds would
    give, and shocks are faster by A |velocity|: (gamma + 1)/2 = 1.2 in diatomic gas, 1.2 to 1.5 in metals.
    u = r (U_i - U_j), p = p_i - p_j.
 ------------------------------------------------------------------------- */
 
 HVI_INLINE void sph_impedances(double rho_i, double c_i, const Vec &rho_j, const Vec &c_j,
-                               const Vec &r, const Vec &u, const Vec &p, Vec &z_i, Vec &z_j,
-                               Vec &unit)
+                               const Vec &r, const Vec &u, const Vec &p, Vec &z_i, Vec &z_j)
 {
   static constexpr double A = 1.2;
   const Vec zero = {};
-  const double za_i = rho_i * c_i;
-  const Vec za_j = rho_j * c_j;
-  unit = za_i + za_j;
-  const Vec push_i = -(za_j * u + p * r), push_j = p * r - za_i * u;
-  z_i = za_i * r * unit + rho_i * A * (push_i > 0.0 ? push_i : zero);
-  z_j = za_j * r * unit + rho_j * A * (push_j > 0.0 ? push_j : zero);
+  const Vec za_i = zero + rho_i * c_i, za_j = rho_j * c_j, zainv = 1.0 / (za_i + za_j);
+  const Vec push_i = -zainv * (za_j * u + p * r), push_j = zainv * (p * r - za_i * u);
+  z_i = za_i * r + rho_i * A * (push_i > 0.0 ? push_i : zero);
+  z_j = za_j * r + rho_j * A * (push_j > 0.0 ? push_j : zero);
 }
 
 /* ----------------------------------------------------------------------
@@ -202,19 +199,19 @@ static inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state,
     const Vec ahead_pi = 2.0 * (own.px * dx + own.py * dy + own.pz * dz);
     const Vec ahead_pj = 2.0 * (other[6] * dx + other[7] * dy + other_pz * dz);
 
-    Vec z_i, z_j, unit;
-    sph_impedances(rho_i, c_i, rho_j, c_j, r, u, p, z_i, z_j, unit);
+    Vec z_i, z_j;
+    sph_impedances(rho_i, c_i, rho_j, c_j, r, u, p, z_i, z_j);
 
     // all other quotients in one
 
     const Vec c = r * (c_i < c_j ? zero + c_i : c_j);
     const Vec steep = c + STEEP * (u < 0.0 ? -u : zero), z_sum = z_i + z_j;
     const Vec V_sum = SCENE & SPH_SPACINGS ? weight * V_i + V_j : V_i + V_j;
-    const Vec left = steep * z_sum, right = rsq * unit * V_sum, inverse = 1.0 / (left * right);
+    const Vec left = steep * z_sum, right = rsq * V_sum, inverse = 1.0 / (left * right);
     const Vec keep = 0.5 * c * inverse * right * z_sum;    // c/steep
     const Vec zinv = inverse * right * steep;              // 1/z_sum
-    const Vec squareinv = inverse * left * V_sum;          // 1/(r^2 unit)
-    const Vec Vinv = inverse * left * rsq * unit;          // 1/V_sum
+    const Vec squareinv = inverse * left * V_sum;          // 1/r^2
+    const Vec Vinv = inverse * left * rsq;                 // 1/V_sum
 
     const Vec u_i = keep * limited(u, ahead_i - u), u_j = keep * limited(u, ahead_j - u);
     const Vec dp_i = 0.5 * limited(p, ahead_pi - p), dp_j = 0.5 * limited(p, ahead_pj - p);
@@ -224,8 +221,7 @@ static inline bool sph_riemann(int i, const SphPlace &pi, const SphState *state,
     const Vec jump = u_i + u_j - u;
     const Vec viscous = z_i * z_j * zinv * squareinv * jump;
     Vec pstar = zinv * (z_j * (p_i - dp_i) + z_i * (p_j + dp_j)) + viscous;
-    Vec delta =
-        zinv * (0.5 * (z_i - z_j) * u + z_j * u_j - z_i * u_i + rsq * unit * (dp_i + dp_j - p));
+    Vec delta = zinv * (0.5 * (z_i - z_j) * u + z_j * u_j - z_i * u_i + rsq * (dp_i + dp_j - p));
 
     // bodies without tension between them push, but do not pull, nor do they stretch each other
 

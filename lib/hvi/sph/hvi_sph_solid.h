@@ -69,15 +69,14 @@ struct SphBonds {
 ------------------------------------------------------------------------- */
 
 /* ----------------------------------------------------------------------
-   First sweep: sums over the n near neighbors of particle i, with weights w,
+   First sweep: sums over the n near neighbors of particle i, with weights w and F x_ij = grad W(r, h_i),
 
-     L_i = - sum_j w_j v_ij (x) F (x_ij - dt/2 v_ij),  M_i = - sum_j w_j x_ij (x) F x_ij,
-     nu_i = sum_j w_j W(r, h_i),  F x_ij = grad W(r, h_i)
+     L_i = - sum_j w_j v_ij (x) F x_ij,  H_i = - sum_j w_j x_ij (x) F x_ij
 
-   with v of the middle of the step, which L belongs to: r does not change where v.(x - dt/2 v) = 0, so
-   density does not in whatever turns, however few.  Sums
-   of what hangs together with it to gradv; of others that are pushed or come nearer to contact,
-   and of rubble in rubble.
+   of the middle of the step, all of them, where x is x - dt/2 v: with F and w of the end density behind a shock is
+   wrong in proportion to the step.  v.x is 0 there where r stays, so density stays in whatever turns, however
+   few.  And, at the end of the step, M like H and nu_i = sum_j w_j W(r, h_i).  Sums of what hangs together with it
+   to gradv; of others that are pushed or come nearer to contact, and of rubble in rubble.
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
@@ -88,71 +87,82 @@ static inline void sph_gradients(int i, const SphPlace &pi, const SphState *stat
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
   const SphTwoKernels<Kernel, SCENE> kernels(laws, pi);
   const SphState si = state[i];
+  const double weight = gradv[i].weight;
   const Vec zero = {};
   SphBonds bonds(si, laws.row_tension);
   bool touches = false;
 
   for (int m = 0; m < nlanes; m += LANES) {
     const int *const j = near.j + m;
-    Vec d[4];
+    Vec d[4], first[4], middle[3];
     read_columns(near.d + m, IN_TURN, 0, d);
+    read_columns(state, j, 0, first);
     for (int k = 0; k < LANES; k++) {
       __builtin_prefetch(gradv + j[k], 1);
       __builtin_prefetch(&gradv[j[k]].zx, 1);
+      __builtin_prefetch(&gradv[j[k]].mxx, 1);
     }
+    const Vec v[3] = {si.vx - first[0], si.vy - first[1], si.vz - first[2]};
+    for (int k = 0; k < 3; k++) middle[k] = d[k] - laws.half_step * v[k];
     const Vec r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    Vec F_i, F_j, W_i, W_j, spread_i, spread_j;
+    const Vec r_middle =
+        sqrt(middle[0] * middle[0] + middle[1] * middle[1] + middle[2] * middle[2]);
+    Vec F_i, F_j, H_i, H_j, W_i, W_j, spread_i, spread_j;
+    kernels.F(r_middle, d[3], H_i, H_j);
     kernels.F(r, d[3], F_i, F_j);
     kernels.W(r, d[3], W_i, W_j, spread_i, spread_j);
-    Vec w_j, w_i = zero + si.w;
+    Vec w_j = first[3], w_i = zero + si.w;
     if (SCENE & SPH_BODIES) {
-      Vec first[4], second[4];
-      read_columns(state, j, 0, first);
+      Vec second[4];
       read_columns(state, j, 1, second);
       bonds.find(second[3]);
       Vec share = bonds.bonded;
       if (any(share < 1.0)) {
-        const Vec rdotv =
-            d[0] * (si.vx - first[0]) + d[1] * (si.vy - first[1]) + d[2] * (si.vz - first[2]);
+        const Vec rdotv = d[0] * v[0] + d[1] * v[1] + d[2] * v[2];
         share += bonds.touching(si, second[0], second[1], second[2], r, rdotv);
         touches = true;
       }
       *(Vec *) (near.bonded + m) = bonds.bonded;
       *(Vec *) (near.share + m) = share;
-      w_j = share * first[3];
+      w_j *= share;
       w_i *= share;
-    } else
-      w_j = read_column(state, j, &SphState::w);
+    }
+    *(Vec *) (near.middle_i + m) = -w_j * H_i;    // but for the weight of j
+    *(Vec *) (near.middle_j + m) = -weight * w_i * H_j;
     *(Vec *) (near.weight_i + m) = -w_j * F_i;
     *(Vec *) (near.weight_j + m) = -w_i * F_j;
     *(Vec *) (near.nu_i + m) = w_j * W_i;
     *(Vec *) (near.nu_j + m) = w_i * W_j;
   }
 
-  // a record: rows of v (x) (x - dt/2 v), each with a product of M, which are off its diagonal; x (x) x on it, and W
+  // a record: rows of v (x) x, each with a product of H, which are off its diagonal; x (x) x on it, and W; M
 
   const Vec4 v_i = part(&si, 0);
   const auto add = [&](bool bonded, SphGradV *to, SphGradV &sum) {
-    Vec4 own[4] = {};
+    Vec4 own[6] = {};
     for (int m = 0; m < n; m++) {
       if ((SCENE & SPH_BODIES) && (near.share[m] == 0.0 || (near.bonded[m] > 0.0) != bonded))
         continue;
-      const Vec4 d = near.d[m], v = v_i - part(&state[near.j[m]], 0);
-      const Vec4 middle = d - laws.half_step * v, with_y = with_last(middle, d[1]),
-                 with_z = with_last(middle, d[2]);
-      const Vec4 row[4] = {with_last(of_four(v[0]), d[0]) * with_y,
-                           with_last(of_four(v[1]), d[0]) * with_z,
-                           with_last(of_four(v[2]), d[1]) * with_z, with_last(d * d, 1.0)};
-      const Vec4 on_i = of_four(near.weight_i[m]), on_j = of_four(near.weight_j[m]);
-      SphGradV *const other = to + near.j[m];
-      for (int k = 0; k < 3; k++) {
-        own[k] += on_i * row[k];
-        part(other, k) += on_j * row[k];
+      const int j = near.j[m];
+      const Vec4 d = near.d[m], v = v_i - part(&state[j], 0), x = d - laws.half_step * v;
+      const Vec4 with_y = with_last(x, x[1]), with_z = with_last(x, x[2]);
+      const Vec4 row[6] = {
+          with_last(of_four(v[0]), x[0]) * with_y, with_last(of_four(v[1]), x[0]) * with_z,
+          with_last(of_four(v[2]), x[1]) * with_z, with_last(x * x, 1.0),
+          with_last(d, d[0]) * with_last(d, d[1]), d * Vec4{d[2], d[2], 0.0, 0.0}};
+      const Vec4 middle_i = of_four(near.middle_i[m]) * of_four(gradv[j].weight),
+                 middle_j = of_four(near.middle_j[m]);
+      const Vec4 end_i = of_four(near.weight_i[m]), end_j = of_four(near.weight_j[m]);
+      const Vec4 on_i[6] = {middle_i, middle_i, middle_i, with_last(middle_i, near.nu_i[m]),
+                            end_i,    end_i},
+                 on_j[6] = {middle_j, middle_j, middle_j, with_last(middle_j, near.nu_j[m]),
+                            end_j,    end_j};
+      for (int k = 0; k < 6; k++) {
+        own[k] += on_i[k] * row[k];
+        part(to + j, k) += on_j[k] * row[k];
       }
-      own[3] += with_last(on_i, near.nu_i[m]) * row[3];
-      part(other, 3) += with_last(on_j, near.nu_j[m]) * row[3];
     }
-    for (int k = 0; k < 4; k++) part(&sum, k) += own[k];
+    for (int k = 0; k < 6; k++) part(&sum, k) += own[k];
   };
   add(true, gradv, total);
   if (touches) add(false, contact, contact[i]);
@@ -258,15 +268,15 @@ static inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, 
         const Vec ahead_i = along(L_i.xx, L_i.yy, L_i.zz, L_i.xy, L_i.xz, L_i.yz);
         const Vec ahead_j = along(L[0], L[1], L[2], L[4], L[5], L[6]);
         const Vec p = T_i.p - read_column(records.traction, j, &SphTraction::p);
-        Vec z_i, z_j, unit;
-        sph_impedances(rho_i, c_i, rho_j, c_j, r, u, p, z_i, z_j, unit);
+        Vec z_i, z_j;
+        sph_impedances(rho_i, c_i, rho_j, c_j, r, u, p, z_i, z_j);
         const Vec c = r * (c_i < c_j ? zero + c_i : c_j);
         const Vec trace_j = -(L[0] + L[1] + L[2]);
         const double trace_i = -(L_i.xx + L_i.yy + L_i.zz);
         const Vec most = trace_i > trace_j ? zero + trace_i : trace_j;
         const Vec steep =
             c + STEEP * (u < 0.0 ? -u : zero) + COMPRESSION * rsq * (most > 0.0 ? most : zero);
-        const Vec all = (z_i + z_j) * rsq * unit, inverse = 1.0 / (steep * all);
+        const Vec all = (z_i + z_j) * rsq, inverse = 1.0 / (steep * all);
         const Vec keep = 0.5 * c * inverse * all;
         const Vec both = keep * (limited(u, ahead_i - u) + limited(u, ahead_j - u));
         const Vec known = u < 0.0 ? both : u;
