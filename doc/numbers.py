@@ -288,7 +288,8 @@ def within(value, part):
 def number_at(folder, where, ran):
     """a value by its key; ran: core_s and wall_s of the command, said by it"""
     if isinstance(where, list):
-        return where[0].format(*(number_at(folder, one, ran) for one in where[1:]))
+        text = where[0].format(*(number_at(folder, one, ran) for one in where[1:]))
+        return re.sub(r"-(0(?:\.0*)?)(?![\d.])", r"\1", text)  # no sign at what is rounded to 0
     place, factor = found.groups() if (found := re.fullmatch(r"(.*) \* ([-+.\deE]+)", where, re.S)) else (where, 1)
     file, _, key = place.partition(":")
     if file == "run":
