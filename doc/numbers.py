@@ -127,7 +127,7 @@ class Record:
 def plain(value):
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return "-" if value is None else re.sub(r"^-(0(\.0*)?(e[-+]?\d+)?)$", r"\1", str(value))
+    return "-" if value is None else re.sub(r"(?<![^\s,])-(0(\.0*)?(e[-+]?\d+)?)(?![^\s,])", r"\1", str(value))
 
 
 def markdown(record):
@@ -288,8 +288,7 @@ def within(value, part):
 def number_at(folder, where, ran):
     """a value by its key; ran: core_s and wall_s of the command, said by it"""
     if isinstance(where, list):
-        text = where[0].format(*(number_at(folder, one, ran) for one in where[1:]))
-        return re.sub(r"-(0(?:\.0*)?)(?![\d.])", r"\1", text)  # no sign at what is rounded to 0
+        return where[0].format(*(number_at(folder, one, ran) for one in where[1:]))
     place, factor = found.groups() if (found := re.fullmatch(r"(.*) \* ([-+.\deE]+)", where, re.S)) else (where, 1)
     file, _, key = place.partition(":")
     if file == "run":

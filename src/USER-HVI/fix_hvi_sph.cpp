@@ -312,7 +312,7 @@ void FixHVISPH::give_density(int i)
         "Fix hvi/sph: h variable needs the density of particle {} at the start of its first run, "
         "or, if it comes during a run, a spacing or volume in pair_coeff; its density is {}",
         atom->tag[i], atom->rho[i]);
-  e.hscale = set.hscale(itype, atom->rho[i]);
+  e.hscale = set.hscale(itype, std::fabs(atom->rho[i]));    // of what freezes at once, too, no NaN
 }
 
 /* ----------------------------------------------------------------------
@@ -517,9 +517,10 @@ double FixHVISPH::first_half_solid(int i, double dtfm)
   extrapolate(atom->rho[i], drho, e.drho);
   atom->esph[i] += de + e.de;
 
-  // w = V (rho/rho0)^(1/3), to second order in the step
+  // w = V (rho/rho0)^(1/3), to second order in the step; a frozen particle has none
 
-  e.weight = (atom->rho[i] + 2.0 * e.new_rho) / (3.0 * e.new_rho);
+  if (!HVI::SphFields::is_frozen(e.new_rho))
+    e.weight = (atom->rho[i] + 2.0 * e.new_rho) / (3.0 * e.new_rho);
   return kick + dtf * beyond;
 }
 

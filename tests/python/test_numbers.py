@@ -180,7 +180,7 @@ def test_digits(old, new, want):
     assert numbers.like(numbers.Digits(old), new) == want
 
 
-@pytest.mark.parametrize("value, want", [("-0.000", "0.000"), ("-0e+00", "0e+00"), ("-0.001", "-0.001"), ("-0.5", "-0.5"), (True, "yes"), (None, "-")])
+@pytest.mark.parametrize("value, want", [("-0.000", "0.000"), ("-0e+00", "0e+00"), ("-0.001", "-0.001"), ("-0.5", "-0.5"), ("0.02, -0.00, -0.10", "0.02, 0.00, -0.10"), ("5-0", "5-0"), (True, "yes"), (None, "-")])
 def test_cells(value, want):
     """no zero has a sign"""
     assert numbers.plain(value) == want

@@ -164,8 +164,9 @@ def test_frozen_in_a_solid(lmp, tmp_path, words, nranks, newton, pair):
     for v, number, steps in ((-100.0, 1, 40), (-30000.0, 4, 12)):
         text = SOLID.format(newton=newton, v=v, pair=pair, words=words)
         bad = BAD.format(43) if number == 1 else ""
-        r = lmp(text + bad + f"run {steps}\n" + OUT.replace("c_rho c_e", "c_rho c_e c_s[*]").format(tmp_path / "frozen"), nranks=nranks)
+        r = lmp(text + bad + f"run {steps}\n" + OUT.replace("c_rho c_e", "c_rho c_e c_s[*]").format(tmp_path / "frozen") + "write_data frozen.data\n", nranks=nranks)
         t = r.thermo
+        assert "nan" not in (tmp_path / "frozen.data").read_text()
         frozen = rows(tmp_path / "frozen")
         assert np.isfinite(frozen).all() and all(np.isfinite(column).all() for column in t.values())
         count = (frozen[:, 7] == 0.0).sum()

@@ -90,7 +90,7 @@ SCENES = [
     # traction, and with bodies or rubble contact and push; limits, traction and push forward; L, H, M, nu of either back
     ("", "", 160 + 192 + 128 + 192 + 64, 22 + 20, 3 + 15 + 7, 2 * 22 + 3, ["viscosity", "stress", "corrected forces"],
      ", strength johnson-cook, damage johnson-cook, spall principal", ", liquid"),
-    ("dissipation riemann artstress 0.3 4", "damage no spall none", 160 + 192 + 128 + 192 + 64 + 64, 22 + 20, 3 + 6 + 15 + 7 + 7, 2 * 22 + 3,
+    ("dissipation riemann artstress 0.3 4", "damage no spall none", 160 + 192 + 128 + 192 + 64 + 64, 22 + 20, 3 + 6 + 15 + 7 + 6, 2 * 22 + 3,
      ["Riemann problems", "stress", "corrected forces", "artificial stress"], ", strength johnson-cook", ", liquid"),
 ]
 

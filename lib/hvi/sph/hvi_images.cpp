@@ -132,9 +132,8 @@ void Images::fill_sums(const SphView &records) const
       records.traction[a] = records.traction[i];
       reflect.tensor(records.traction[a]);
       reflect.velocity(records.traction[a]);
-      Symmetric stretch = records.gradv[i].stretch();
-      reflect.symmetric(stretch);
-      records.gradv[a].set_stretch(stretch);
+      records.gradv[a].stretch() = records.gradv[i].stretch();
+      reflect.symmetric(records.gradv[a].stretch());
       if (records.art) {
         records.art[a] = records.art[i];
         reflect.symmetric(records.art[a]);
@@ -146,6 +145,8 @@ void Images::fill_sums(const SphView &records) const
     }
   }
 }
+
+/* ---------------------------------------------------------------------- */
 
 const std::vector<int> &Images::near(int i, const int *jlist, int jnum)
 {

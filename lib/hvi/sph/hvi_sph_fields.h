@@ -53,7 +53,7 @@ struct SphSettings {
    rates      owned, ghosts, images     second sweep; images folded back to owners     HVIScheme: f, drho, desph
 
    Of solids only, by HVISchemeSolid:
-   gradv      owned, ghosts, images     first sweep; folded, reverse; then L M^-1      second sweep (riemann),
+   gradv      owned, ghosts, images     first sweep; folded, reverse; then L H^-1      second sweep (riemann),
               owned                     and M^-1 in place of M                         velocity_gradient()
    contact    (the same of other bodies, and of rubble; see correct_gradients())       find_tractions()
    traction,  owned                     start(): p, rho, v; correct_gradients(),       second sweep, pressure(),

@@ -31,7 +31,7 @@ struct alignas(64) SphNear {
   Vec4 d[SIZE];          // from the neighbor to the particle; difference in h
   double force[SIZE];    // on i along d, opposite on j; without SPH_SOLID
 
-  // with it: what is one number of a pair; and the force on i
+  // with SPH_SOLID: what is one number of a pair; and the force on i
 
   double middle_i[SIZE], middle_j[SIZE], weight_i[SIZE], weight_j[SIZE], nu_i[SIZE], nu_j[SIZE],
       bonded[SIZE], share[SIZE];

@@ -130,22 +130,13 @@ struct alignas(64) SphGradV {
   Symmetric moment() const { return {mxx, myy, mzz, mxy, mxz, myz}; }    // M, and afterwards M^-1
   Symmetric middle_moment() const { return {hxx, hyy, hzz, hxy, hxz, hyz}; }
 
-  // in place of L, when forces are evaluated, what Riemann problems need of L H^-1: the symmetric part
+  // its first numbers are, when forces are evaluated, what Riemann problems need of L H^-1: the symmetric part
 
-  static constexpr int SENT_STRETCH = 7;    // the first numbers, with another between
-  Symmetric stretch() const { return {xx, xy, xz, yx, yy, yz}; }
-  void set_stretch(const Symmetric &s)
-  {
-    xx = s.xx;
-    xy = s.yy;
-    xz = s.zz;
-    yx = s.xy;
-    yy = s.xz;
-    yz = s.yz;
-  }
+  static constexpr int SENT_STRETCH = 6;
+  Symmetric &stretch() { return reinterpret_cast<Symmetric &>(xx); }
   void keep_stretch()
   {
-    set_stretch({xx, yy, zz, 0.5 * (xy + yx), 0.5 * (xz + zx), 0.5 * (yz + zy)});
+    stretch() = {xx, yy, zz, 0.5 * (xy + yx), 0.5 * (xz + zx), 0.5 * (yz + zy)};
   }
   Symmetric normal() const { return {xx, yy, zz, xy, xz, yz}; }
   void set_moment(const Symmetric &s)
@@ -180,8 +171,7 @@ struct alignas(64) SphTraction {
   double xz, yz, zz;
   double rho;           // density
   double vx, vy, vz;    // velocity at that time, with which forces do work
-  double
-      div;    // of owned particles: trace of the velocity gradient by which that density is advanced
+  double div;           // owned: trace of the velocity gradient by which that density is advanced
 
   VelocityGradient by_rows() const { return {xx, xy, xz, yx, yy, yz, zx, zy, zz}; }
 };

@@ -256,7 +256,7 @@ static inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, 
     if (any(rdotv < 0.0)) {
       Vec q;
       if (SCENE & SPH_RIEMANN) {
-        Vec L[8];    // SphGradV::stretch()
+        Vec L[8];    // as in Symmetric
         for (int k = 0; k < 2; k++) read_columns(records.gradv, j, k, L + 4 * k);
         const Vec &u = rdotv;
         const auto along = [&](const auto &xx, const auto &yy, const auto &zz, const auto &xy,
@@ -266,7 +266,7 @@ static inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, 
                d[1] * (yy * d[1] + 2.0 * yz * d[2]) + zz * d[2] * d[2]);
         };
         const Vec ahead_i = along(L_i.xx, L_i.yy, L_i.zz, L_i.xy, L_i.xz, L_i.yz);
-        const Vec ahead_j = along(L[0], L[1], L[2], L[4], L[5], L[6]);
+        const Vec ahead_j = along(L[0], L[1], L[2], L[3], L[4], L[5]);
         const Vec p = T_i.p - read_column(records.traction, j, &SphTraction::p);
         Vec z_i, z_j;
         sph_impedances(rho_i, c_i, rho_j, c_j, r, u, p, z_i, z_j);
