@@ -39,10 +39,9 @@ BUILD_REDUCTIONS = 3  # of new lists: shrink-wrapped box, ranks that ghosts come
 
 # ---------------------------------------------------------------------- the model, without LAMMPS
 
-def exchanges(bodies, riemann, lists):
-    """How often a step of solids sends to ghosts, and back: atom_style, limits, traction, push, L, displacements;
-    atom_style, M and L, those of contacts, forces."""
-    return 3 + bodies + riemann + lists, 3 + bodies
+def exchanges(lists):
+    """How often a step of solids sends to ghosts, and back: atom_style, limits, tractions, displacements; atom_style, M and L, forces."""
+    return 3 + lists, 3
 
 
 def sent_ghosts(widths, ranks, cut, periodic):
@@ -208,10 +207,6 @@ def read_log(log):
     return found
 
 
-def exchanges_of(found, lists):
-    return exchanges("push" in found["arrays"], "Riemann" in found["terms"], lists)
-
-
 def plate_variables(dx):
     return {"dx": dx}
 
@@ -321,7 +316,7 @@ def check(args, data):
 def predict(name, variables, ranks, a, b, steps, builds, maps, steps_done):
     """Bytes and messages of a step of all ranks: with the ghosts that the log counts, and with those of the shape."""
     grid, lists = b["grid"], True
-    forward, reverse = exchanges_of(b, lists)
+    forward, reverse = exchanges(lists)
     doubles = b["forward"] + b["reverse"]
     # atom_style sends borders instead of its forward exchange in steps with new lists
     doubles += builds / steps * (b["border"] - FORWARD)
@@ -352,7 +347,7 @@ def parameters(args, data):
     """Of the model: counted, measured here, and those of the machine that is asked about."""
     found = read_log(open(os.path.join(args.out, "follow", "log.lammps")).read())
     p = {k: found[k] for k in ("forward", "reverse", "border", "cut")}
-    p.update(exchanges=exchanges_of(found, True), builds=data["follow"]["builds"], balance_reductions=BALANCE_REDUCTIONS,
+    p.update(exchanges=exchanges(True), builds=data["follow"]["builds"], balance_reductions=BALANCE_REDUCTIONS,
              latency=args.latency, bandwidth=args.bandwidth / args.ranks_per_node)
     for key in ("awake_s", "asleep_s"):
         p[key] = data["follow"][key] / args.core

@@ -230,6 +230,11 @@ void FixHVISPH::init()
   follow = igroup != 0 && !set.is_stock() && modify->get_fix_by_style("^sph$").empty();
   reset_dt();
   checked = 0;
+  weight_power.assign(atom->ntypes + 1, 1.0);
+  for (int i = 1; i <= atom->ntypes; i++) {
+    const HVI::Material *const material = store->materials.of(i);
+    if (material && material->eos->rho0() > 0.0) weight_power[i] = 2.0 / 3.0;
+  }
 
   for (const Fix *const other : modify->get_fix_list()) {
     if (!other->time_integrate || utils::strmatch(other->style, "^hvi/")) continue;
@@ -443,8 +448,9 @@ static void extrapolate(double &rho, double half, double &more)
    rings in its thickness.  Solids go by the leapfrog, which keeps them up to omega dt = 2: vest is the
    velocity of the middle of the step, which brings density and stress to its end before forces, see
    HVISchemeSolid.  What is extrapolated with rho and esph, by their rates and the change of these in the
-   last step, are weights and heat.  Forces do work on the velocity of the end of the step, with a sixth of
-   the change of acceleration extrapolated to third order; when that is known, see missed_work().
+   last step, are heat and weights: those of forces, and how far these are from those of the middle, which L
+   has.  Forces do work on the velocity of the end of the step, with a sixth of the change of acceleration
+   extrapolated to third order; when that is known, see missed_work().
 ------------------------------------------------------------------------- */
 
 void FixHVISPH::initial_integrate(int /*vflag*/)
@@ -517,10 +523,11 @@ double FixHVISPH::first_half_solid(int i, double dtfm)
   extrapolate(atom->rho[i], drho, e.drho);
   atom->esph[i] += de + e.de;
 
-  // w = V (rho/rho0)^(1/3), to second order in the step; a frozen particle has none
+  // w = V (rho/rho0)^(1/3), or V without rho0, to first order in what V changes by.  A frozen particle has none.
 
-  if (!HVI::SphFields::is_frozen(e.new_rho))
-    e.weight = (atom->rho[i] + 2.0 * e.new_rho) / (3.0 * e.new_rho);
+  const double begin = e.new_rho;
+  if (!HVI::SphFields::is_frozen(begin))
+    e.weight = 1.0 + 0.5 * weight_power[atom->type[i]] * (atom->rho[i] - begin) / begin;
   return kick + dtf * beyond;
 }
 

@@ -52,8 +52,10 @@ struct HVISPHExtra {
   // that ended with the last forces; 0: none; below 0, in a run: the particle is still, see FixHVISPH::is_still()
 
   double step = 0.0;
-  double weight =
-      1.0;    // of solids, in sums over neighbors: that of the middle of this step over that of its end
+
+  // of solids, in sums over neighbors: that of the middle of this step over that of its end
+
+  double weight = 1.0;
 };
 
 class FixHVISPH :
@@ -88,7 +90,10 @@ class FixHVISPH :
 
   const double *work_velocity(int i) const;
   double step() const { return last; }
-  double middle_weight(int i) const { return integrates(i) ? extra[i].weight : 1.0; }
+  double middle_weight(int i) const    // of those in elements rho is that of its begin: not known
+  {
+    return integrates(i) ? extra[i].weight : 1.0;
+  }
   bool is_due() const { return due; }
   double advance_density(int i, double div);
   void advanced() { due = false; }
@@ -149,14 +154,15 @@ class FixHVISPH :
   class FixHVIJohnsonCook *strength;    // of solids; null: there are none
   HVI::SphStep *evaluation;             // of the pair style
   double dtv, dtf;
-  double power;                     // viscous, of the last force evaluation
-  double push[3];                   // of mirror planes, likewise
-  double last;                      // step, of which forces are the end
-  bool due;                         // density and stress of solids are those of its begin
-  std::vector<double> setup_rho;    // in a setup: of the rates that forces are asked for
-  bool in_setup = false;            // in it: rho and esph of particles are these
-  int stepping;                     // in a run, so that the state is the one the last step left
-  int wallbit;                      // groups of particles that are meant to be integrated by nobody
+  std::vector<double> weight_power;    // by type: with which weights of solids go with 1/rho
+  double power;                        // viscous, of the last force evaluation
+  double push[3];                      // of mirror planes, likewise
+  double last;                         // step, of which forces are the end
+  bool due;                            // density and stress of solids are those of its begin
+  std::vector<double> setup_rho;       // in a setup: of the rates that forces are asked for
+  bool in_setup = false;               // in it: rho and esph of particles are these
+  int stepping;                        // in a run, so that the state is the one the last step left
+  int wallbit;      // groups of particles that are meant to be integrated by nobody
   int follow;       // particles outside the group are moved by fixes that do not know vest
   int checked;      // warned of what may be wrong: once per run, not again with pre no
   double quiet;     // parts of the speed of sound

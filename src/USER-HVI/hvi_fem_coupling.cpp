@@ -289,8 +289,8 @@ void HVIFEMCoupling::gather_sums()
         const HVI::Symmetric M = records.gradv[i].middle_moment();
         std::copy_n(&L.xx, 9, sums.L);
         std::copy_n(&M.xx, 6, sums.M);
-        if (!records.contact || !(records.contact[i].nu > 0.0)) return sums;
-        const HVI::SphGradV &contact = records.contact[i];
+        if (!records.touching || !records.touching->has(i)) return sums;
+        const HVI::SphGradV &contact = records.touching->of(i).sums;
         sums.trace_L_of_others = contact.xx + contact.yy + contact.zz;
         const HVI::Symmetric M_of_others = contact.middle_moment();
         std::copy_n(&M_of_others.xx, 6, sums.M_of_others);
@@ -393,10 +393,10 @@ void HVIFEMCoupling::gather_forces()
           const double *const t = &rows.xx + 3 * (k / 3);
           now.K[k] = factor * (t[0] * m[k % 3] + t[1] * m[3 + k % 3] + t[2] * m[6 + k % 3]);
         }
-        if (!records.contact || !(records.contact[i].nu > 0.0)) return now;
-        const HVI::SphGradV &c = records.contact[i];
+        if (!records.touching || !records.touching->has(i)) return now;
+        const HVI::SphGradV &c = records.touching->of(i).sums;
         const double mc[9] = {c.mxx, c.mxy, c.mxz, c.mxy, c.myy, c.myz, c.mxz, c.myz, c.mzz};
-        for (int k = 0; k < 9; k++) now.K[k] -= records.push[i].p * mc[k];
+        for (int k = 0; k < 9; k++) now.K[k] -= records.touching->of(i).push.p * mc[k];
         return now;
       },
       [this](int k, const Acted &now) {

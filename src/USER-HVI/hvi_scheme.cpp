@@ -95,6 +95,7 @@ void HVIScheme::start()
   if (set.mirror.planes) find_images();
   const int nrecords = set.mirror.planes ? MAX(atom->nmax, images.end()) : atom->nmax;
   const bool lost = fields.grow(nrecords, set.mirror.planes ? nrecords / 16 : 0);
+  if (fields.view().touching) fields.view().touching->start(nrecords);
   find_inactive();
   gather_limits();
   choose_rows();
@@ -164,8 +165,6 @@ void HVIScheme::gather_records()
     if (fields.is_idle(i)) continue;
     records.rates[i] = {};
     if (records.gradv) records.gradv[i] = {};
-    if (records.contact) records.contact[i] = {};
-    if (records.push) records.push[i] = {};
     if (records.slopes) records.slopes[i] = {};
     const int itype = atom->type[i];
     if (!pairs.is_ours[itype]) continue;    // of another style in a hybrid
@@ -505,35 +504,62 @@ void HVIScheme::find_images()
 
 /* ---------------------------------------------------------------------- */
 
+void HVIScheme::forward(const HVI::SphMessage &message)
+{
+  sent = message;
+  comm->forward_comm(pairs.style, sent.size());
+}
+
+void HVIScheme::reverse(const HVI::SphMessage &message)
+{
+  sent = message;
+  comm->reverse_comm(pairs.style, sent.size());
+}
+
 int HVIScheme::pack_forward(int n, const int *list, double *buf) const
 {
-  for (int k = 0; k < n; k++)
-    memcpy(buf + k * sent.number, sent.first + list[k] * (std::size_t) sent.stride,
-           sent.number * sizeof(double));
-  return n * sent.number;
+  return sent.pack(
+      n,
+      [=](int k) {
+        return list[k];
+      },
+      buf);
 }
 
 void HVIScheme::unpack_forward(int n, int first, const double *buf)
 {
-  for (int k = 0; k < n; k++)
-    memcpy(sent.first + (first + k) * (std::size_t) sent.stride, buf + k * sent.number,
-           sent.number * sizeof(double));
+  sent.unpack(
+      n,
+      [=](int k) {
+        return first + k;
+      },
+      buf,
+      [](double &here, double number) {
+        here = number;
+      });
 }
 
 int HVIScheme::pack_reverse(int n, int first, double *buf) const
 {
-  for (int k = 0; k < n; k++)
-    memcpy(buf + k * sent.number, sent.first + (first + k) * (std::size_t) sent.stride,
-           sent.number * sizeof(double));
-  return n * sent.number;
+  return sent.pack(
+      n,
+      [=](int k) {
+        return first + k;
+      },
+      buf);
 }
 
 void HVIScheme::unpack_reverse(int n, const int *list, const double *buf)
 {
-  for (int k = 0; k < n; k++) {
-    double *const to = sent.first + list[k] * (std::size_t) sent.stride;
-    for (int l = 0; l < sent.number; l++) to[l] += buf[k * sent.number + l];
-  }
+  sent.unpack(
+      n,
+      [=](int k) {
+        return list[k];
+      },
+      buf,
+      [](double &here, double number) {
+        here += number;
+      });
 }
 
 /* ----------------------------------------------------------------------

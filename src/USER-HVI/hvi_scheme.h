@@ -9,10 +9,10 @@
 #ifndef LMP_HVI_SCHEME_H
 #define LMP_HVI_SCHEME_H
 
-#include "comm.h"
 #include "fix_hvi_store.h"
 #include "hvi_images.h"
 #include "hvi_sleep.h"
+#include "hvi_sph_message.h"
 #include "hvi_sph_sweep.h"
 #include "hvi_timestep.h"
 #include "pair.h"
@@ -65,7 +65,7 @@ class HVIScheme : protected Pointers {
   virtual double widest(int itype, int jtype) const;
   virtual const double *const *weights() const { return nullptr; }
 
-  // doubles per particle to its ghosts and back: the most at once, and in all of an evaluation
+  // doubles per particle to its ghosts and back: the most at once, and in all of an evaluation, but for what touches
 
   struct Traffic {
     int forward, reverse, all_forward, all_reverse;
@@ -130,8 +130,8 @@ class HVIScheme : protected Pointers {
   }
   void take_out(int i);
   [[noreturn]] void no_answer(int i, double rho) const;
-  template <class Record> void forward(Record *, int number = Record::SENT, int first = 0);
-  template <class Record> void reverse(Record *, int number = Record::SENT);
+  void forward(const HVI::SphMessage &);
+  void reverse(const HVI::SphMessage &);
 
   // Undisturbed matter is left out: what counts as undisturbed
 
@@ -167,11 +167,7 @@ class HVIScheme : protected Pointers {
       0.0;    // of the last forces: 1/time in which signals pass half of what a kernel reaches
   double alone = 0.0;                  // the same of particles without neighbors
   double narrowest = HVI::NO_BOUND;    // and the smallest h
-  struct {
-    double *first;
-    int stride, number;
-  } sent =
-      {};    // records that are being communicated: the first numbers of each, as many as are sent
+  HVI::SphMessage sent;                // what is being communicated
 
   void find_quiet(bool can);
   void find_neighbors();
@@ -186,18 +182,6 @@ class HVIScheme : protected Pointers {
   void scatter();
   double fastest_to_images(double far) const;
 };
-
-template <class Record> void HVIScheme::forward(Record *records, int number, int first)
-{
-  sent = {(double *) records + first, (int) (sizeof(Record) / sizeof(double)), number};
-  comm->forward_comm(pairs.style, number);
-}
-
-template <class Record> void HVIScheme::reverse(Record *records, int number)
-{
-  sent = {(double *) records, (int) (sizeof(Record) / sizeof(double)), number};
-  comm->reverse_comm(pairs.style, number);
-}
 
 /* ----------------------------------------------------------------------
    Monaghan's viscosity, in forms sum, symmetric and stock

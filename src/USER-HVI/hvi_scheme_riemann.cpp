@@ -96,9 +96,9 @@ void HVISchemeRiemann::evaluate()
   start();
   sweeps->first(work);
   if (set.mirror.planes) images.fold_sums(work.records);
-  if (force->newton_pair) reverse(work.records.slopes);
+  if (force->newton_pair) reverse(HVI::SphMessage().with(work.records.slopes));
   finish_slopes();
-  forward(work.records.slopes);
+  forward(HVI::SphMessage().with(work.records.slopes));
   if (set.mirror.planes) images.fill_sums(work.records);
 }
 

@@ -29,6 +29,7 @@
 
 using namespace LAMMPS_NS;
 using HVI::SphGradV;
+using HVI::SphMessage;
 using HVI::SphTraction;
 using HVI::Symmetric;
 using HVI::VelocityGradient;
@@ -58,13 +59,16 @@ double HVISchemeSolid::widest(int i, int j) const
 HVIScheme::Traffic HVISchemeSolid::traffic() const
 {
   const bool bodies = terms() & HVI::SPH_BODIES;
-  Traffic t = {SphTraction::SENT, SphGradV::SENT, SphTraction::SENT, SphGradV::SENT};
+  int forward = SphTraction::SENT;
+  if (set.laws.art_eps > 0.0) forward += HVI::SphStress::SENT;
+  if (set.riemann) forward += SphGradV::SENT_STRETCH;
+  Traffic t = {forward, SphGradV::SENT, forward, SphGradV::SENT};
+  if (bodies) {
+    t.forward += SphMessage::PUSHES;
+    t.reverse += SphMessage::SUMS;
+  }
   t.all_forward += sizeof(Limits) / sizeof(double);
-  if (set.laws.art_eps > 0.0) t.all_forward += HVI::SphStress::SENT;
-  if (bodies) t.all_forward += HVI::SphPush::SENT;
-  if (set.riemann) t.all_forward += SphGradV::SENT_STRETCH;
-  if (bodies) t.all_reverse *= 2;
-  if (force->newton_pair) t.all_reverse += HVI::SphRates::FORCE;
+  if (force->newton_pair) t.all_reverse += sent_rates();
   return t;
 }
 
@@ -76,8 +80,8 @@ void HVISchemeSolid::evaluate()
 {
   start();                // records of particles, ghosts and images; active particles
   label_bodies();         // now and then: what has come apart
-  sum_gradients();        // sums over neighbors: L, M, nu
-  correct_gradients();    // L M^-1 of the middle of the step
+  sum_gradients();        // sums over neighbors: L, H, M, nu
+  correct_gradients();    // L H^-1 of the middle of the step
   advance();              // density, pressure, elements, stress: t -> t + dt
   find_tractions();       // from stress and M^-1
   exchange();             // to ghosts and images
@@ -97,7 +101,7 @@ void HVISchemeSolid::gather_limits()
     limits[i] = {before.p_min, before.shear, integrator->middle_weight(i)};
     if (has_inactive() && !fields.asleep(i)) limits[i].shear = -limits[i].shear;
   }
-  forward(limits.data(), sizeof(Limits) / sizeof(double));
+  forward(SphMessage().with(limits.data(), sizeof(Limits) / sizeof(double)));
   if (!has_inactive()) return;
 
   const HVI::RelativeMotion &motion = pairs.lists->cells();
@@ -191,7 +195,7 @@ void HVISchemeSolid::label_bodies()
     }
   }
   components.finish([this](HVI::Components::Node *node) {
-    forward(node, sizeof(*node) / sizeof(double));
+    forward(SphMessage().with(node, sizeof(*node) / sizeof(double)));
   });
 
   for (int i = 0; i < nlocal; i++) {
@@ -218,8 +222,7 @@ void HVISchemeSolid::sum_gradients()
   sweeps->first(work);
   if (set.mirror.planes) images.fold_sums(records);
   if (!force->newton_pair) return;
-  reverse(records.gradv, SphGradV::SENT);
-  if (records.contact) reverse(records.contact, SphGradV::SENT);
+  reverse(SphMessage().with(records.gradv).with_sums(records.touching));
 }
 
 // a(3x3, rows) b(symmetric)
@@ -277,13 +280,13 @@ static void put_normal(SphGradV &contact, double nu)
 
 bool HVISchemeSolid::touches(int i) const
 {
-  const SphGradV *const contact = work.records.contact;
-  return contact && contact[i].nu > 0.0;
+  const HVI::SphTouching *const touching = work.records.touching;
+  return touching && touching->of(i).sums.nu > 0.0;
 }
 
 /* ----------------------------------------------------------------------
    In gradv L H^-1 of what hangs together, and M^-1 in place of M.  Where something else touches, in
-   contact the M^-1 of all, and in place of L what of the stress is normal to the contact.  Its trace with
+   its other record the M^-1 of all, and in place of L what of the stress is normal to the contact.  Its trace with
    all neighbors changes the density.  The law of the solid sees what hangs together; rubble as forces see
    it: it may have failed since.
 ------------------------------------------------------------------------- */
@@ -304,7 +307,7 @@ void HVISchemeSolid::correct_gradients()
     VelocityGradient L_all = L;
 
     if (touches(i)) {
-      SphGradV &contact = records.contact[i];
+      SphGradV &contact = records.touching->at(i).sums;
       SphGradV all = own;
       for (int k = 0; k < SphGradV::SENT; k++) (&all.xx)[k] += (&contact.xx)[k];
       const Symmetric by_all = inverse(all.moment(), all.nu, scale * all.nu, fields.along);
@@ -345,7 +348,6 @@ void HVISchemeSolid::advance()
     gone.vz = T.vz;
     gone.volume = T.volume;
     T = gone;
-    if (records.push) records.push[i] = {};
     if (records.art) records.art[i] = {};
   });
   if (mesh) mesh->advance();
@@ -370,12 +372,12 @@ void HVISchemeSolid::find_tractions()
 
     const bool held = is_embedded(i);
     if (held && touches(i))
-      put_normal(records.contact[i], records.state[i].w / T.volume);    // nu of a lattice
+      put_normal(records.touching->at(i).sums, records.state[i].w / T.volume);    // nu of a lattice
     const Symmetric by_own = held ? ONE : records.gradv[i].moment();
     Symmetric by_all = by_own;
     double rest = 0.0;
     if (touches(i)) {
-      const SphGradV &contact = records.contact[i];
+      const SphGradV &contact = records.touching->of(i).sums;
       if (!held) by_all = contact.moment();
       const Symmetric n = contact.normal();
       if (borne.shear > 0.0)
@@ -394,27 +396,26 @@ void HVISchemeSolid::find_tractions()
     T.zx = scale * B.zx - p * by_all.xz;
     T.zy = scale * B.zy - p * by_all.yz;
     T.zz = scale * B.zz - p * by_all.zz;
-    if (records.push)
-      records.push[i] = {-p * by_all.xx, -p * by_all.yy, -p * by_all.zz, -p * by_all.xy,
-                         -p * by_all.xz, -p * by_all.yz, push,           0.0};
+    if (records.touching && records.touching->has(i))
+      records.touching->at(i).push = {
+          -p * by_all.xx, -p * by_all.yy, -p * by_all.zz, -p * by_all.xy,
+          -p * by_all.xz, -p * by_all.yz, push,           0.0};
   });
 }
 
 void HVISchemeSolid::exchange()
 {
   const HVI::SphView &records = work.records;
-  forward(records.traction, SphTraction::SENT);
-  if (records.art) {
-    artificial_stress();
-    forward(records.art);
-  }
-  if (records.push) forward(records.push);
-  if (set.riemann) {
+  if (records.art) artificial_stress();
+  if (set.riemann)
     each_active([&](int i) {
       records.gradv[i].keep_stretch();
     });
-    forward(records.gradv, SphGradV::SENT_STRETCH);
-  }
+  forward(SphMessage()
+              .with(records.traction)
+              .with(records.art)
+              .with(set.riemann ? records.gradv : nullptr, SphGradV::SENT_STRETCH)
+              .with_pushes(records.touching));
   if (set.mirror.planes) images.fill_sums(records);
 }
 
@@ -455,5 +456,5 @@ void HVISchemeSolid::artificial_stress()
 void HVISchemeSolid::forces_done()
 {
   if (!force->newton_pair) return;
-  reverse(work.records.rates, mesh ? HVI::SphRates::WITH_POWER : HVI::SphRates::FORCE);
+  reverse(SphMessage().with(work.records.rates, sent_rates()));
 }

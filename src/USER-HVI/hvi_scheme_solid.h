@@ -57,6 +57,7 @@ class HVISchemeSolid : public HVIScheme {
 
   bool is_embedded(int i) const { return !fields.embedded.empty() && fields.embedded[i]; }
   bool touches(int i) const;    // something that it does not hang together with
+  int sent_rates() const { return mesh ? HVI::SphRates::WITH_POWER : HVI::SphRates::FORCE; }
 };
 
 }    // namespace LAMMPS_NS

@@ -40,8 +40,8 @@ def test_messages():
 
 def test_exchanges():
     """of the forms of solids"""
-    assert scaling.exchanges(False, False, False) == (3, 3)
-    assert scaling.exchanges(True, True, True) == (6, 4)
+    assert scaling.exchanges(False) == (3, 3)
+    assert scaling.exchanges(True) == (4, 3)
 
 
 def test_map_counts():

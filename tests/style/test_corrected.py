@@ -185,9 +185,11 @@ def test_linear_field(lmp, tmp_path, pair, words):
         middle = FIELD @ np.linalg.inv(np.eye(3) + 0.5 * dt * FIELD)
         want = dt * rate(middle, 0.5 * dt * rate(middle, np.zeros((3, 3))))
         early, late = read(tmp_path / "a"), read(tmp_path / "b")
-        return early, np.abs(as_tensor(late) - want).max() / np.abs(want).max(), np.abs(late["rho"] / s.rho * np.exp(dt * np.trace(middle)) - 1).max()
+        density = late["rho"] / s.rho
+        off.append(np.abs(density * np.linalg.det(np.eye(3) + dt * FIELD) - 1).max())
+        return early, np.abs(as_tensor(late) - want).max() / np.abs(want).max(), np.abs(density * np.exp(dt * np.trace(middle)) - 1).max()
 
-    shear = np.array([G[t] for t in s.type])[:, None, None]
+    shear, off = np.array([G[t] for t in s.type])[:, None, None], []  # off: from the exact density
     early, *errors = one_step(0.01)
     assert rates(solid(s, early))["own"].min() > 0.4
     want = -s.rho * np.trace(FIELD)
@@ -195,8 +197,9 @@ def test_linear_field(lmp, tmp_path, pair, words):
     if riemann:
         return
     _, *larger = one_step(0.1)
-    print("errors", errors, larger)
+    print("errors", errors, larger, "of density, exact", off)
     assert max(errors + larger) < 1e-13
+    assert off[0] < 1e-6 and 700 < off[1] / off[0] < 1300  # dt^3
 
 
 @pytest.mark.parametrize("n", [2, 5, 13])

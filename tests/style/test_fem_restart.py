@@ -7,19 +7,22 @@ import numpy as np
 import pytest
 from fem_scenes import OPEN, PULL, STATE, laws, opened, opens, plate, read_state, start, strike_plate
 
+# faces that stay: those of a shrunk box move by a part of what the box was when LAMMPS read it, so that after a restart bins of
+# neighbors, and the order of sums with them, may be others
+BOX = dict(boundary="f f f", box=" ".join(["-4e-3 4e-3"] * 3))
 FAILS = "strain 0.1 probe 2e-3 2e-3 -1e-3"  # the first elements become particles at step 27, and 8 more soon after
 MIDDLE, END = 30, 36
 
 
 def whole(rest, **more):
     mesh, strike_it = strike_plate()
-    return start(mesh, fem=FAILS, every=5, more="f_wall[1][1] f_wall[1][7] f_wall[1][11]", **more) + strike_it + rest
+    return start(mesh, fem=FAILS, every=5, more="f_wall[1][1] f_wall[1][7] f_wall[1][11]", **{**BOX, **more}) + strike_it + rest
 
 
 def continued(read="read_restart half", fem=FAILS, newton="on", **more):
     """the same words without the box and what is in it"""
     mesh, _ = strike_plate()
-    text = start(mesh, fem=fem, every=5, more="f_wall[1][1] f_wall[1][7] f_wall[1][11]", newton=newton, data="again.data", **more)
+    text = start(mesh, fem=fem, every=5, more="f_wall[1][1] f_wall[1][7] f_wall[1][11]", newton=newton, data="again.data", **{**BOX, **more})
     last = text.index("pair_style")
     head = f"newton {newton}\n" + ("atom_modify sort 0 0\n" if read.startswith("read_restart") else "")
     if read.startswith("read_restart"):
@@ -46,21 +49,19 @@ def books(a, b, tolerance=0.0):
         assert np.abs(a[name][later] - b[name]).max() <= tolerance * size, name
 
 
-TIMES = [(15, 17, 0.0), (MIDDLE, 32, 0.0), (MIDDLE, END, 1e-12)]
+TIMES = [(10, 12), (20, 22), (MIDDLE, END)]
 
 
 @pytest.mark.parametrize("spall, ranks, times", [
     *itertools.product(["none"], [(1, "on"), (2, "on"), (2, "off")], TIMES), *itertools.product(["voids"], [(1, "on"), (2, "on")], TIMES[::2])])
 def test_goes_on(lmp, tmp_path, spall, ranks, times):
-    """states, forces, the step, all that is booked, probes, with open voids too: the same bits; when elements have failed, on ranks and later,
-    sums are of another order"""
-    (nranks, newton), (middle, end, tolerance), (law, pull) = ranks, times, laws(spall, tmp_path)
-    tolerance = 1e-12 if nranks > 1 and middle == MIDDLE else tolerance
+    """states, forces, the step, all that is booked, probes, with open voids too: the same bits"""
+    (nranks, newton), (middle, end), (law, pull) = ranks, times, laws(spall, tmp_path)
     a = lmp(whole(pull + f"restart {middle} half\nrun {end}\n" + STATE.format("whole"), newton=newton, **law), nranks=nranks).runs[0]
     again = continued(f"read_restart half.{middle}", newton=newton, **law)
     b = lmp(again + f"run {end - middle}\n" + STATE.format("part") + OPEN, nranks=nranks).runs[0]
-    books(a, b, tolerance)
-    same(read_state("whole"), read_state("part"), tolerance)
+    books(a, b)
+    same(read_state("whole"), read_state("part"))
     assert (b["f_wall"][0] < 64) == (middle == MIDDLE) and (end < END or b["f_wall"][-1] < b["f_wall"][0])
     assert a["Dt"].min() < a["Dt"].max() and np.abs(b["f_wall[1][1]"]).min() > 0
     if law:

@@ -1,5 +1,6 @@
 """The leapfrog of solids: walls, energy, what starts anew, restarts."""
 
+import pathlib
 import re
 import struct
 
@@ -8,6 +9,7 @@ import pytest
 from corrected import rates
 from corrected_scenes import FAILING, JC, UNBROKEN, body, lump, same, script, solid
 from hybrid_scenes import hybrid, others, together
+from solid_runs import material
 from solid_scenes import OUT, read
 
 DISSIPATION = ["viscosity 1 2", "dissipation riemann"]
@@ -78,6 +80,60 @@ def test_order_in_time(lmp, tmp_path, pair, words, speed):
     error = [np.linalg.norm(S - finest) / np.linalg.norm(finest) for S in stress]
     print(words, speed, "errors of S", error)
     assert error[0] < 0.2 and error[2] / error[3] > (3.5 if words == "viscosity 0 0" else 1.8)
+
+
+COLLIDE = """dimension 2
+atom_style sph
+atom_modify map array
+boundary s p p
+lattice sq 1
+region box block 0 240 0 4 -0.5 0.5
+create_box 2 box
+region left block 0 99.5 0 3.5 -0.5 0.5
+region right block 99.5 199.5 0 3.5 -0.5 0.5
+region apart block 236 240 0 3.5 -0.5 0.5
+create_atoms {kind} region left
+create_atoms {kind} region right
+create_atoms 2 region apart
+mass * 1.0
+set group all sph/rho 1.0
+set type 1 sph/e 0.05
+group left region left
+group right region right
+velocity left set 0.5 0 0
+velocity right set -0.5 0 0
+pair_style hvi/sph cubic viscosity 1 2
+pair_coeff 1 1 eos idealgas 1.4 h 1.2
+pair_coeff 2 2 file hard.hvi h 1.2
+fix move all hvi/sph
+fix solid all hvi/johnson-cook strength perfect damage no spall none
+neighbor 0.3 bin
+timestep {dt}
+compute rho all sph/rho/atom
+thermo_modify lost error
+run {n}
+write_dump all custom end type x c_rho modify sort id format float %.17g
+"""
+
+
+@pytest.mark.parametrize("kind", [2, 1])
+def test_density_behind_a_shock(lmp, kind):
+    """halves of a solid, or of a gas beside one, meet: with the weights of the middle of the step the density behind shocks of solids is of second order in
+    the step; that of strong shocks in gas is of first, with a smaller error"""
+    material(pathlib.Path("hard.hvi"), "eos gruneisen rho0 1 C 1 S1 1.3 g0 2 cp 1 T0 300", "strength perfect G 0.3 Y 0.01")
+    found = []
+    for dt in (0.2, 0.1, 0.05, 0.025):
+        lmp(COLLIDE.format(kind=kind, dt=dt, n=round(40 / dt)))
+        end = np.loadtxt("end", skiprows=9)[:800]
+        rho = end[np.argsort(end[:, 1], kind="stable"), 2]
+        found.append(np.median(rho[440:480]))  # ten layers, ten from the contact
+    changes = np.diff(found)
+    off = found[0] / (2 * found[3] - found[2]) - 1
+    print(kind, found, "ratios", changes[:-1] / changes[1:], "off", off)
+    if kind == 2:
+        assert changes[0] > 3 * changes[1] > 0 and abs(off) < 2.5e-4
+    else:
+        assert abs(off) < 0.0105
 
 
 def test_wall_across_the_box(lmp, tmp_path, pair):

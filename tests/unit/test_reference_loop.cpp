@@ -6,6 +6,7 @@
 #include "hvi_kernel.h"
 #include "hvi_sph_reference.h"
 #include "hvi_sph_sweep.h"
+#include "hvi_sph_touching.h"
 
 #include <algorithm>
 #include <cmath>
@@ -153,8 +154,8 @@ struct Found : SphWatcher {
 // random numbers in place of what the pair style makes of the sums
 
 void settle(Random &random, const State &s, std::vector<SphSlopes> &slopes,
-            std::vector<SphGradV> &gradv, std::vector<SphTraction> &traction,
-            std::vector<SphPush> &push, std::vector<SphStress> &art)
+            std::vector<SphGradV> &gradv, std::vector<SphTraction> &traction, SphTouching &touching,
+            std::vector<SphStress> &art)
 {
   const auto fill = [&](double *a, int n, double size) {
     for (int k = 0; k < n; k++) a[k] = between(random, -size, size);
@@ -166,7 +167,9 @@ void settle(Random &random, const State &s, std::vector<SphSlopes> &slopes,
     fill(&gradv[i].xx, SphGradV::SENT, 0.5);
     fill(&traction[i].xx, SphTraction::SENT, 1.0);
     traction[i].volume = between(random, 0.7, 1.3);
-    fill(&push[i].xx, 7, 1.0);
+    SphPush push;
+    fill(&push.xx, SphPush::SENT, 1.0);
+    if (touching.has(i)) touching.at(i).push = push;
     fill(&art[i].xx, 6, 1.0);
   }
 }
@@ -184,11 +187,12 @@ Found run(const SphSweeps &sweeps, const State &s)
   state.resize(n);
   std::vector<SphRates> rates(n);
   std::vector<SphSlopes> slopes(n);
-  std::vector<SphGradV> gradv(n), contact(n);
+  std::vector<SphGradV> gradv(n);
   Random weights(78);
   for (SphGradV &g : gradv) g.weight = between(weights, 0.9, 1.1);
   std::vector<SphTraction> traction(n);
-  std::vector<SphPush> push(n);
+  SphTouching touching;
+  touching.start(n);
   std::vector<SphStress> art(n);
   SphKept kept;
 
@@ -201,8 +205,7 @@ Found run(const SphSweeps &sweeps, const State &s)
   if (solid) {
     work.records.gradv = gradv.data();
     work.records.traction = traction.data();
-    if (s.scene & B) work.records.contact = contact.data();
-    if (s.scene & B) work.records.push = push.data();
+    if (s.scene & B) work.records.touching = &touching;
     if (s.scene & A) work.records.art = art.data();
   }
   work.list = {OWNED, s.ilist.data(), s.number.data(), s.first.data()};
@@ -228,10 +231,12 @@ Found run(const SphSweeps &sweeps, const State &s)
       found.keep("slopes", slopes, 0, s.scene & H ? 11 : 10);
     } else {
       found.keep("gradv", gradv, 0, SphGradV::SENT);
-      if (s.scene & B) found.keep("contact", contact, 0, SphGradV::SENT);
+      std::vector<SphGradV> sums;
+      for (int i = 0; i < ALL; i++) sums.push_back(touching.of(i).sums);
+      if (s.scene & B) found.keep("touching", sums, 0, SphGradV::SENT);
     }
     Random random(77);
-    settle(random, s, slopes, gradv, traction, push, art);
+    settle(random, s, slopes, gradv, traction, touching, art);
     images.fill_sums(work.records);
   }
   sweeps.forces(work);
@@ -347,7 +352,7 @@ TEST(ReferenceLoop, IsThatOfVectorsWithMoreTerms)
     Found got = run(*vectors, s);
     std::vector<std::pair<std::string, std::vector<double>>> asked;
     for (auto &one : got.numbers)
-      if (one.first.rfind("contact", 0) != 0 || scene & B) asked.push_back(one);
+      if (one.first.rfind("touching", 0) != 0 || scene & B) asked.push_back(one);
     got.numbers = asked;
     expect_same(got, want, text("cubic", scene, 3, {true, false}));
   }

@@ -37,6 +37,8 @@ typedef std::vector<Weights> Cells;    // hex_subcells(): weights of corners at 
    all, and of other bodies alone
 
      L = < - sum_j w_j v_pj (x) grad W >     M = < - sum_j w_j x_pj (x) grad W >
+
+   in the middle of the step
 ------------------------------------------------------------------------- */
 
 struct PairSums {

@@ -11,6 +11,7 @@
 ------------------------------------------------------------------------- */
 
 #include "hvi_images.h"
+#include "hvi_sph_touching.h"
 
 namespace HVI {
 
@@ -56,7 +57,6 @@ void Images::fill(const MirrorPlanes &mirror, const SphView &records) const
       records.gradv[a] = {};
       records.gradv[a].weight = records.gradv[image.owner].weight;
     }
-    if (records.contact) records.contact[a] = {};
     if (records.slopes) records.slopes[a] = {};
     a++;
   }
@@ -112,9 +112,10 @@ void Images::fold_sums(const SphView &records) const
       reflect.gradient(records.gradv[a]);
       add(records.gradv[a], records.gradv[i]);
     }
-    if (records.contact) {
-      reflect.gradient(records.contact[a]);
-      add(records.contact[a], records.contact[i]);
+    if (records.touching && records.touching->has(a)) {
+      SphGradV sums = records.touching->of(a).sums;
+      reflect.gradient(sums);
+      add(sums, records.touching->at(i).sums);
     }
   }
 }
@@ -139,9 +140,10 @@ void Images::fill_sums(const SphView &records) const
         reflect.symmetric(records.art[a]);
       }
     }
-    if (records.push) {
-      records.push[a] = records.push[i];
-      reflect.symmetric(records.push[a]);
+    if (records.touching && records.touching->has(i)) {
+      SphPush push = records.touching->of(i).push;
+      reflect.symmetric(push);
+      records.touching->at(a).push = push;
     }
   }
 }

@@ -44,7 +44,7 @@ void SphFields::choose(int wanted)
 
 template <class Each> void SphFields::each_array(const Each &each)
 {
-  const bool solid = terms & SPH_SOLID, bodies = solid && (terms & SPH_BODIES);
+  const bool solid = terms & SPH_SOLID;
   each("place", place, records.place, true);
   each("state", state, records.state, true);
   each("rates", rates, records.rates, true);
@@ -52,8 +52,6 @@ template <class Each> void SphFields::each_array(const Each &each)
   each("gradv", gradv, records.gradv, solid);
   each("art", art, records.art, solid && (terms & SPH_ARTSTRESS));
   each("traction", traction, records.traction, solid);
-  each("contact", contact, records.contact, bodies);
-  each("push", push, records.push, bodies);
 }
 
 bool SphFields::grow(int n, int spare)
@@ -65,6 +63,7 @@ bool SphFields::grow(int n, int spare)
     array.reset(wanted && nmax ? new Record[nmax] : nullptr);
     view = array.get();
   });
+  records.touching = (terms & SPH_SOLID) && (terms & SPH_BODIES) ? &touching : nullptr;
   return true;
 }
 
@@ -74,7 +73,7 @@ double SphFields::bytes_per_particle()
   each_array([&](const char *, auto &, auto *record, bool wanted) {
     if (wanted) bytes += sizeof(*record);
   });
-  return bytes;
+  return records.touching ? bytes + SphTouching::BYTES : bytes;
 }
 
 std::string SphFields::arrays()
@@ -85,6 +84,7 @@ std::string SphFields::arrays()
       text +=
           (text.empty() ? "" : ", ") + std::string(name) + " " + std::to_string(sizeof(*record));
   });
+  if (records.touching) text += ", touching " + std::to_string(SphTouching::BYTES);
   return text;
 }
 

@@ -11,7 +11,7 @@
 
 #include "hvi_mirror.h"
 #include "hvi_sph.h"
-#include "hvi_sph_records.h"
+#include "hvi_sph_touching.h"
 #include "hvi_stress.h"
 
 #include <memory>
@@ -55,11 +55,11 @@ struct SphSettings {
    Of solids only, by HVISchemeSolid:
    gradv      owned, ghosts, images     first sweep; folded, reverse; then L H^-1      second sweep (riemann),
               owned                     and M^-1 in place of M                         velocity_gradient()
-   contact    (the same of other bodies, and of rubble; see correct_gradients())       find_tractions()
-   traction,  owned                     start(): p, rho, v; correct_gradients(),       second sweep, pressure(),
-   push                                 advance(), find_tractions()                    density(), divergence()
+   traction   owned                     start(): p, rho, v; correct_gradients(),       second sweep, pressure(),
+                                        advance(), find_tractions()                    density(), divergence()
    art        owned                     exchange()                                     second sweep
    of both    ghosts, images            forward communication; reflected
+   touching   as gradv and traction, of what touches other bodies or, as rubble, rubble: see SphTouching
    rates      drho is written by advance() first, without pairs
 
    They hold from a force evaluation to the next exchange of particles, that is: through
@@ -82,7 +82,7 @@ class SphFields {
   const SphView &view() const { return records; }
   std::string arrays();    // those of this scene, with bytes per particle: for people
   double bytes_per_particle();
-  double bytes() { return nmax * bytes_per_particle(); }
+  double bytes() { return nmax * bytes_per_particle() + touching.bytes(); }
 
   // of the last forces, for fixes; owned particles, sums over this rank
 
@@ -121,9 +121,9 @@ class SphFields {
   std::unique_ptr<SphRates[]> rates;
   std::unique_ptr<SphSlopes[]> slopes;
   std::unique_ptr<SphStress[]> art;
-  std::unique_ptr<SphGradV[]> gradv, contact;
+  std::unique_ptr<SphGradV[]> gradv;
   std::unique_ptr<SphTraction[]> traction;
-  std::unique_ptr<SphPush[]> push;
+  SphTouching touching;
 
   template <class Each> void each_array(const Each &);
 };

@@ -13,6 +13,7 @@
 #include "hvi_stress.h"
 #include "hvi_vector.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -186,6 +187,8 @@ struct alignas(64) SphPush {
   double unused;
 };
 
+static_assert(offsetof(SphGradV, weight) >= SphGradV::SENT * sizeof(double),
+              "weights are not among sums");
 static_assert(sizeof(SphStress) == 2 * sizeof(Vec4) && sizeof(SphGradV) == 6 * sizeof(Vec4) &&
                   sizeof(SphTraction) == 4 * sizeof(Vec4) && sizeof(SphPush) == 2 * sizeof(Vec4),
               "records are read as vectors");
@@ -226,6 +229,8 @@ static_assert(sizeof(SphSlopes) == 3 * sizeof(Vec4), "records are read as vector
 
 static constexpr int NEIGHBOR_INDEX = 0x1FFFFFFF;
 
+class SphTouching;
+
 // all of them, by index of particles: owned, ghosts, then images; null where the scene has none
 
 struct SphView {
@@ -235,9 +240,8 @@ struct SphView {
   SphSlopes *slopes = nullptr;    // Riemann problems without solids
   SphGradV *gradv = nullptr;      // solids, as are the next
   SphTraction *traction = nullptr;
-  SphStress *art = nullptr;       // artificial stress
-  SphGradV *contact = nullptr;    // what touches, where there are bodies; as is the next
-  SphPush *push = nullptr;
+  SphStress *art = nullptr;           // artificial stress
+  SphTouching *touching = nullptr;    // where there are bodies
 };
 
 }    // namespace HVI

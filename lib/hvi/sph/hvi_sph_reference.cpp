@@ -13,6 +13,7 @@
 #include "hvi_sph_reference.h"
 
 #include "hvi_kernel.h"
+#include "hvi_sph_touching.h"
 
 #include <Eigen/Core>
 
@@ -491,13 +492,17 @@ namespace {
       to.set_moment({M(0, 0), M(1, 1), M(2, 2), M(0, 1), M(0, 2), M(1, 2)});
       to.nu += w * W(work.laws, pair.r, width);
     };
-    const auto add_both = [&](SphGradV *to, double share) {
+    const auto add_both = [&](double share, const auto &record) {
       if (share == 0.0) return;
-      add(to[pair.i], share * pair.sj.w, pair.F_i, pair.width_i, of_j.weight);
-      add(to[pair.j], share * pair.si.w, pair.F_j, pair.width_j, of_i.weight);
+      add(record(pair.i), share * pair.sj.w, pair.F_i, pair.width_i, of_j.weight);
+      add(record(pair.j), share * pair.si.w, pair.F_j, pair.width_j, of_i.weight);
     };
-    add_both(work.records.gradv, bonded(pair));
-    add_both(work.records.contact, touching(pair));
+    add_both(bonded(pair), [&](int i) -> SphGradV & {
+      return work.records.gradv[i];
+    });
+    add_both(touching(pair), [&](int i) -> SphGradV & {
+      return work.records.touching->at(i).sums;
+    });
   }
 
   /* ----------------------------------------------------------------------
@@ -530,7 +535,8 @@ namespace {
     if (bonded(pair) == 1.0)
       act(ww * matrix(T_i.by_rows()) * pair.grad_i(), ww * matrix(T_j.by_rows()) * pair.grad_j());
     else {
-      const SphPush &P_i = work.records.push[pair.i], &P_j = work.records.push[pair.j];
+      const SphPush &P_i = work.records.touching->of(pair.i).push,
+                    &P_j = work.records.touching->of(pair.j).push;
       const double share = P_i.p + P_j.p > 0.0 ? touching(pair) : 0.0;
       act(share * ww * symmetric(P_i.xx) * pair.grad_i(),
           share * ww * symmetric(P_j.xx) * pair.grad_j());

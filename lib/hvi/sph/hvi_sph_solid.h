@@ -10,6 +10,7 @@
 #define LMP_HVI_SPH_SOLID_H
 
 #include "hvi_sph_riemann.h"
+#include "hvi_sph_touching.h"
 
 // solids, with corrected gradients: forces that bear full stress where neighbors are missing.  The
 // equations are in doc/src/Howto_sph.rst
@@ -73,16 +74,16 @@ struct SphBonds {
 
      L_i = - sum_j w_j v_ij (x) F x_ij,  H_i = - sum_j w_j x_ij (x) F x_ij
 
-   of the middle of the step, all of them, where x is x - dt/2 v: with F and w of the end density behind a shock is
-   wrong in proportion to the step.  v.x is 0 there where r stays, so density stays in whatever turns, however
+   of the middle of the step, all of them (but for h), where x is x - dt/2 v: with F and w of the end density behind a
+   shock is wrong in proportion to the step.  v.x is 0 there where r stays, so density stays in whatever turns, however
    few.  And, at the end of the step, M like H and nu_i = sum_j w_j W(r, h_i).  Sums of what hangs together with it
-   to gradv; of others that are pushed or come nearer to contact, and of rubble in rubble.
+   to gradv; of others that are pushed or come nearer, and of rubble in rubble, to touching.
 ------------------------------------------------------------------------- */
 
 template <class Kernel, int SCENE>
 static inline void sph_gradients(int i, const SphPlace &pi, const SphState *state, int n,
                                  const SphRows &laws, SphNear &near, SphGradV *gradv,
-                                 SphGradV *contact, SphGradV &total)
+                                 SphTouching *touching, SphGradV &total)
 {
   const int nlanes = sph_fill_up<Kernel>(i, pi, n, near);
   const SphTwoKernels<Kernel, SCENE> kernels(laws, pi);
@@ -119,8 +120,9 @@ static inline void sph_gradients(int i, const SphPlace &pi, const SphState *stat
       Vec share = bonds.bonded;
       if (any(share < 1.0)) {
         const Vec rdotv = d[0] * v[0] + d[1] * v[1] + d[2] * v[2];
-        share += bonds.touching(si, second[0], second[1], second[2], r, rdotv);
-        touches = true;
+        const Vec touching_share = bonds.touching(si, second[0], second[1], second[2], r, rdotv);
+        touches = touches || any(touching_share > 0.0);
+        share += touching_share;
       }
       *(Vec *) (near.bonded + m) = bonds.bonded;
       *(Vec *) (near.share + m) = share;
@@ -138,8 +140,8 @@ static inline void sph_gradients(int i, const SphPlace &pi, const SphState *stat
   // a record: rows of v (x) x, each with a product of H, which are off its diagonal; x (x) x on it, and W; M
 
   const Vec4 v_i = part(&si, 0);
-  const auto add = [&](bool bonded, SphGradV *to, SphGradV &sum) {
-    Vec4 own[6] = {};
+  Vec4 own[6] = {};
+  const auto add = [&](bool bonded, const auto &record) {
     for (int m = 0; m < n; m++) {
       if ((SCENE & SPH_BODIES) && (near.share[m] == 0.0 || (near.bonded[m] > 0.0) != bonded))
         continue;
@@ -157,15 +159,23 @@ static inline void sph_gradients(int i, const SphPlace &pi, const SphState *stat
                             end_i,    end_i},
                  on_j[6] = {middle_j, middle_j, middle_j, with_last(middle_j, near.nu_j[m]),
                             end_j,    end_j};
+      SphGradV *const other = record(j);
       for (int k = 0; k < 6; k++) {
         own[k] += on_i[k] * row[k];
-        part(to + j, k) += on_j[k] * row[k];
+        part(other, k) += on_j[k] * row[k];
       }
     }
-    for (int k = 0; k < 6; k++) part(&sum, k) += own[k];
   };
-  add(true, gradv, total);
-  if (touches) add(false, contact, contact[i]);
+  add(true, [=](int j) {
+    return gradv + j;
+  });
+  for (int k = 0; k < 6; k++) part(&total, k) += own[k];
+  if (!touches) return;
+  for (Vec4 &sum : own) sum = Vec4{};
+  add(false, [=](int j) {
+    return &touching->at(j).sums;
+  });
+  for (int k = 0; k < 6; k++) part(&touching->at(i).sums, k) += own[k];
 }
 
 /* ----------------------------------------------------------------------
@@ -235,7 +245,8 @@ static inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, 
         b[k] = laws.row_b[jtype];
       }
       if (any(share < 1.0)) {
-        const Vec push = records.push[i].p + read_column(records.push, j, &SphPush::p);
+        Vec push = zero + records.touching->of(i).push.p;
+        for (int k = 0; k < LANES; k++) push[k] += records.touching->of(j[k]).push.p;
         if (any(push > 0.0))
           share += push > 0.0 ? bonds.touching(si, second[0], c_j, rho_j, r, rdotv) : zero;
       }
@@ -306,8 +317,8 @@ static inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, 
       f_i += of_four(near.weight_i[m]) * sph_times(T_i, d);
       f_j += of_four(near.weight_j[m]) * sph_times(records.traction[j], d);
     } else if (near.weight_i[m] != 0.0 || near.weight_j[m] != 0.0) {
-      f_i += of_four(near.weight_i[m]) * sph_times(records.push[i], d);
-      f_j += of_four(near.weight_j[m]) * sph_times(records.push[j], d);
+      f_i += of_four(near.weight_i[m]) * sph_times(records.touching->of(i).push, d);
+      f_j += of_four(near.weight_j[m]) * sph_times(records.touching->of(j).push, d);
     }
     const Vec4 f = with_last(f_i + f_j, 0.0), v = v_i - part(&records.traction[j], 3);
     near.f[m] = f;

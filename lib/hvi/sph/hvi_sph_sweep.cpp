@@ -214,7 +214,7 @@ namespace {
       each_particle(
           work, FIRST, r.gradv,
           [&](int i, const SphPlace &pi, int n, const SphRows &laws, SphNear &near, SphGradV &sum) {
-            sph_gradients<Kernel, SCENE>(i, pi, r.state, n, laws, near, r.gradv, r.contact, sum);
+            sph_gradients<Kernel, SCENE>(i, pi, r.state, n, laws, near, r.gradv, r.touching, sum);
           });
     } else if constexpr ((SCENE & SPH_RIEMANN) != 0) {
       const SphState *const state = work.records.state;
