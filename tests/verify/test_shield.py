@@ -149,7 +149,7 @@ def undecided(result, reason):
 def test_a_shot_beside_wall_2(shield, tmp_path):
     """at 30 degrees the projectile's cloud flies to the side: a wall that holds the line of the shot only is not judged"""
     r = shield(wall(0.8), wall(0.8, gap=30, radius=16), angle=30, tstop=12)
-    said = undecided(r, "of the projectile passed beside wall 2")
+    said = undecided(r, "of the projectile's mass passed beside wall 2")
     frame = hvi.Dump(str(tmp_path / "run/shield.dump"))[0]
     middle, rear = (0.5 * 30.8e-3 + 2.5e-3) * np.tan(np.pi / 6), 31.6e-3
     f = frame.select((frame["type"] == 1) & (frame.v[:, 2] > 0) & (frame.x[:, 2] > rear))
@@ -275,7 +275,7 @@ def test_past_the_rim(shield, tmp_path):
     f = frame.select((frame["type"] == 1) & (frame.x[:, 2] > 30e-3) & (frame.v[:, 2] > 0))
     crossed = f.x - f.v * ((f.x[:, 2] - 30e-3) / f.v[:, 2])[:, None]
     assert len(f) > 0 and np.hypot(*crossed[:, :2].T).min() > 13e-3
-    undecided(r, "of the projectile passed beside wall 2")
+    undecided(r, "of the projectile's mass passed beside wall 2")
     assert r["wall2_passed_mass_mg"] == r["margins"]["apart_mass_mg"] == 0 and r["margins"]["missed_fraction"] > 1e-3
 
 
@@ -291,7 +291,7 @@ def test_a_bulge_is_no_hole(shield):
 def test_an_edge_that_comes_off(shield):
     """30 degrees, 100 mm: the shot strikes wall 2 13 mm from the edge that it was given, which breaks; that says nothing of a wall that goes on"""
     r = shield(wall(1), wall(3.2, gap=100, radius=45, spacings_mm=[1.6]), material="Al6061-T6", angle=30, D=6, v=6.5, dx=1, layers=[1, 3], tstop=40)
-    undecided(r, "of the projectile passed beside wall 2")
+    undecided(r, "of the projectile's mass passed beside wall 2")
     assert r["wall2_reached"] and r["margins"]["hole_mm"] == 0 and r["margins"]["apart_mass_mg"] > 0
 
 

@@ -37,7 +37,7 @@ UNKNOWN = ("spall that is still on its way: failed material inside of a wall tha
 MARGINS = {"hole_mm": "diameter of the hole, mm", "apart_mass_mg": "mass that has passed and is apart, mg", "bulge_over_thickness": "bulge over thickness of the wall",
            "deepest_failed_layer": "deepest layer with failed particles, from the front", "layers": "of so many layers", "rear_plastic_strain": "largest plastic strain of the rear layer",
            "push_percent": "change of the wall's momentum at the end, percent in a tenth of the time that is enough", "bulge_m_s": "growth of the bulge at the end, m/s", "still_to_come": "energy still on its way, of that of the shot",
-           "missed_fraction": "mass of the projectile that passed beside a wall"}
+           "missed_fraction": "mass that passed beside a wall, over that of the projectile"}
 ELEMENTS = (("conversion_heat_ratio", "energy that has become heat when elements became particles, of that of the shot", "below 1e-3"),
             ("hourglass_energy_ratio", "energy in hourglass forces of elements, of that of the shot", "below 1e-3"))
 WALL = {"layers": "layers of particles", "hole_mm": "hole, mm (of the same area; least to most)", "spall_mass_mg": "detached spall, mg", "apart_mass_mg": "all that passed and is apart, mg",

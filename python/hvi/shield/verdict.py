@@ -128,7 +128,7 @@ RULES = (
          lambda m: f"the bulge of wall {m.d} still moves, at {m.of('bulge_m_s'):.3g} m/s{m.ended}",
          lambda m: ({"settings": {"tstop": round(m.tstop, 1)}}, f"take settings: {{tstop: {m.tstop:.1f}}}")),
     Rule("missed", UNLESS, lambda m: m.missed > BESIDE, f"{BESIDE:g} of the projectile is more than a stray particle",
-         lambda m: f"{100 * m.missed:.2g} percent of the projectile passed beside wall {m.beside}",
+         lambda m: f"debris of {100 * m.missed:.2g} percent of the projectile's mass passed beside wall {m.beside}",
          lambda m: ({f"wall {m.beside}: radius_mm": wider(m)}, f"take radius_mm of {wider(m)} for it")),
     Rule("plugged", UNLESS, lambda m: m.plugged, "nothing came through: thin, not open",
          lambda m: f"wall {m.d} has less than half of its mass over a width of {m.hole:.4g} mm, but nothing came through",
