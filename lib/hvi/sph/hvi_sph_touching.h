@@ -29,42 +29,25 @@ class SphTouching {
     SphPush push;
   };
 
-  void start(int n)    // n particles, of which none touches anything
-  {
-    for (const int i : owners) slots[i] = NONE;
-    owners.clear();
-    records.clear();
-    if (n > (int) slots.size()) slots.resize(n, NONE);
-  }
+  void start(int n);    // n particles, of which none touches anything
 
   bool has(int i) const { return slots[i] != NONE; }
-  const Record &of(int i) const    // zeros if it has none
+  const Record &of(int i) const { return has(i) ? records[slots[i]] : NOTHING; }
+  Record &at(int i)    // valid until another particle begins
   {
-    static const Record nothing = {};
-    return has(i) ? records[slots[i]] : nothing;
-  }
-  Record &at(int i)    // valid until another particle gets its record
-  {
-    if (!has(i)) {
-      slots[i] = records.size();
-      records.push_back({});
-      owners.push_back(i);
-    }
-    return records[slots[i]];
+    return has(i) ? records[slots[i]] : begin(i);
   }
 
-  const std::vector<int> &particles() const { return owners; }
   static constexpr std::size_t BYTES = sizeof(int);    // of every particle
-  std::size_t bytes() const
-  {
-    return slots.capacity() * BYTES + owners.capacity() * sizeof(int) +
-        records.capacity() * sizeof(Record);
-  }
+  std::size_t bytes() const;
 
  private:
   static constexpr int NONE = -1;
+  static const Record NOTHING;
   std::vector<int> slots, owners;    // by particle: its record; by record: its particle
   std::vector<Record> records;
+
+  Record &begin(int i);    // out of line: sweeps are compiled for several kinds of machines
 };
 
 }    // namespace HVI
