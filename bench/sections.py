@@ -65,13 +65,21 @@ def headline(cases, points):
     return Table(["case", "error", "default", "its error", "core-s", "on the front", "cheapest run"], rows)
 
 
+def finer_text(case):
+    """what is known of a finer run, where that is a value whose error is the main one"""
+    crossing = case.get("crossing")
+    if not crossing or "finest" not in case:
+        return ""
+    return f" (finer: {number(100 * abs(case['finest']['numbers'][crossing['as']] / crossing['reference'] - 1))} %)"
+
+
 def experiments(cases, points):
     """the default of each case that was measured, but of single shots, whose verdicts are right or wrong by chance"""
     rows = []
     for name, runs in points.items():
         case, default = cases[name], next((p for p in runs if p.default and p.counts), None)
         if case["group"] == "measured" and "shots" not in case and default:
-            rows.append([case["title"], default.name, f"{error_text(default)} {unit_of(case)}", number(default.cost)])
+            rows.append([case["title"], default.name, f"{error_text(default)} {unit_of(case)}{finer_text(case)}", number(default.cost)])
     return Table(["measured", "settings", "mean error", "core-seconds"], rows)
 
 

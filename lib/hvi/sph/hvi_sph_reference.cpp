@@ -392,10 +392,10 @@ namespace {
   /* ----------------------------------------------------------------------
      Second sweep.  States extrapolated to half-way,
 
-       U_i' = U_i - L(a, a_i)/(2 (1 + 1.5 max(0, -a)/c)),  a_i = 2 r e.grad v_i.e - a,  p_i' = p_i - L(p_i - p_j, ...)/2,
+       U_i' = U_i - phi(a, a_i)/(2 (1 + 1.5 max(0, -a)/c)),  a_i = 2 r e.grad v_i.e - a,  p_i' = p_i - phi(p_i - p_j, ...)/2,
 
      meet with p* and U* of the acoustic Riemann problem.  With delta = (U* - (U_i + U_j)/2) e, volumes
-     U = V/w, G_i = w_j V_i/(n_i Omega_i) grad W_i, K = 2 U_i U_j/(U_i + U_j) (grad W_i + grad W_j):
+     Q = V/w, G_i = w_j V_i/(n_i Omega_i) grad W_i, K = 2 Q_i Q_j/(Q_i + Q_j) (grad W_i + grad W_j):
 
        f_i = - p* (G_i + G_j),   dE_i = p* (G_i.v_ij - (G_i + G_j).delta)
        drho_i/rho_i = G_i/V_i.v_ij - w_j K.delta/Omega_i
@@ -430,11 +430,11 @@ namespace {
 
     // with w_i = 1; n_j is in units of w_j
 
-    const double w_j = pair.weight, U = sj.w / w_j;
+    const double w_j = pair.weight, Q = sj.w / w_j;
     const Vector by_n_i = w_j * slopes_i.by_n_omega() * pair.grad_i();
     const Vector by_n_j = slopes_j.by_n_omega() / w_j * pair.grad_j();
     const Vector G_i = si.w * by_n_i, G_j = sj.w * by_n_j, G = G_i + G_j;
-    const Vector K = 2.0 * si.w * U / (si.w + U) * (pair.grad_i() + pair.grad_j());
+    const Vector K = 2.0 * si.w * Q / (si.w + Q) * (pair.grad_i() + pair.grad_j());
     const Vector stretch = acts || pair.vx < 0.0 ? pair.v : Vector(0.0, 0.0, 0.0);
 
     Change change;

@@ -142,7 +142,7 @@ HVI_INLINE void sph_impedances(double rho_i, double c_i, const Vec &rho_j, const
      f_i = - p* (G_i + G_j)
      dE_i = p* (G_i.v_ij - (G_i + G_j).delta)
      drho_i/rho_i = (G_i/V_i).v_ij - w_j K.delta/Omega_i
-     K = 2 U_i U_j/(U_i + U_j) (grad W(r, h_i) + grad W(r, h_j))
+     K = 2 Q_i Q_j/(Q_i + Q_j) (grad W(r, h_i) + grad W(r, h_j))
 
    Without delta, drho_i/rho_i is dn_i/n_i with the changes of h; what delta moves is
    antisymmetric, times the weights w.  These are constants of types, 1 but with SPH_SPACINGS.

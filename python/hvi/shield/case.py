@@ -44,7 +44,7 @@ WALL = {
 
 SETTINGS = {
     "quarter": Key(choice("auto", "yes", "no"), "auto", "model x > 0, y > 0 only; auto: if nothing speaks against it"),
-    "tstop": Key(number(least=0, sane=(0, 1e6)), 0, "us: the run ends here at the latest; 0: when the event is over, see Howto_shield"),
+    "tstop": Key(number(least=0, sane=(0, 1e6)), 0, "us: the latest end; 0: three times tstop of plan.yaml, see Howto_shield"),
     "kernel": Key(lammps_words, "cubic", "of pair_style hvi/sph"),
     "eta": Key(number(above=0, sane=(0.1, 10)), 1.2, "smoothing length in spacings"),
     "pair": Key(lammps_words, "dissipation riemann", "further words of pair_style hvi/sph"),
@@ -53,20 +53,20 @@ SETTINGS = {
     "fem": Key(lammps_words, "strain 0.3", "words of fix hvi/fem"),
     "C": Key(number(above=0, sane=(1e-3, 10)), 0.6, "of fix hvi/dt"),
     "skin": Key(number(above=0, sane=(1e-6, 100)), None, "of the neighbor lists, in spacings; default 0.7, of pair_coeff spacing"),
-    "back": Key(number(least=0, sane=(0, 1e7)), 0, "mm that are modelled in front of wall 1; 0: half of the way to the last wall, at least 20"),
+    "back": Key(number(least=0, sane=(0, 1e7)), 0, "mm that are modeled in front of wall 1; 0: half of the way to the last wall, at least 20"),
     "edge": Key(choice("free", "clamp", "absorb"), "free", "outermost rim of the walls"),
     "rim": Key(number(above=0, sane=(1e-6, 1e7)), 5, "its width, mm"),
-    "film": Key(number(sane=(1e-6, 1e6)), 0, "us between frames for pictures, the scene in 3D and movies; 0: 31 until the time that is enough, or as many as 500 MB hold; below 0: none"),
+    "film": Key(number(sane=(1e-6, 1e6)), 0, "us between frames for pictures, the scene in 3D and movies; 0: 31 frames until tstop of plan.yaml, at most 500 MB; below 0: none"),
     "layers": Key(several(number(whole=True, sane=(1, 1e6))), None, "of particles through each wall, a value for each"),
 }
 
 KEYS = {
     "projectile": Key(lambda reader: functools.partial(projectile.read, reader), REQUIRED, "what strikes the walls"),
     "speed_km_s": Key(number(), REQUIRED, f"at least {SLOWEST:g}, below {FASTEST:g}"),
-    "angle_deg": Key(number(least=0, below=90), 0.0, "from the normal of the walls; at 0 a quarter is modelled"),
+    "angle_deg": Key(number(least=0, below=90), 0.0, "from the normal of the walls; at 0 a quarter is modeled"),
     "walls": Key(lambda reader: functools.partial(read_walls, reader), REQUIRED, "a list, the first is struck first"),
     "spacings_mm": Key(several(number(above=0), distinct=True), REQUIRED, f"of particles: two or more for a verdict, the largest {RATIO:g} times the smallest at least"),
-    "shifts": Key(several(number(least=0, below=1), distinct=True), (0.0, 0.25), "of the projectile's lattice along z, parts of a spacing, or each another glass: what they change is chance"),
+    "shifts": Key(several(number(least=0, below=1), distinct=True), (0.0, 0.25), "of the projectile's lattice along z, in spacings (of a glass: its number); differences are chance"),
     "method": Key(choice(*METHODS, hint=MODEL), "sph", "of walls: sph, particles; hybrid, elements that become particles where they fail; tied, elements that never do"),
     "not_modelled": Key(several(word), (), "what the shield has and the model has not, [MLI, stuffing, honeycomb]: the verdict is undecided"),
     "settings": Key(lambda reader: functools.partial(read_settings, reader), {}, "of the model"),
@@ -179,7 +179,7 @@ class Case:
             wrong("speed_km_s", f"must be at least {SLOWEST:g} and below {FASTEST:g} km/s, not {self.speed_km_s:g}"
                   + (f"; is it in {'k' if self.speed_km_s < SLOWEST else ''}m/s?" if self.speed_km_s > 0 else ""))
         if len(self.walls) > MOST:
-            wrong("walls", f"{len(self.walls)} walls, {MOST} at most are modelled")
+            wrong("walls", f"{len(self.walls)} walls, {MOST} at most are modeled")
 
     def check(self, wrong):
         """What values say of each other, for a run"""

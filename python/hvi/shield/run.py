@@ -125,7 +125,7 @@ class Run:
 
     def dataframe(self):
         """A pandas.DataFrame with a row per moment, index "time (us)": for each wall the columns of compute hvi/wall, as "wall2 momentum (kg m/s)", in SI, of the whole shield also where a
-        quarter was modelled. HVIError if pandas, or a file of the run, is not there."""
+        quarter was modeled. HVIError if pandas, or a file of the run, is not there."""
         pandas = needed("pandas", "dataframe() needs")
         record = Record(self.folder)
         images, columns = 4 if str(self.settings["quarter"]) == "yes" else 1, {}
