@@ -29,9 +29,6 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr double COST_AT_REST =
-    0.17;    // of a particle that is inactive, over an active one
-
 // in the order of Value
 
 static const char *const NAMES[] = {
@@ -104,8 +101,7 @@ double ComputeHVIAtom::value_of(Value value, int i) const
   if (value == BONDS) return nbonds[i];
   if (value == ASLEEP) return store->fields.asleep(i) ? 1.0 : 0.0;
   if (value == BODY) return integrator->body(i);
-  if (value == COST)
-    return store->fields.asleep(i) || store->fields.is_idle(i) ? COST_AT_REST : 1.0;
+  if (value == COST) return store->fields.cost(i);
 
   const int itype = atom->type[i];
   const HVI::Material *const material = store->materials.of(itype);

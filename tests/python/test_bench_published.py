@@ -1,4 +1,4 @@
-"""The report in doc/speed-error.md, and the tables of README.md and doc/src/Howto_choose.rst, are those of the records in bench/records."""
+"""The report in doc/speed-error.md, and the tables of README.md and doc/src/tables/needs.inc, are those of the records in bench/records."""
 
 import pareto
 import pytest
@@ -21,7 +21,7 @@ def test_the_report_is_of_the_records(published):
         assert (ROOT / "doc" / report.FOLDER / name).exists()
 
 
-@pytest.mark.parametrize("page, words", [("README.md", ["--experiments"]), ("doc/src/Howto_choose.rst", ["--needs", "--rst"])])
+@pytest.mark.parametrize("page, words", [("README.md", ["--experiments"]), ("doc/src/tables/needs.inc", ["--needs", "--rst"])])
 def test_tables_of_pages_are_of_the_records(page, words, capsys):
     """python3 bench/report.py --records bench/records and these words"""
     assert report.main(["--records", *RECORDS, *words]) == 0

@@ -105,6 +105,10 @@ class SphFields {
   std::vector<int> embedded;
   std::vector<char> idle;
   bool is_idle(int i) const { return !idle.empty() && idle[i]; }
+  double cost(int i) const    // in a step, of an owned particle over an active one
+  {
+    return asleep(i) || is_idle(i) ? 0.17 : 1.0;
+  }
   std::vector<char> sleepers;    // owned particles that nothing happens to; empty: there are none
   double viscous_power = 0.0;    // heat of viscosity, of particles that fix hvi/sph integrates
   double plane_force[3] = {0, 0, 0};    // of mirror planes on the particles
