@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Strong and weak scaling on the cores that there are, and a model beyond them that is checked by counting.
 
-    bench/scaling.py --build build --out build/scaling [--only times,costs,follow,check,model] [--dx 0.5]
+    bench/scaling.py --build build --out build/scaling [--only times,costs,follow,check,model,columns] [--dx 0.5]
 
 times   examples/single-plate (a quarter) and bench/sph/in.solid on 1 and 2 ranks: wall times
 costs   processor time of a particle and of a ghost: in.solid, periodic, on 1 rank: the smaller, the more ghosts
@@ -9,6 +9,7 @@ follow  the plate on 1 rank: who is awake where, lists made, time of a particle-
 check   both scenes on 4, 8 and 16 ranks, whatever the number of cores: bytes and messages that Open MPI's monitoring of its
         messages (pml monitoring) counts, against what the model says; volumes, never times
 model   what these numbers make of large plates and cubes on many ranks; check and model need what costs and follow left in --out
+columns how evenly fixes that balance share the plate, on more ranks than cores, too: sums of costs, never times
 
 Only Open MPI can do the check.  The model is in functions without LAMMPS; tests/python/test_scaling_model.py tests them.
 """
@@ -150,14 +151,19 @@ def scene(name, variables):
     return text + "comm_modify vel no\nneigh_modify every 1 delay 0 check yes\nthermo_style custom step time\nthermo 1000000\n"
 
 
-def run(args, label, name, variables, tail, ranks, count=False):
-    """Run a scene; its log, and what messages were counted: (bytes, messages, reductions) of all ranks."""
+def run(args, label, name, variables, tail, ranks, count=False, changes=()):
+    """Run a scene, with changes of its text; its log, and what messages were counted: (bytes, messages, reductions) of all ranks."""
     folder = os.path.join(args.out, re.sub(r"[^\w.]+", "-", label))
     os.makedirs(folder, exist_ok=True)
     for old in glob.glob(os.path.join(folder, "*")):
         os.remove(old)
     with open(os.path.join(folder, "in"), "w") as f:
-        f.write(scene(name, variables) + tail)
+        text = scene(name, variables)
+        for old, new in changes:
+            if text.count(old) != 1:
+                sys.exit("%s: no line with %s" % (name, old))
+            text = text.replace(old, new)
+        f.write(text + tail)
     cmd = ["mpirun", "-np", str(ranks)] + (["--oversubscribe"] if ranks > 2 else [])
     if count:
         cmd += ["--mca", "pml_monitoring_enable", "2", "--mca", "pml_monitoring_enable_output", "3", "--mca", "pml_monitoring_filename", "mon"]
@@ -313,6 +319,30 @@ def check(args, data):
     data["check"] = rows
 
 
+BALANCES = {"grid, fix balance shift xy": (), "bisected, fix hvi/balance": (("processors   * * 1 ", "comm_style   tiled # "),
+                                                                               ("balance 50 1.05 shift xy 20 1.02 weight var cost", "hvi/balance 50 1.05")),
+            "bisected in three directions, fix balance rcb": (("processors   * * 1 ", "comm_style   tiled # "), ("shift xy 20 1.02", "rcb"))}
+
+
+def columns(args, data):
+    """Cost of the fullest rank over the mean, half-way between two looks of the fix that balances, over a run of the plate; ghosts at its end."""
+    rows = []
+    table("columns", "ranks", "fullest rank to the mean, least", "mean", "most", "ghosts over particles at the end, mean of ranks")
+    for ranks in args.columns:
+        for label, changes in BALANCES.items():
+            tail = "dump d all custom 25 dump.* proc c_cost\n" + UNTIL
+            found = read_log(run(args, "columns %s %d" % (label, ranks), "plate", plate_variables(args.dx), tail, ranks, changes=changes))
+            over = []
+            for path in glob.glob(os.path.join(args.out, re.sub(r"[^\w.]+", "-", "columns %s %d" % (label, ranks)), "dump.*")):
+                if int(path.rpartition(".")[2]) % 50:
+                    rank, cost = np.loadtxt(path, skiprows=9, unpack=True)
+                    loads = np.bincount(rank.astype(int), cost, ranks)
+                    over.append(loads.max() / loads.mean())
+            rows.append({"columns": label, "ranks": ranks, "least": min(over), "mean": float(np.mean(over)), "most": max(over), "ghosts": found["ghosts"] * ranks / found["atoms"]})
+            print("| %(columns)s | %(ranks)d | %(least).2f | %(mean).2f | %(most).2f | %(ghosts).2f |" % rows[-1], flush=True)
+    data["columns"] = rows
+
+
 def predict(name, variables, ranks, a, b, steps, builds, maps, steps_done):
     """Bytes and messages of a step of all ranks: with the ghosts that the log counts, and with those of the shape."""
     grid, lists = b["grid"], True
@@ -426,7 +456,7 @@ def model(args, data):
     data["model"] = rows
 
 
-STAGES = ("times", "costs", "follow", "check", "model")
+STAGES = ("times", "costs", "follow", "check", "model", "columns")
 
 
 def main():
@@ -435,6 +465,7 @@ def main():
     parser.add_argument("--out", default="build/scaling")
     parser.add_argument("--only", default=",".join(STAGES), help="stages, separated by commas")
     parser.add_argument("--dx", type=float, default=0.5, help="spacing of the plate, mm")
+    parser.add_argument("--columns", type=lambda text: [int(n) for n in text.split(",")], default=[4, 16, 64], help="numbers of ranks of that stage")
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--latency", type=float, default=2e-6, help="of a message and of a hop of a reduction, s")
     parser.add_argument("--bandwidth", type=float, default=25e9, help="of a node, bytes/s each way")
