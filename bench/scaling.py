@@ -319,6 +319,7 @@ def check(args, data):
     data["check"] = rows
 
 
+LOOKS = 10  # steps: at 0.5 mm what 50 are at a fifth of that
 BALANCES = {"grid, fix balance shift xy": (), "bisected, fix hvi/balance": (("processors   * * 1 ", "comm_style   tiled # "),
                                                                                ("balance 50 1.05 shift xy 20 1.02 weight var cost", "hvi/balance 50 1.05")),
             "bisected in three directions, fix balance rcb": (("processors   * * 1 ", "comm_style   tiled # "), ("shift xy 20 1.02", "rcb"))}
@@ -327,19 +328,21 @@ BALANCES = {"grid, fix balance shift xy": (), "bisected, fix hvi/balance": (("pr
 def columns(args, data):
     """Cost of the fullest rank over the mean, half-way between two looks of the fix that balances, over a run of the plate; ghosts at its end."""
     rows = []
-    table("columns", "ranks", "fullest rank to the mean, least", "mean", "most", "ghosts over particles at the end, mean of ranks")
+    table("columns", "ranks", "cost of fullest ranks to the mean, in all", "most", "ghosts over particles at the end")
     for ranks in args.columns:
         for label, changes in BALANCES.items():
-            tail = "dump d all custom 25 dump.* proc c_cost\n" + UNTIL
+            tail = "dump d all custom %d dump.* proc c_cost\n" % (LOOKS // 2) + UNTIL
+            changes = (*changes, ("balance 50", "balance %d" % LOOKS))
             found = read_log(run(args, "columns %s %d" % (label, ranks), "plate", plate_variables(args.dx), tail, ranks, changes=changes))
-            over = []
+            full, mean = [], []
             for path in glob.glob(os.path.join(args.out, re.sub(r"[^\w.]+", "-", "columns %s %d" % (label, ranks)), "dump.*")):
-                if int(path.rpartition(".")[2]) % 50:
+                if int(path.rpartition(".")[2]) % LOOKS:
                     rank, cost = np.loadtxt(path, skiprows=9, unpack=True)
                     loads = np.bincount(rank.astype(int), cost, ranks)
-                    over.append(loads.max() / loads.mean())
-            rows.append({"columns": label, "ranks": ranks, "least": min(over), "mean": float(np.mean(over)), "most": max(over), "ghosts": found["ghosts"] * ranks / found["atoms"]})
-            print("| %(columns)s | %(ranks)d | %(least).2f | %(mean).2f | %(most).2f | %(ghosts).2f |" % rows[-1], flush=True)
+                    full.append(loads.max())
+                    mean.append(loads.mean())
+            rows.append({"columns": label, "ranks": ranks, "over": sum(full) / sum(mean), "most": float((np.array(full) / mean).max()), "ghosts": found["ghosts"] * ranks / found["atoms"]})
+            print("| %(columns)s | %(ranks)d | %(over).2f | %(most).2f | %(ghosts).2f |" % rows[-1], flush=True)
     data["columns"] = rows
 
 
