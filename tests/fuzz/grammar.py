@@ -60,6 +60,7 @@ RULES = {
     "fix_hvi_johnson_cook": {
         "strength": pick("johnson-cook", "steinberg-guinan", "cowper-symonds", "zerilli-armstrong", "perfect", "none"), "damage": pick("yes", "no", "johnson-cook"),
         "spall": SPALL, "temperature": pick("energy", "work"), "thermal": YES, "melt": YES, "weibull": each(between(0.5, 20), pick("1", "4711")), "weibull_size": pick("0", "1")},
+    "fix_hvi_balance": {"axis": pick("x", "y", "z")},
     "fix_hvi_debris": {"every": pick("1", "5", "20"), "most": pick("2", "3")},
     "fix_hvi_dt": {"min": pick("0", "1e-12"), "max": pick("0.1", "1e-6"), "floor": pick("0", "0.1"), "every": pick("1", "2", "7")},
     "fix_hvi_fem": {
@@ -248,7 +249,8 @@ class Writer:
         groups = ["group one type 1", "group two type 2", "group none empty", "group moving dynamic all region half every 1" if rng.random() < 0.2 else "group moving region half"]
         early, late = [line for line in fixes if not line.startswith("@")], [line[1:] for line in fixes if line.startswith("@")]
         more = [f"fix step all hvi/dt {rng.choice(['0.1', '0.3', '0.6'])} {self.some('fix_hvi_dt', 2, {'max'})}" if rng.random() < 0.6 else f"timestep {self.dt:g}",
-                self.maybe(f"fix balance all balance {rng.choice([2, 5])} 1.0 shift {'xy' if self.kind == '2' else 'xyz'} 5 1.05", 0.3), self.maybe("fix hold two setforce 0 0 0", 0.0 if self.sane and late else 0.2), self.maybe("fix frozen two sph/stationary", 0.0 if self.sane else 0.05)]
+                self.maybe(f"fix balance all balance {rng.choice([2, 5])} 1.0 shift {'xy' if self.kind == '2' else 'xyz'} 5 1.05", 0.3),
+                self.maybe(f"fix columns all hvi/balance {rng.choice([2, 5])} 1.0 {self.some('fix_hvi_balance', 1)}", 0.0 if self.sane else 0.3), self.maybe("fix hold two setforce 0 0 0", 0.0 if self.sane and late else 0.2), self.maybe("fix frozen two sph/stationary", 0.0 if self.sane else 0.05)]
         if late:  # what reads data comes before groups and what looks on
             styles, early, more = [*styles, *early, *late[:1], *late[1:]], [], more
         block = [*early, *more, *computes]

@@ -24,12 +24,12 @@ NOT_HERE = (
     (r"^(apt-get|git)\b|pip install|-m venv|venv/bin/", "needs a network, or root; pip and venv: tests/python/test_package.py"),
     (r"CASE|mine\.csv|mine\.yaml|SEED|KIND|more\.csv|/path/to|\$HOME|\$HVI|\$SCRATCH|part\.inp|FILE", "names are the user's"),
     (r"debris\.dump|cloud1\.dump|film\.\d", "of the output of a run: tests/python/test_hvi_command.py, test_report.py have others"),
-    (r"-m hvi (report|movie|export|judge|compare|view runs/)", "of the folder of a run: tests/python/test_report.py, tests/verify/test_shield.py"),
-    (r"-m hvi (shield|limit|curve|shots|limits)\b(?!.*(--dry-run|--equations|--write))", "minutes or more: short ones in tests/verify/test_shield.py, tests/python"),
-    (r"-m hvi calibrate \S+\.yaml", "of the runs of a search: tests/python/test_calibration.py"),
-    (r"-m hvi doctor|build/hvi doctor", "tests/python/test_doctor.py"),
+    (r"hvi (report|movie|export|judge|compare|view runs/)", "of the folder of a run: tests/python/test_report.py, tests/verify/test_shield.py"),
+    (r"hvi (shield|limit|curve|shots|limits)\b(?!.*(--dry-run|--equations|--write))", "minutes or more: short ones in tests/verify/test_shield.py, tests/python"),
+    (r"hvi calibrate \S+\.yaml", "of the runs of a search: tests/python/test_calibration.py"),
+    (r"hvi doctor", "tests/python/test_doctor.py"),
     (r"(my|thick)\.yaml", "of the tutorial: tests/python/test_tutorial.py"),
-    (r"-m hvi body|--fill glass|--size", "some seconds each: tests/python/test_body.py"),
+    (r"hvi body|--fill glass|--size", "some seconds each: tests/python/test_body.py"),
     (r"\blmp\b.*-in ", "of an input of the page, or of hours; inputs of pages: tests/python/test_docs.py, test_tutorial.py"),
     (r"python3 (bench|tests)/", "minutes or more: make bench, make verify, make fuzz"),
     (r"^(cd|export)\b", "for the lines below it"),
@@ -177,6 +177,9 @@ def test_lines_run(tmp_path, lmp_exe):
     """all others as they stand, in the order of a page, in a folder that has the folders of the source tree"""
     assert len(HERE) >= 10
     environment = {**os.environ, "HVI_LMP": str(lmp_exe), "PYTHONPATH": str(ROOT / "python"), "LAMMPS_POTENTIALS": str(ROOT / "potentials"), "PATH": f"{tmp_path / 'bin'}:{os.environ['PATH']}"}
+    (tmp_path / "build").mkdir()
+    (tmp_path / "build/hvi").write_text('#!/bin/sh\nexec python3 -m hvi "$@"\n')  # the tree of the tests may have another build folder, or none
+    (tmp_path / "build/hvi").chmod(0o755)
     for link, target in (("examples", ROOT / "examples"), ("potentials", ROOT / "potentials"), ("python", ROOT / "python"), ("bin/python3", sys.executable)):
         (tmp_path / link).parent.mkdir(exist_ok=True)
         (tmp_path / link).symlink_to(target)
@@ -184,7 +187,7 @@ def test_lines_run(tmp_path, lmp_exe):
         folder = tmp_path / name.partition(".")[0].replace("/", "-")
         if not folder.is_dir():
             folder.mkdir()
-            for link in ("examples", "potentials", "python"):
+            for link in ("examples", "potentials", "python", "build"):
                 (folder / link).symlink_to(tmp_path / link)
         done = subprocess.run(["bash", "-c", line], cwd=folder, env=environment, text=True, capture_output=True, timeout=900)
         assert done.returncode == 0, f"{name}: {line}: {done.stdout[-1000:]}{done.stderr[-1000:]}"

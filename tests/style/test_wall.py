@@ -204,10 +204,12 @@ def test_a_wall_that_is_drilled_between_runs(walls):
 
 
 def test_hybrid(walls):
-    """under pair_style hybrid/overlay, where LAMMPS's list has another order than the rows of fix hvi/lists, the rows are the same"""
-    text = scene().replace("pair_style hvi/sph cubic dissipation riemann", "pair_style hybrid/overlay zero 1e-4 hvi/sph cubic dissipation riemann")
+    """under pair_style hybrid/overlay, where LAMMPS's list has another order than the rows of fix hvi/lists, the rows are the same.  The ball comes
+    a little aslant: in the symmetric scene particles lie on borders of the hole's sectors, to round-off"""
+    aslant = scene().replace("velocity ball set 0 0 3000", "velocity ball set 37 11 3000")
+    text = aslant.replace("pair_style hvi/sph cubic dissipation riemann", "pair_style hybrid/overlay zero 1e-4 hvi/sph cubic dissipation riemann")
     text = text.replace("pair_coeff * * file", "pair_coeff * * zero\npair_coeff * * hvi/sph file")
-    equal(walls(text + PRINT), walls(scene() + PRINT), 1e-9)
+    equal(walls(text + PRINT), walls(aslant + PRINT), 1e-9)
 
 
 def test_quarter_is_a_quarter(walls):
