@@ -162,7 +162,7 @@ class FixHVISPH :
   std::vector<double> setup_rho;       // in a setup: of the rates that forces are asked for
   bool in_setup = false;               // in it: rho and esph of particles are these
   int stepping;                        // in a run, so that the state is the one the last step left
-  int wallbit;      // groups of particles that are meant to be integrated by nobody
+  int wallbit;                         // groups of particles that no fix is meant to integrate
   int follow;       // particles outside the group are moved by fixes that do not know vest
   int checked;      // warned of what may be wrong: once per run, not again with pre no
   double quiet;     // parts of the speed of sound

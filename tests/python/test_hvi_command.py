@@ -103,7 +103,7 @@ def test_howto(files, root):
 
     text = (root / "doc" / "src" / "Howto_python.rst").read_text()
     assert sorted(re.findall(r"^``(\w+)``  ", text, re.M)) == sorted(cli.COMMANDS)
-    lines = re.findall(r"^   build/hvi ((?!--help).*)$", text.replace("\\\n", " "), re.M)
+    lines = re.findall(r"^   python3 -m hvi ((?!--help).*)$", text.replace("\\\n", " "), re.M)
     assert len(lines) >= 7
     for line in lines:
         cli.parse(shlex.split(line))
