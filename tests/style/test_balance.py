@@ -62,12 +62,15 @@ def test_columns_of_equal_cost(shot):
         assert np.abs(placed(frame, name) - placed(one, name)).max() < 1e-9 * np.abs(one[name]).max(), name
 
 
-@pytest.mark.parametrize("axis", "xyz")
-def test_along_an_axis(lmp, root, tmp_path, axis):
+@pytest.mark.parametrize("axis, newton, nranks", [("x", "on", 4), ("y", "off", 3), ("z", "on", 4), ("z", "off", 4)])
+def test_along_an_axis(lmp, root, tmp_path, axis, newton, nranks):
+    """newton on and off; the books are those of one rank"""
     text = (root / "tests/inputs/in.solid").read_text().replace("boundary s s s", "boundary s s s\ncomm_style tiled").replace("run 30", f"fix share all hvi/balance 5 1.0 axis {axis}\n")
-    lmp(text + OUT.format("d") + "run 20\nrun 0\n", nranks=4, cwd=tmp_path, env={"LAMMPS_POTENTIALS": str(root / "potentials")})
+    text = text.replace("newton on", f"newton {newton}") + OUT.format("d") + "run 20\nrun 0\n"
+    one, several = (lmp(text, nranks=n, cwd=tmp_path, env={"LAMMPS_POTENTIALS": str(root / "potentials")}).runs[0] for n in (1, nranks))
+    assert all(np.allclose(one[f"c_book[{k}]"], several[f"c_book[{k}]"], rtol=1e-9, atol=0) for k in (1, 9))
     frame = read_dump(tmp_path / "d")
-    assert len(np.unique(frame["c_rank"])) == 4
+    assert len(np.unique(frame["c_rank"])) == nranks
     assert apart(frame, "xyz".replace(axis, "")) and not apart(frame, axis)
     cost = loads(frame)
     assert cost.max() < 1.05 * cost.mean()
