@@ -11,14 +11,16 @@ import csv
 import os
 import pathlib
 import subprocess
+import sys
 import time
 
-import hvi
-from hvi import tables
-from hvi.analysis import crater
-from hvi.material.library import path_of
-from hvi.shield import ble
-from hvi.version import ROOT
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import hvi  # noqa: E402
+from hvi import tables  # noqa: E402
+from hvi.analysis import crater  # noqa: E402
+from hvi.material.library import path_of  # noqa: E402
+from hvi.shield import ble  # noqa: E402
+from hvi.version import ROOT  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 TABLE = HERE / "craters.csv"

@@ -215,6 +215,29 @@ def test_limit_is_the_mean_over_shifts():
     assert records(*ROWS, *shifted).limits["A"].limit == pytest.approx(2.2)
 
 
+@pytest.mark.parametrize("km_s, near", [
+    (6.0, {"A": {"km_s": 5.0, "errors_percent": [-18, 4]}, "B": {"km_s": 6.5, "errors_percent": [60]}}), (6.5, {"B": {"km_s": 6.5, "errors_percent": [60]}, "C": {"km_s": 7.0, "errors_percent": [0]}}),
+    (8.0, {"C": {"km_s": 7.0, "errors_percent": [0]}}), (4.0, {"A": {"km_s": 5.0, "errors_percent": [-18, 4]}})])
+def test_limits_near(km_s, near):
+    """of the shields at the next speeds, each shift: A of 2.4 to 2.6 mm has 2 and 2.7, B of 1 to 1.1 has 2"""
+    found = records(*ROWS, dataclasses.replace(ROWS[0], shift=0.25, limit=2.7)).near(km_s)
+    assert found == near
+
+
+def test_limits_near_are_said(case, tmp_path):
+    """of a verdict and of a limit; a computed limit that is thinner than the tested one is in capitals; results of before have none"""
+    of = records(*ROWS, LARGE)
+    line = "          computed limits of the shields tested at the next lower and higher speed, each shift: A (5 km/s) 18 % UNSAFE; B (6.5 km/s) 60 % safe"
+    found = of.of_verdict(case(), both(result(), result()))
+    assert calibration.said_of_verdict(found)[-1] == line
+    limit = of.of_limit(Limit(case(), tmp_path, "thickness2"), {"limit": 1.6, "undecided": [1.5, 1.7], "change_by_spacing": None, "on": "thickness2"})
+    assert calibration.said_of_limit(limit, "mm")[-1] == line
+    del found["near"]
+    assert len(calibration.said_of_verdict(found)) == 2
+    own = of.of_verdict(case(CASE.replace("speed_km_s: 6", "speed_km_s: 5").replace("gap_mm: 60", "gap_mm: 70")), both(result(), result()))
+    assert list(own["near"]) == ["B"]  # not the shield itself
+
+
 # ---------------------------------------------------------------------- the file
 def test_the_file_of_the_package():
     """what it says of itself is so"""

@@ -56,8 +56,9 @@ def check(folder, words):
     if words[0].endswith("lmp"):
         assert (folder / words[0]).resolve() == ROOT / "build" / "lmp", where
         check_variables(folder, words, where)
-    elif words[:3] == ["python3", "-m", "hvi"]:
-        cli.parse(words[3:])
+    elif words[0].endswith("build/hvi"):
+        assert os.path.normpath(folder / words[0]) == str(ROOT / "build" / "hvi"), where  # a link
+        cli.parse(words[1:])
     elif words[0] in ("python3", "sh"):
         assert (folder / words[1]).is_file(), where
         for word in words[2:]:
@@ -99,7 +100,7 @@ def test_short():
 
 
 @pytest.mark.parametrize("wrong, name", [("../../build/lmp -in in.nothing", "layered-shock"), ("lmp -in in.layers", "layered-shock"),
-                                         ("../../build/lmp -in in.layers -var gaps 1", "layered-shock"), ("../../build/lmp -in in.layers &", "layered-shock"), ("python3 draw.py", "layered-shock"),
+                                         ("../../build/lmp -in in.layers -var gaps 1", "layered-shock"), ("../../build/lmp -in in.layers &", "layered-shock"), ("python3 draw.py", "layered-shock"), ("python3 -m hvi measure .", "spall"), ("../build/hvi measure .", "spall"),
                                          ("export LAMMPS_POTENTIALS=$PWD/potentials", "spall")])
 def test_a_wrong_one_is_found(wrong, name):
     with pytest.raises(AssertionError):
@@ -111,7 +112,7 @@ def test_quick_ones_run(lmp_exe, tmp_path, name):
     """in a copy of the folder beside a build, with the program and the Python of these tests"""
     folder = tmp_path / "examples" / name
     shutil.copytree(ROOT / "examples" / name, folder, ignore=shutil.ignore_patterns("result.yaml", "runs"))
-    for link, target in (("build/lmp", lmp_exe), ("potentials", ROOT / "potentials"), ("python", ROOT / "python"), ("tests", ROOT / "tests"),
+    for link, target in (("build/lmp", lmp_exe), ("build/hvi", ROOT / "python/bin/hvi"), ("potentials", ROOT / "potentials"), ("python", ROOT / "python"), ("tests", ROOT / "tests"),
                          ("bin/python3", sys.executable)):
         (tmp_path / link).parent.mkdir(exist_ok=True)
         (tmp_path / link).symlink_to(target)

@@ -11,7 +11,7 @@ import time
 import hvi
 import pytest
 import yaml
-from hvi.jobs import engine
+from hvi.jobs import engine, runs
 
 # some hundred particles; result.yaml as in the examples; mode: good, or a way to fail; from: what it goes on from
 INPUT = """variable n index 5
@@ -166,6 +166,43 @@ def test_time_limit_and_interrupt(sweep, folder):
     assert list(table(folder)) == ["mode-good"]  # the table is written all the same
     asleep = [p for p in os.listdir("/proc") if p.isdigit() and working_folder(p) == str(folder / "runs/tiny/mode-slow")]
     assert asleep == []  # no rank is left behind
+
+
+def test_run_that_writes_nothing(folder, monkeypatch, capsys):
+    """is told of, once: files from before its start do not count"""
+    job = engine.Job(engine.Input(folder / "in.tiny"), "quiet", {}, folder / "job")
+    job.folder.mkdir()
+
+    def said(launched, *files):
+        now = time.time()
+        job.launched = now - launched
+        for name, age in files:
+            (job.folder / name).touch()
+            os.utime(job.folder / name, (now - age, now - age))
+        return job.silence()
+
+    assert said(4000, ("in.tiny", 4001)) == ""  # nothing runs
+    job.process = object()
+    assert said(50) == "" and said(100, ("in.tiny", 101), ("output.txt", 1)).startswith("LAMMPS has not begun after 2 min")
+    assert said(100, ("log.lammps", 99)) == said(4000, ("in.tiny", 4001), ("log.lammps", 1700)) == "" and said(4000, ("log.lammps", 3000)).startswith("nothing written for 50 min")
+
+    class Place:
+        here, looks = True, 0
+
+        def begin(self, jobs, say):
+            jobs[0].launched = 0.0
+
+        def ended(self, jobs, say):
+            self.looks += 1
+            return jobs[:] if self.looks > 3 else []
+
+        def stop(self, jobs):
+            pass
+
+    monkeypatch.setattr(runs, "WATCH", 0)
+    job.start = time.monotonic()
+    assert runs.run(Place(), 1, [job], "test") == []
+    assert (text := capsys.readouterr().out).count("quiet: nothing written for 50 min") == 1 and f"see {job.folder}" in text
 
 
 def working_folder(process):

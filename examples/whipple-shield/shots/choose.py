@@ -1,15 +1,17 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """python3 choose.py > chosen.yaml: which shots are run here, by cost and equations alone, from shots.csv and plans.csv.
 
-plans.csv: python3 -m hvi shots all.yaml --dry-run --ranks 1, before any of them was run.
+plans.csv: hvi shots all.yaml --dry-run --ranks 1, before any of them was run.
 """
 
 import bisect
 import csv
 import math
 import pathlib
+import sys
 
-from hvi.shield import shots
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "python"))
+from hvi.shield import shots  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 MOST, MOST_RARE = 120e6, 450e6  # particle-steps of the plan, 3 and 10 minutes of an idle core; the latter for oblique shots and thin bumpers

@@ -28,6 +28,7 @@ from ..material.library import potentials
 
 RESULT, LAST = "result.yaml", "package_version"  # what a run is for, and the last key in it: it is there if the file is complete
 PATIENCE = 10  # seconds that mpirun has to end its ranks
+BEGINS, SILENT = 60, 1800  # seconds after which it is said that LAMMPS has not begun, or has written nothing
 KILLED = {-signal.SIGTERM, -signal.SIGKILL, 128 + signal.SIGTERM, 128 + signal.SIGKILL}  # exit statuses of mpirun
 DAY = 86400  # seconds
 FULL = 100_000  # bytes: less is a full disk
@@ -174,6 +175,7 @@ class Job:
             self.record["files"] = files
         self.process, self.lock, self.start, self.problem, self.advice, self.asked = None, None, None, "", "", False
         self.resumed, self.saved = False, []  # if it went on, and from what
+        self.launched = 0.0  # time of the last call of LAMMPS
         self.began = 0  # when the call began that this job is of, which its engine says (ns)
         self.batch = ""  # of Slurm's jobs, that it was submitted in; "": runs without Slurm
 
@@ -305,6 +307,7 @@ class Job:
         """more: what it prints is added to what there is"""
         environment = {**os.environ, "LAMMPS_POTENTIALS": os.pathsep.join(map(str, potentials()))}
         with open(self.folder / "output.txt", "a" if more else "w") as out:
+            self.launched = time.time()
             self.process = subprocess.Popen(command(self), cwd=self.folder, stdin=subprocess.DEVNULL, stdout=out, env=environment,
                                             stderr=subprocess.STDOUT, start_new_session=True, pass_fds=[self.lock])
 
@@ -388,6 +391,18 @@ class Job:
     def stage(self):
         """(part of the run that is done, words on it); here nothing is known of it"""
         return 0.0, ""
+
+    def silence(self):
+        """what is said of a run that writes nothing, "" of others: mpirun waits for ever for a rank that was killed while others were being started"""
+        if self.process is None:
+            return ""
+        last, now = 0.0, time.time()
+        for path in self.folder.glob("*"):
+            with contextlib.suppress(OSError):  # removed just now
+                last = max(last, path.stat().st_mtime if path.name != "output.txt" else 0.0)
+        if last < self.launched:
+            return f"LAMMPS has not begun after {duration(now - self.launched)}: if a rank was killed, mpirun may wait for it for ever: Ctrl-C, and call again" if now - self.launched > BEGINS else ""
+        return f"nothing written for {duration(now - last)}, as large runs may: if no rank is at work, Ctrl-C, and call again" if now - last > SILENT else ""
 
     def last_lines(self, n=8):
         """the end of what LAMMPS and mpirun said, from the first error on if there is one"""

@@ -21,6 +21,7 @@ from . import engine, lammps, slurm
 
 OF_SLURM = ("nodes", "time", "partition", "account", "sbatch", "poll")  # options
 RANKS = 2  # of a run, by default
+WATCH = 10  # seconds between looks for runs that write nothing
 
 
 class Local:
@@ -87,7 +88,7 @@ def run(place, most, jobs, what, more=lambda job: []):
     Ctrl-C stops what runs and is passed on.
     """
     waiting, running, failed, over, work = list(jobs), [], [], 0, 0.0
-    start, look = time.monotonic(), 0.0
+    start, look, watch, told = time.monotonic(), 0.0, 0.0, set()
     form = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}{postfix}"
     with progress.bar(1, what, sys.stdout, bar_format=form) as bar:
         try:
@@ -112,6 +113,12 @@ def run(place, most, jobs, what, more=lambda job: []):
                     left = sum(j.weight for j in waiting + running)
                     bar.write(f"[{over}/{over + len(waiting) + len(running)}] {_line(job)}"
                               + (f"   about {engine.duration((time.monotonic() - start) / work * left)} left" if left else ""))
+                if place.here and time.monotonic() > watch:
+                    watch = time.monotonic() + WATCH
+                    for job in running:
+                        if job not in told and (words := job.silence()):
+                            told.add(job)
+                            bar.write(f"{job.name}: {words}; see {job.folder}")
                 if not isinstance(bar, progress.Silent) and time.monotonic() > look:
                     stages = [job.stage() for job in running]
                     bar.total = work + sum(j.weight for j in waiting + running)

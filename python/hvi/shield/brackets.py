@@ -45,9 +45,13 @@ class Bracket:
         return dataclasses.replace(self.shot, **{ON[self.on]: value})
 
     def error(self, limit):
-        """ln(limit / nearest edge), 0 within the bracket; above 0 is safe: a thicker wall, a smaller projectile than measured"""
-        edge = min(max(limit, self.low), self.high)
-        return (1 if self.on == "wall" else -1) * math.log(limit / edge)
+        return error(self.on, self.low, self.high, limit)
+
+
+def error(on, low, high, limit):
+    """ln(limit / nearest edge of a bracket), 0 within it; above 0 is safe: a thicker wall, a smaller projectile than measured"""
+    edge = min(max(limit, low), high)
+    return (1 if on == "wall" else -1) * math.log(limit / edge)
 
 
 def read_list(path):

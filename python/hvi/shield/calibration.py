@@ -57,6 +57,10 @@ class Run:
         """how near it was, for comparing: all that hold are below all that fail"""
         return (1, getattr(self, APART)) if self.verdict == "fails" else (0, getattr(self, by))
 
+    def error(self):
+        """of the computed limit, see brackets.error()"""
+        return brackets.error(self.on, self.low, self.high, self.limit)
+
     def needed(self):
         """(least, most) by which the computed limit must be exceeded so that the measured one is: a wall by so many times, a diameter by 1 over that"""
         return tuple(sorted((edge / self.limit) ** (1 if self.on == "wall" else -1) for edge in (self.low, self.high)))
@@ -131,11 +135,23 @@ class Records:
     @property
     def limits(self):
         """{name: a run with the geometric mean of the limits over shifts}, of brackets"""
+        return {name: dataclasses.replace(of[0], limit=math.prod(run.limit for run in of) ** (1 / len(of))) for name, of in self.limits_by_shift.items()}
+
+    @property
+    def limits_by_shift(self):
+        """{name: [a run with the limit of each shift, ...]}, of brackets"""
         found = {}
         for run in self.runs:
             if run.limit == run.limit:
                 found.setdefault(run.shield, {})[run.shift] = run
-        return {name: dataclasses.replace(next(iter(of.values())), limit=math.prod(run.limit for run in of.values()) ** (1 / len(of))) for name, of in found.items()}
+        return {name: list(of.values()) for name, of in found.items()}
+
+    def near(self, km_s):
+        """{name: {"km_s": speed, "errors_percent": [of each shift]}}: computed limits beside measured ones, of the shields whose speeds are next to this one, below and above"""
+        of = self.limits_by_shift
+        below, above = ([name for name, runs in of.items() if side(runs[0].km_s)] for side in (lambda v: v <= km_s, lambda v: v > km_s))
+        names = ([max(below, key=lambda name: of[name][0].km_s)] if below else []) + ([min(above, key=lambda name: of[name][0].km_s)] if above else [])
+        return {name: {"km_s": of[name][0].km_s, "errors_percent": [round(100 * run.error()) for run in of[name]]} for name in names}
 
     def finest(self):
         """those of the most particles across"""
@@ -243,7 +259,7 @@ class Records:
         worst = max(runs, key=lambda run: run.severity(by))
         margin = APART if worst.verdict == "fails" else by
         return {"verdict": worst.verdict, "margin": margin, "value": getattr(worst, margin), **records.votes(worst.severity(by), by), **records.basis(),
-                "score": self.head["scores_by_other_reports"][by]}
+                "near": records.near(case.speed_km_s), "score": self.head["scores_by_other_reports"][by]}
 
     def of_limit(self, limit, answer):
         """between which values the measured limit is, as those of the records are, and how many of their shields hold with the case's own value"""
@@ -262,7 +278,7 @@ class Records:
         change, ends = abs(answer["change_by_spacing"] or 0), answer["undecided"]
         numeric = max(min(ends[0], computed - change), 0), max(ends[1], computed + change)  # steps, shifts, spacings
         return {"measured_over_computed": [round(value, 4) for value in times], "band": [float(f"{end * by:.4g}") for end, by in zip(numeric, times)],
-                "own": own, "margin": round(margin, 4), **counted(votes), **records.basis(), "in_the_band_of_the_others": self.head["limits_in_the_band_of_the_others"]}
+                "own": own, "margin": round(margin, 4), **counted(votes), **records.basis(), "near": records.near(case.speed_km_s), "in_the_band_of_the_others": self.head["limits_in_the_band_of_the_others"]}
 
 
 def read(path=None):
@@ -311,6 +327,15 @@ def tests(found):
             f"({found['runs']} runs, records of {found['records'].partition(':')[0]}{left})")
 
 
+def said_of_near(near):
+    """lines of Records.near()"""
+    def side(percent):
+        return "right" if not percent else f"{abs(percent)} % {'safe' if percent > 0 else 'UNSAFE'}"
+
+    each = "; ".join(f"{name} ({of['km_s']:g} km/s) {', '.join(map(side, of['errors_percent']))}" for name, of in near.items())
+    return [f"          computed limits of the shields tested at the next lower and higher speed, each shift: {each}"] if near else []
+
+
 def said_of_verdict(found):
     """lines of of_verdict(), or of the reason why there is nothing"""
     if isinstance(found, str):
@@ -318,7 +343,7 @@ def said_of_verdict(found):
     apart = f"{found['value']:.2g} of the projectile's mass apart behind the wall"
     margin = apart if found["margin"] == APART else f"a wall that {found['verdict']} with {MARGINS[found['margin']].format(found['value'])}"
     worth = f"judged by other reports, such shares are off by {found['score']:.2g} in the mean square, a coin by 0.25"
-    return [f"how sure: with {margin}, {tests(found)}", f"          {worth}{': the margin says nothing' if found['score'] >= 0.25 else ''}"]
+    return [f"how sure: with {margin}, {tests(found)}", f"          {worth}{': the margin says nothing' if found['score'] >= 0.25 else ''}", *said_of_near(found.get("near", {}))]
 
 
 def said_of_limit(found, unit):
@@ -328,4 +353,5 @@ def said_of_limit(found, unit):
     (least, most), (low, high) = found["measured_over_computed"], found["band"]
     return [f"how sure: measured limits were {least:.2f} to {most:.2f} times computed ones; with that and the band above, {low:g} to {high:g} {unit}",
             f"          of the records themselves, {found['in_the_band_of_the_others']} measured limits overlap such a band",
-            f"          {found['own']:g} {unit}, of the case, is on the {'safe' if found['margin'] >= 1 else 'unsafe'} side by a factor of {found['margin']:.2f}: with it {tests(found)}"]
+            f"          {found['own']:g} {unit}, of the case, is on the {'safe' if found['margin'] >= 1 else 'unsafe'} side by a factor of {found['margin']:.2f}: with it {tests(found)}",
+            *said_of_near(found.get("near", {}))]
