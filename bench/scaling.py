@@ -6,7 +6,7 @@
 times   examples/single-plate (a quarter) and bench/sph/in.solid on 1 and 2 ranks: wall times
 costs   processor time of a particle and of a ghost: in.solid, periodic, on 1 rank: the smaller, the more ghosts
 follow  the plate on 1 rank: who is awake where, lists made, time of a particle-step
-check   both scenes on 4, 8 and 16 ranks, whatever the number of cores: bytes and messages that Open MPI's monitoring of its
+check   both scenes on 4, 8 and 16 ranks, the plate in columns of a grid and bisected, whatever the number of cores: bytes and messages that Open MPI's monitoring of its
         messages (pml monitoring) counts, against what the model says; volumes, never times
 model   what these numbers make of large plates and cubes on many ranks; check and model need what costs and follow left in --out
 columns how evenly fixes that balance share the plate, on more ranks than cores, too: sums of costs, never times
@@ -14,7 +14,9 @@ columns how evenly fixes that balance share the plate, on more ranks than cores,
 Only Open MPI can do the check.  The model is in functions without LAMMPS; tests/python/test_scaling_model.py tests them.
 """
 import argparse
+import copy
 import glob
+import itertools
 import json
 import math
 import os
@@ -35,7 +37,8 @@ FORWARD, REVERSE, BORDER = 8, 5, 12
 REDUCTIONS = 2  # of a step over all ranks: hvi/lists, hvi/dt
 ATOM_BYTES = 156 + 28  # of atom_style sph and hvi/lists, owned particles and ghosts
 BALANCE_REDUCTIONS = 30  # of fix balance shift: 18 and 26 were counted on 4 and 16 ranks
-BUILD_REDUCTIONS = 3  # of new lists: shrink-wrapped box, ranks that ghosts come from (of unequal domains), narrowest domain
+TOUCH = 1e-9  # m: nothing is between what is so near
+BUILD_REDUCTIONS = {"grid": 4, "bisected": 9}  # of new lists, counted: shrink-wrapped box, ranks that ghosts come from (of unequal domains), narrowest domain; layout of tiles
 
 
 # ---------------------------------------------------------------------- the model, without LAMMPS
@@ -73,28 +76,65 @@ def list_messages(ranks):
 
 
 class Map:
-    """Particles over the x-y plane as a density in bins: how many there are in any rectangle."""
+    """Particles over the x-y plane as a density in bins: how many there are in any column; columns are rows of x from, x to, y from, y to."""
 
     def __init__(self, x, y, weight, edges):
         self.edges = edges
         table = np.histogram2d(x, y, bins=(edges, edges), weights=weight)[0]
         self.cumulated = np.pad(table.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
 
+    def drifted(self, other, share):
+        """so far on the way to the other map, at least 0 anywhere"""
+        made = copy.copy(self)
+        table = [np.diff(np.diff(of.cumulated, axis=0), axis=1) for of in (self, other)]
+        made.cumulated = np.pad(np.maximum(table[0] + share * (table[1] - table[0]), 0.0).cumsum(0).cumsum(1), ((1, 0), (1, 0)))
+        return made
+
     def below(self, x, y):
-        """how many have smaller x and y, linear within bins; of all combinations of the two arrays"""
+        """how many have smaller x and y, linear within bins; of arrays of one shape"""
         def place(values):
             at = np.clip(np.interp(values, self.edges, np.arange(len(self.edges))), 0, len(self.edges) - 1)
             low = np.minimum(at.astype(int), len(self.edges) - 2)
             return low, at - low
-        (i, u), (j, v) = place(np.asarray(x)), place(np.asarray(y))
-        c, u, v = self.cumulated, u[:, None], v[None, :]
-        return ((1 - u) * (1 - v) * c[np.ix_(i, j)] + u * (1 - v) * c[np.ix_(i + 1, j)]
-                + (1 - u) * v * c[np.ix_(i, j + 1)] + u * v * c[np.ix_(i + 1, j + 1)])
+        (i, u), (j, v) = place(x), place(y)
+        c = self.cumulated
+        return (1 - u) * (1 - v) * c[i, j] + u * (1 - v) * c[i + 1, j] + (1 - u) * v * c[i, j + 1] + u * v * c[i + 1, j + 1]
 
-    def columns(self, xcuts, ycuts, margin=0.0):
-        """how many are in each column of a grid, made wider on all sides by margin"""
-        b = [self.below(x, y) for x in (xcuts[1:] + margin, xcuts[:-1] - margin) for y in (ycuts[1:] + margin, ycuts[:-1] - margin)]
-        return b[0] - b[1] - b[2] + b[3]
+    def inside(self, columns, margin=0.0):
+        """how many are in each column, made wider on all sides by margin"""
+        left, right, front, rear = columns[:, 0] - margin, columns[:, 1] + margin, columns[:, 2] - margin, columns[:, 3] + margin
+        return self.below(right, rear) - self.below(right, front) - self.below(left, rear) + self.below(left, front)
+
+    def grid(self, n, least=0.0):
+        """columns of fix balance shift xy: n[0] by n[1]"""
+        xcuts, ycuts = (self.cuts(k, n[k], least) for k in (0, 1))
+        return np.stack([np.repeat(xcuts[:-1], n[1]), np.repeat(xcuts[1:], n[1]), np.tile(ycuts[:-1], n[0]), np.tile(ycuts[1:], n[0])], 1)
+
+    def bisected(self, n):
+        """columns of fix hvi/balance: LAMMPS's RCB halves n ranks and the weight, across the direction in which the narrower part is the wider one"""
+        def halves(column, n):
+            if n == 1:
+                return [column]
+            lower = (n - 1) // 2 + 1
+            found = [self.halved(column, axis, lower / n) for axis in (0, 1)]
+            axis = int(np.argmax([min(cut - column[2 * k], column[2 * k + 1] - cut) for k, cut in enumerate(found)]))
+            one, other = column.copy(), column.copy()
+            one[2 * axis + 1] = other[2 * axis] = found[axis]
+            return halves(one, lower) + halves(other, n - lower)
+
+        ends = []
+        for marginal in (self.cumulated[:, -1], self.cumulated[-1]):  # RCB begins with the box about all particles
+            full = np.flatnonzero(np.diff(marginal))
+            ends += [self.edges[full[0]], self.edges[full[-1] + 1]]
+        return np.array(halves(np.array(ends), n))
+
+    def halved(self, column, axis, share):
+        """where a column is cut so that this share of its weight is below"""
+        ends, sides = column[2 * axis:2 * axis + 2], column[2 - 2 * axis:4 - 2 * axis]
+        at = np.concatenate([ends[:1], self.edges[(self.edges > ends[0]) & (self.edges < ends[1])], ends[1:]])
+        of = [self.below(*(at, np.full_like(at, side))[::1 - 2 * axis]) for side in sides]
+        weight = of[1] - of[0]
+        return float(np.interp(weight[0] + share * (weight[-1] - weight[0]), weight, at))
 
     def cuts(self, axis, n, least=0.0):
         """where fix balance shift cuts a direction for n ranks: equal shares of all, apart by least"""
@@ -109,15 +149,26 @@ class Map:
         return at
 
 
-def step_time(work, ghosts, ranks, hops, p, sides=4):
+def tiled_messages(columns, cut):
+    """of each column in one exchange with ghosts: LAMMPS sends to all that are within the cutoff in x, or in y; ghosts of x go on in y to those only"""
+    left, right, front, rear = columns.T
+    found = np.zeros(len(columns), int)
+    for k, (x0, x1, y0, y1) in enumerate(columns):
+        beside, before = (front < y1) & (rear > y0), (left < x1) & (right > x0)
+        found[k] = sum(np.count_nonzero(near) for near in (beside & (left < x0) & (right > x0 - cut), beside & (right > x1) & (left < x1 + cut),
+                                                           before & (front < y0) & (rear > y0 - cut), before & (rear > y1) & (front < y1 + cut)))
+    return found
+
+
+def step_time(work, ghosts, ranks, near, sides, p, layout="grid"):
     """Seconds of a step, by what they go for.
 
-    work: seconds that particles and ghosts cost, by rank; ghosts: by rank; hops: domains that the cutoff spans; sides: of a domain, with neighbors; p: see parameters().
+    work: seconds that particles and ghosts cost, by rank; ghosts: by rank; near: messages of a rank in one exchange; sides: of a domain, with neighbors; p: see parameters().
     What one rank has more than the mean, all wait for; messages of a rank follow one another; reductions go up and down a tree."""
     mean, most = float(np.mean(work)), float(np.max(work))
     doubles = p["forward"] + p["reverse"] + p["builds"] * (p["border"] - FORWARD)
-    messages = sides * hops * sum(p["exchanges"]) + p["builds"] * 2 * sides * (1 + hops)
-    reductions = REDUCTIONS + p["builds"] * BUILD_REDUCTIONS + p["balance_reductions"] / 50
+    messages = near * sum(p["exchanges"]) + p["builds"] * 2 * (sides + near)
+    reductions = REDUCTIONS + p["builds"] * BUILD_REDUCTIONS[layout] + p["balance_reductions"] / 50
     levels = math.ceil(math.log2(ranks)) if ranks > 1 else 0
     halo = messages * p["latency"] + DOUBLE * doubles * float(np.max(ghosts)) / p["bandwidth"] if ranks > 1 else 0.0
     return {"work": mean, "waiting": most - mean, "halo": halo, "reductions": reductions * 2 * levels * p["latency"]}
@@ -166,7 +217,7 @@ def run(args, label, name, variables, tail, ranks, count=False, changes=()):
         f.write(text + tail)
     cmd = ["mpirun", "-np", str(ranks)] + (["--oversubscribe"] if ranks > 2 else [])
     if count:
-        cmd += ["--mca", "pml_monitoring_enable", "2", "--mca", "pml_monitoring_enable_output", "3", "--mca", "pml_monitoring_filename", "mon"]
+        cmd += ["--mca", "pml", "ob1,monitoring", "--mca", "pml_monitoring_enable", "2", "--mca", "pml_monitoring_enable_output", "3", "--mca", "pml_monitoring_filename", "mon"]
     cmd += [os.path.join(os.path.abspath(args.build), "lmp"), "-in", "in", "-screen", "none"]
     for key, value in variables.items():
         cmd += ["-var", key, str(value)]
@@ -262,7 +313,7 @@ def costs(args, data):
 
 def follow(args, data):
     """The plate on one rank in one run: positions and who is asleep into dumps; time and lists of each 50 steps."""
-    tail = "compute asleep all hvi/atom asleep\ndump d all custom 50 dump.* x y c_asleep\ndump_modify d format float %.5g\nthermo 50\n" + UNTIL
+    tail = "compute asleep all hvi/atom asleep\ndump d all custom 5 dump.* x y c_asleep c_cost\ndump_modify d format float %.5g\nthermo 50\n" + UNTIL
     log = run(args, "follow", "plate", plate_variables(args.dx), tail, 1)
     atoms = read_log(log)["atoms"]
     rows = re.findall(r"^ +(\d+) +(\S+) +(\d+) +(\S+) +\S+ +(\S+) *$", log, re.M)
@@ -282,13 +333,13 @@ def follow(args, data):
 
 
 def read_maps(args, steps):
-    """Maps of all particles, of those awake, and of the weights that fix balance sees, of frames of follow."""
+    """Of frames of follow and those LATER steps later: maps of all particles, of those awake, and of the costs that fixes see."""
     maps = []
     for step in steps:
-        x, y, asleep = np.loadtxt(os.path.join(args.out, "follow", "dump.%d" % step), skiprows=9, unpack=True)
+        frames = [np.loadtxt(os.path.join(args.out, "follow", "dump.%d" % n), skiprows=9, unpack=True) for n in (step, step + LATER)]
         wide = 2e-3 * args.dx  # whole spacings: others would see stripes in a lattice
-        edges = wide * np.arange(math.ceil(max(x.max(), y.max()) / wide) + 1)
-        maps.append([Map(x, y, w, edges) for w in (np.ones(len(x)), 1 - asleep, 1 - 0.83 * asleep)])
+        edges = wide * np.arange(math.ceil(max(frame[:2].max() for frame in frames) / wide) + 1)
+        maps.append([[Map(x, y, w, edges) for w in (np.ones(len(x)), 1 - asleep, cost)] for x, y, asleep, cost in frames])
     return maps
 
 
@@ -301,28 +352,29 @@ def check(args, data):
     windows = [("plate", plate, 10, 45), ("plate", plate, 160, 195), ("plate", plate, 360, 395),
                ("solid", {"L": 32, "Z": 32, "style": "riemann", "dir": os.path.join(HERE, "sph")}, 100, 120)]
     for name, variables, first, last in windows:
-        for ranks in (4, 8, 16):
-            ends = [run(args, "check %s %d %d" % (name, ranks, n), name, variables, "run %d\n" % n, ranks, count=True) for n in (first, last)]
+        for layout, ranks in itertools.product(LAYOUTS if name == "plate" else ("grid",), args.checked):
+            ends = [run(args, "check %s %s %d %d" % (name, layout, ranks, n), name, variables, "run %d\n" % n, ranks, count=True, changes=LAYOUTS[layout]) for n in (first, last)]
             a, b = (read_log(log) for log, _ in ends)
             size, number, calls = (v - u for u, v in zip(ends[0][1], ends[1][1]))
             steps, builds = last - first, b["builds"] - a["builds"]
             # columns are those of the last fix balance, that of the start among them, when nobody sleeps yet
-            maps = read_maps(args, [first // 50 * 50])[0] if name == "plate" else None
-            row = predict(name, variables, ranks, a, b, steps, builds, maps, first)
+            maps = read_maps(args, [first // 50 * 50])[0][0] if name == "plate" else None
+            row = predict(name, variables, ranks, a, b, steps, builds, maps, first, layout)
             row["imbalance"] = 1.0
             if name == "plate":
                 row["imbalance"] = float(re.findall(r"^ +%d .* (\S+) *$" % last, ends[1][0], re.M)[-1])
-            row.update(scene=name, ranks=ranks, first=first, last=last, builds=builds, bytes=size / steps, messages=number / steps, reductions=calls / steps)
+            row.update(scene=name, layout=layout, ranks=ranks, first=first, last=last, builds=builds, bytes=size / steps, messages=number / steps, reductions=calls / steps)
             rows.append(row)
-            print("| %(scene)s, %(first)d-%(last)d | %(ranks)d | %(builds)d | %(bytes).0f | %(bytes_by_ghosts).0f | %(bytes_by_shape).0f | %(messages).1f | "
+            print("| %(scene)s, %(layout)s, %(first)d-%(last)d | %(ranks)d | %(builds)d | %(bytes).0f | %(bytes_by_ghosts).0f | %(bytes_by_shape).0f | %(messages).1f | "
                   "%(model_messages).1f | %(reductions).2f | %(model_reductions).2f | %(imbalance).2f | %(model_imbalance).2f |" % row, flush=True)
     data["check"] = rows
 
 
-LOOKS = 10  # steps: at 0.5 mm what 50 are at a fifth of that
-BALANCES = {"grid, fix balance shift xy": (), "bisected, fix hvi/balance": (("processors   * * 1 ", "comm_style   tiled # "),
-                                                                               ("balance 50 1.05 shift xy 20 1.02 weight var cost", "hvi/balance 50 1.05")),
-            "bisected in three directions, fix balance rcb": (("processors   * * 1 ", "comm_style   tiled # "), ("shift xy 20 1.02", "rcb"))}
+TILED = (("processors   * * 1 ", "comm_style   tiled # "),)
+LAYOUTS = {"grid": (), "bisected": (*TILED, ("balance 50 1.05 shift xy 20 1.02 weight var cost", "hvi/balance 50 1.05"))}
+LATER, LOOKS = 5, 10  # steps: at 0.5 mm what 25 and 50, half-way to the next look and this look, are at a fifth of that
+BALANCES = {"grid, fix balance shift xy": LAYOUTS["grid"], "bisected, fix hvi/balance": LAYOUTS["bisected"],
+            "bisected in three directions, fix balance rcb": (*TILED, ("shift xy 20 1.02", "rcb"))}
 
 
 def columns(args, data):
@@ -346,10 +398,10 @@ def columns(args, data):
     data["columns"] = rows
 
 
-def predict(name, variables, ranks, a, b, steps, builds, maps, steps_done):
+def predict(name, variables, ranks, a, b, steps, builds, maps, steps_done, layout):
     """Bytes and messages of a step of all ranks: with the ghosts that the log counts, and with those of the shape."""
-    grid, lists = b["grid"], True
-    forward, reverse = exchanges(lists)
+    grid = b["grid"]
+    forward, reverse = exchanges(True)
     doubles = b["forward"] + b["reverse"]
     # atom_style sends borders instead of its forward exchange in steps with new lists
     doubles += builds / steps * (b["border"] - FORWARD)
@@ -361,20 +413,25 @@ def predict(name, variables, ranks, a, b, steps, builds, maps, steps_done):
         full = [w + 2 * b["cut"] for w in widths]
         every = ranks * (np.prod(full) - np.prod(widths))
         measured = 0.5 * ranks * (a["ghosts"] + b["ghosts"]) * shape / every  # ghosts of a rank of its own are not sent
-        per = halo_messages(grid, (True,) * 3)
+        per, lists = halo_messages(grid, (True,) * 3), list_messages(grid)
     else:
         measured = 0.5 * ranks * (a["ghosts"] + b["ghosts"])
         everyone, _, weighed = maps
         weighed = everyone if steps_done < 50 else weighed
-        cuts = [weighed.cuts(k, grid[k], 0.7e-3 * variables["dx"]) for k in (0, 1)]
-        shape = float((everyone.columns(*cuts, b["cut"]) - everyone.columns(*cuts)).sum())
-        shares = weighed.columns(*cuts)
+        columns = weighed.grid(grid, 0.7e-3 * variables["dx"]) if layout == "grid" else weighed.bisected(ranks)
+        shape = float((everyone.inside(columns, b["cut"]) - everyone.inside(columns)).sum())
+        shares = weighed.inside(columns)
         imbalance = float(shares.max() / shares.mean())
-        per = halo_messages(grid, (False,) * 3)
-    reductions = REDUCTIONS + builds / steps * BUILD_REDUCTIONS if name == "plate" else 1 + builds / steps  # no hvi/dt, no change of the box
-    messages = (forward + reverse) * per + builds / steps * list_messages(grid)
+        if layout == "grid":
+            per, lists = halo_messages(grid, (False,) * 3), list_messages(grid)
+        else:
+            per = int(tiled_messages(columns, b["cut"]).sum())
+            lists = per + 2 * int(tiled_messages(columns, TOUCH).sum())
+    reductions = REDUCTIONS + builds / steps * BUILD_REDUCTIONS[layout] if name == "plate" else 1 + builds / steps  # no hvi/dt, no change of the box
+    messages = (forward + reverse) * per + builds / steps * lists
     return {"ghosts": measured, "shape_ghosts": shape, "bytes_by_ghosts": DOUBLE * doubles * measured, "bytes_by_shape": DOUBLE * doubles * shape,
             "model_messages": messages, "model_reductions": reductions, "model_imbalance": imbalance}
+
 
 def parameters(args, data):
     """Of the model: counted, measured here, and those of the machine that is asked about."""
@@ -394,26 +451,35 @@ def parameters(args, data):
     return p
 
 
-def plate_steps(maps, ranks, n, n0, dx0, p):
-    """step_time() in the mean over the maps, and the fullest rank: of the same plate with n particles in place of n0."""
+def plate_steps(maps, ranks, n, n0, dx0, p, layout="grid"):
+    """step_time() in the mean over the maps, half-way between two looks, and the fullest rank: of the same plate with n particles in place of n0, which is looked at each LOOKS steps."""
     finer = (n / n0) ** (1 / 3)
+    late = 1.0 if n == n0 else 25 / finer / LATER
     cut, skin, k = p["cut"] / finer, 0.7e-3 * dx0 / finer, n / n0
     grid = grid_of(ranks)
     total, fullest = {}, (0.0, 0.0)
-    for everyone, awake, weighed in maps:
-        cuts = [weighed.cuts(axis, grid[axis], skin) for axis in (0, 1)]
-        inside, active = k * everyone.columns(*cuts), k * awake.columns(*cuts)
-        ghosts, busy = k * everyone.columns(*cuts, cut) - inside, k * awake.columns(*cuts, cut) - active
+    for now, later in maps:
+        everyone, awake, cost = (one.drifted(other, late) for one, other in zip(now, later))
+        weighed = now[2]
+        columns = weighed.grid(grid, skin) if layout == "grid" else weighed.bisected(ranks)
+        inside, active = k * everyone.inside(columns), k * awake.inside(columns)
+        ghosts, busy = k * everyone.inside(columns, cut) - inside, k * awake.inside(columns, cut) - active
         if ranks == 1:
             ghosts, busy = 0 * ghosts, 0 * busy
         work = p["awake_s"] * (active + p["ghost_share"] * busy) + p["asleep_s"] * (inside - active)
-        hops = max(math.ceil(cut / np.diff(c).min()) for c in cuts)
-        for key, value in step_time(work, ghosts, ranks, hops, p).items():
+        if layout == "grid":
+            sides = 4
+            near = sides * math.ceil(cut / np.diff(columns)[:, ::2].min())
+        else:
+            near, sides = (int(tiled_messages(columns, reach).max()) for reach in (cut, TOUCH))
+        for key, value in step_time(work, ghosts, ranks, near, sides, p, layout).items():
             total[key] = total.get(key, 0.0) + value / len(maps)
+        loads = cost.inside(columns)
+        total["fullest"], total["mean"] = total.get("fullest", 0.0) + float(loads.max()), total.get("mean", 0.0) + float(loads.mean())
         total["alone"] = total.get("alone", 0.0) + float((p["awake_s"] * active + p["asleep_s"] * (inside - active)).sum()) / len(maps)
-        i = np.unravel_index((inside + ghosts).argmax(), inside.shape)
+        i = (inside + ghosts).argmax()
         fullest = max(fullest, (float(inside[i]), float(ghosts[i])), key=sum)
-    total["steps"] = finer
+    total["steps"], total["over"] = finer, total["fullest"] / total["mean"]
     return summary(total, fullest, n, ranks, p)
 
 
@@ -422,7 +488,7 @@ def cube_steps(ranks, n, p):
     side = (n / ranks) ** (1 / 3)
     ghosts = sent_ghosts((side,) * 3, (2,) * 3, p["cut_spacings"], (True,) * 3)
     work = np.array([p["awake_s"] * (n / ranks + p["ghost_share"] * ghosts)])
-    total = step_time(work, np.array([ghosts]), ranks, math.ceil(p["cut_spacings"] / side), p, 6)
+    total = step_time(work, np.array([ghosts]), ranks, 6 * math.ceil(p["cut_spacings"] / side), 6, p)
     total["alone"], total["steps"] = p["awake_s"] * n, 1.0
     return summary(total, (n / ranks, ghosts), n, ranks, p)
 
@@ -440,22 +506,22 @@ def model(args, data):
     """Plates of up to 1e9 particles on up to 1e4 ranks."""
     p, n0 = parameters(args, data), data["follow"]["atoms"]
     # of each interval the middle would be best; the start is not counted, which has nobody awake
-    maps = read_maps(args, data["follow"]["frames"][1:])
+    maps = read_maps(args, data["follow"]["frames"][1:-1])
     print("bytes per ghost and step %d, exchanges %d and %d, lists %.2f a step, ghost %.2f of a particle's time" % (
         DOUBLE * (p["forward"] + p["reverse"]), *p["exchanges"], p["builds"], p["ghost_share"]))
     table("scene", "particles", "ranks", "per rank", "ms a step", "run h", "efficiency", "if nobody waited", "ghosts' work", "waiting", "halo",
-          "reductions", "fullest rank MB, of that map")
+          "reductions", "fullest rank MB, of that map", "cost of the fullest rank to the mean")
     rows, many = [], (64, 256, 1024, 4096, 10000)
-    cases = [("plate", n0, ranks) for ranks in (2, 16, 64)] + [("plate", 10 ** k, ranks) for k in range(6, 10) for ranks in many]
+    cases = [(layout, n, ranks) for layout in LAYOUTS for n, ranks in [*((n0, ranks) for ranks in (2, 16, 64)), *itertools.product((10 ** k for k in range(6, 10)), many)]]
     cases += [("cube", 10 ** k, ranks) for k in (6, 9) for ranks in many]
     for name, n, ranks in cases:
-        t = plate_steps(maps, ranks, n, n0, data["follow"]["dx"], p) if name == "plate" else cube_steps(ranks, n, p)
+        t = plate_steps(maps, ranks, n, n0, data["follow"]["dx"], p, name) if name in LAYOUTS else cube_steps(ranks, n, p)
         hours = t["step"] * data["follow"]["steps"] * t["steps"] / 3600
         rows.append(dict(t, scene=name, particles=n, ranks=ranks, hours=hours))
-        print("| %s | %.3g | %d | %.0f | %.3g | %s | %.2f | %.2f | %s | %.0f, %.0f%s |" % (
-            name, n, ranks, n / ranks, 1e3 * t["step"], "%.3g" % hours if name == "plate" else "", t["efficiency"], t["efficiency_balanced"],
+        print("| %s | %.3g | %d | %.0f | %.3g | %s | %.2f | %.2f | %s | %.0f, %.0f%s | %.2f |" % (
+            name, n, ranks, n / ranks, 1e3 * t["step"], "%.3g" % hours if name in LAYOUTS else "", t["efficiency"], t["efficiency_balanced"],
             " | ".join("%.0f %%" % (100 * t[key] / t["step"]) for key in ("ghost_work", "waiting", "halo", "reductions")),
-            t["memory"] / 1e6, 4e-6 * n, " **too much**" if t["memory"] > args.memory else ""), flush=True)
+            t["memory"] / 1e6, 4e-6 * n, " **too much**" if t["memory"] > args.memory else "", t.get("over", 1.0)), flush=True)
     data["model"] = rows
 
 
@@ -468,6 +534,7 @@ def main():
     parser.add_argument("--out", default="build/scaling")
     parser.add_argument("--only", default=",".join(STAGES), help="stages, separated by commas")
     parser.add_argument("--dx", type=float, default=0.5, help="spacing of the plate, mm")
+    parser.add_argument("--checked", type=lambda text: [int(n) for n in text.split(",")], default=[4, 8, 16], help="numbers of ranks of stage check")
     parser.add_argument("--columns", type=lambda text: [int(n) for n in text.split(",")], default=[4, 16, 64], help="numbers of ranks of that stage")
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--latency", type=float, default=2e-6, help="of a message and of a hop of a reduction, s")

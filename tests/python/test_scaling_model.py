@@ -44,25 +44,57 @@ def test_exchanges():
     assert scaling.exchanges(True) == (4, 3)
 
 
+def column(*sides):
+    return np.array([sides], float)
+
+
 def test_map_counts():
     """particles in columns, and those around: on whole bins exactly, in between linear"""
     x = lattice((8, 8, 3))
     m = scaling.Map(x[:, 0], x[:, 1], np.ones(len(x)), np.arange(9.0))
-    cuts = np.array([0.0, 3.0, 8.0])
-    assert np.allclose(m.columns(cuts, cuts), 3 * np.outer([3, 5], [3, 5]))
-    assert np.allclose(m.columns(cuts, cuts, 2.0), 3 * np.outer([5, 7], [5, 7]))  # nothing beyond the edges
-    assert np.allclose(m.columns(np.array([0.0, 0.5]), np.array([0.0, 8.0])), 3 * 0.5 * 8)
+    columns = np.array([[a, b, c, d] for a, b in ((0.0, 3.0), (3.0, 8.0)) for c, d in ((0.0, 3.0), (3.0, 8.0))])
+    assert np.allclose(m.inside(columns), 3 * np.outer([3, 5], [3, 5]).ravel())
+    assert np.allclose(m.inside(columns, 2.0), 3 * np.outer([5, 7], [5, 7]).ravel())  # nothing beyond the edges
+    assert np.allclose(m.inside(column(0.0, 0.5, 0.0, 8.0)), 3 * 0.5 * 8)
 
 
-def test_cuts():
+def test_grid():
     """equal shares of weight in each direction, of unequal widths; not nearer than asked"""
     x = lattice((8, 8, 1))
     weight = np.where(x[:, 0] < 2, 9.0, 1.0)
     m = scaling.Map(x[:, 0], x[:, 1], weight, np.arange(9.0))
     assert np.allclose(m.cuts(1, 4), [0, 2, 4, 6, 8])
-    across = m.cuts(0, 4)
-    assert np.allclose(m.columns(across, np.array([0.0, 8.0])), weight.sum() / 4)
-    assert across[1] < 1.0 and np.diff(m.cuts(0, 4, 1.0)).min() >= 1.0 - 1e-12
+    assert np.allclose(m.inside(m.grid((4, 1))), weight.sum() / 4)
+    assert m.cuts(0, 4)[1] < 1.0 and np.diff(m.cuts(0, 4, 1.0)).min() >= 1.0 - 1e-12
+    assert m.grid((2, 4)).shape == (8, 4) and m.inside(m.grid((2, 4))).sum() == pytest.approx(weight.sum())
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 3, 7, 16])
+def test_bisected(ranks):
+    """equal shares whatever the weights, as there are no gaps between columns"""
+    x = lattice((24, 16, 1)) + [2.0, 0.0, 0.0]
+    weight = 1.0 + 20.0 * (np.hypot(x[:, 0] - 5, x[:, 1]) < 4)
+    m = scaling.Map(x[:, 0], x[:, 1], weight, np.arange(27.0))
+    columns = m.bisected(ranks)
+    assert columns.shape == (ranks, 4) and np.allclose(m.inside(columns), weight.sum() / ranks)
+    assert np.prod(columns[:, 1::2] - columns[:, ::2], axis=1).sum() == pytest.approx(24 * 16)
+
+
+def test_bisected_as_rcb_does():
+    """across the direction in which the narrower part is the wider one: not the longer one, where the weight is at an end"""
+    x = lattice((10, 6, 1))
+    weight = np.where(x[:, 0] < 1, 100.0, 1.0)
+    assert np.allclose(scaling.Map(x[:, 0], x[:, 1], weight, np.arange(11.0)).bisected(2), [[0, 10, 0, 3], [0, 10, 3, 6]])
+    assert np.allclose(scaling.Map(x[:, 0], x[:, 1], np.ones(60), np.arange(11.0)).bisected(3), [[0, 10 / 3, 0, 6], [10 / 3, 20 / 3, 0, 6], [20 / 3, 10, 0, 6]])
+
+
+def test_tiled_messages():
+    """a wide column beside two narrow ones, and what is farther away"""
+    columns = np.array([[0, 4, 0, 4], [4, 8, 0, 2], [4, 8, 2, 4], [8, 9, 0, 1]], float)
+    assert scaling.tiled_messages(columns, 1.0).tolist() == [2, 3, 2, 1]
+    assert scaling.tiled_messages(columns, 4.5).tolist() == [3, 3, 2, 2]
+    four = np.array([[0, 4, 0, 4], [4, 8, 0, 4], [0, 4, 4, 8], [4, 8, 4, 8]], float)
+    assert scaling.tiled_messages(four, 1.0).tolist() == [2, 2, 2, 2]  # across the corner by way of another
 
 
 P = dict(forward=10, reverse=5, border=13, exchanges=(2, 1), builds=0.5, balance_reductions=50, latency=1e-6, bandwidth=1e9, owned_bytes=2.0, ghost_bytes=1.0)
@@ -70,11 +102,11 @@ P = dict(forward=10, reverse=5, border=13, exchanges=(2, 1), builds=0.5, balance
 
 def test_step_time():
     """by hand"""
-    t = scaling.step_time(np.array([1.0, 3.0]), np.array([100.0, 200.0]), 4, 1, P)
+    t = scaling.step_time(np.array([1.0, 3.0]), np.array([100.0, 200.0]), 4, 4, 4, P)
     assert t["work"] == 2.0 and t["waiting"] == 1.0
     assert t["halo"] == pytest.approx((4 * 3 + 0.5 * 16) * 1e-6 + 8 * (15 + 0.5 * 5) * 200 / 1e9)
-    assert t["reductions"] == pytest.approx((2 + 0.5 * 3 + 1) * 2 * 2 * 1e-6)
-    alone = scaling.step_time(np.array([1.0]), np.array([0.0]), 1, 1, P)
+    assert t["reductions"] == pytest.approx((2 + 0.5 * 4 + 1) * 2 * 2 * 1e-6)
+    alone = scaling.step_time(np.array([1.0]), np.array([0.0]), 1, 4, 4, P)
     assert alone == {"work": 1.0, "waiting": 0.0, "halo": 0.0, "reductions": 0.0}
     assert scaling.memory_of_rank(10, 5, 100, P) == 20 + 5 + 400
 
