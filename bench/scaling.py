@@ -37,6 +37,7 @@ FORWARD, REVERSE, BORDER = 8, 5, 12
 REDUCTIONS = 2  # of a step over all ranks: hvi/lists, hvi/dt
 ATOM_BYTES = 156 + 28  # of atom_style sph and hvi/lists, owned particles and ghosts
 BALANCE_REDUCTIONS = 30  # of fix balance shift: 18 and 26 were counted on 4 and 16 ranks
+MEDIAN = 20  # reductions by which RCB finds where to cut one direction, not counted: the tolerance is the cost of a particle
 TOUCH = 1e-9  # m: nothing is between what is so near
 BUILD_REDUCTIONS = {"grid": 4, "bisected": 9}  # of new lists, counted: shrink-wrapped box, ranks that ghosts come from (of unequal domains), narrowest domain; layout of tiles
 
@@ -83,11 +84,10 @@ class Map:
         table = np.histogram2d(x, y, bins=(edges, edges), weights=weight)[0]
         self.cumulated = np.pad(table.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
 
-    def drifted(self, other, share):
-        """so far on the way to the other map, at least 0 anywhere"""
+    def between(self, other, share):
+        """this share of the way to another map of the same bins"""
         made = copy.copy(self)
-        table = [np.diff(np.diff(of.cumulated, axis=0), axis=1) for of in (self, other)]
-        made.cumulated = np.pad(np.maximum(table[0] + share * (table[1] - table[0]), 0.0).cumsum(0).cumsum(1), ((1, 0), (1, 0)))
+        made.cumulated = (1 - share) * self.cumulated + share * other.cumulated
         return made
 
     def below(self, x, y):
@@ -150,7 +150,7 @@ class Map:
 
 
 def tiled_messages(columns, cut):
-    """of each column in one exchange with ghosts: LAMMPS sends to all that are within the cutoff in x, or in y; ghosts of x go on in y to those only"""
+    """of each column in one exchange with ghosts: LAMMPS sends to all that are within the cutoff in x, or in y; what came in x is passed on in y, so corners cost no message"""
     left, right, front, rear = columns.T
     found = np.zeros(len(columns), int)
     for k, (x0, x1, y0, y1) in enumerate(columns):
@@ -167,9 +167,13 @@ def step_time(work, ghosts, ranks, near, sides, p, layout="grid"):
     What one rank has more than the mean, all wait for; messages of a rank follow one another; reductions go up and down a tree."""
     mean, most = float(np.mean(work)), float(np.max(work))
     doubles = p["forward"] + p["reverse"] + p["builds"] * (p["border"] - FORWARD)
-    messages = near * sum(p["exchanges"]) + p["builds"] * 2 * (sides + near)
-    reductions = REDUCTIONS + p["builds"] * BUILD_REDUCTIONS[layout] + p["balance_reductions"] / 50
+    messages = near * sum(p["exchanges"]) + p["builds"] * (2 * sides + near)
+    reductions = REDUCTIONS + p["builds"] * BUILD_REDUCTIONS[layout]
     levels = math.ceil(math.log2(ranks)) if ranks > 1 else 0
+    if layout == "grid":
+        reductions += p["balance_reductions"] / 50
+    elif levels:  # RCB has them among half as many ranks at each level
+        reductions += (2 * MEDIAN + 2) * (levels + 1) / 2 / 50
     halo = messages * p["latency"] + DOUBLE * doubles * float(np.max(ghosts)) / p["bandwidth"] if ranks > 1 else 0.0
     return {"work": mean, "waiting": most - mean, "halo": halo, "reductions": reductions * 2 * levels * p["latency"]}
 
@@ -333,10 +337,10 @@ def follow(args, data):
 
 
 def read_maps(args, steps):
-    """Of frames of follow and those LATER steps later: maps of all particles, of those awake, and of the costs that fixes see."""
+    """Of frames of follow and those LATER and twice LATER steps later: maps of all particles, of those awake, and of the costs that fixes see."""
     maps = []
     for step in steps:
-        frames = [np.loadtxt(os.path.join(args.out, "follow", "dump.%d" % n), skiprows=9, unpack=True) for n in (step, step + LATER)]
+        frames = [np.loadtxt(os.path.join(args.out, "follow", "dump.%d" % n), skiprows=9, unpack=True) for n in (step, step + LATER, step + 2 * LATER)]
         wide = 2e-3 * args.dx  # whole spacings: others would see stripes in a lattice
         edges = wide * np.arange(math.ceil(max(frame[:2].max() for frame in frames) / wide) + 1)
         maps.append([[Map(x, y, w, edges) for w in (np.ones(len(x)), 1 - asleep, cost)] for x, y, asleep, cost in frames])
@@ -372,7 +376,7 @@ def check(args, data):
 
 TILED = (("processors   * * 1 ", "comm_style   tiled # "),)
 LAYOUTS = {"grid": (), "bisected": (*TILED, ("balance 50 1.05 shift xy 20 1.02 weight var cost", "hvi/balance 50 1.05"))}
-LATER, LOOKS = 5, 10  # steps: at 0.5 mm what 25 and 50, half-way to the next look and this look, are at a fifth of that
+LATER, LOOKS = 5, 10  # steps at 0.5 mm between dumps, and between two looks of fixes that balance: as long as 50 at a fifth of the spacing
 BALANCES = {"grid, fix balance shift xy": LAYOUTS["grid"], "bisected, fix hvi/balance": LAYOUTS["bisected"],
             "bisected in three directions, fix balance rcb": (*TILED, ("shift xy 20 1.02", "rcb"))}
 
@@ -452,15 +456,17 @@ def parameters(args, data):
 
 
 def plate_steps(maps, ranks, n, n0, dx0, p, layout="grid"):
-    """step_time() in the mean over the maps, half-way between two looks, and the fullest rank: of the same plate with n particles in place of n0, which is looked at each LOOKS steps."""
+    """step_time() in the mean over the maps, and the fullest rank: of the same plate with n particles in place of n0.
+
+    Work is that of half-way between two looks of a fix that balances, every 50 steps; with n0 particles every LOOKS."""
     finer = (n / n0) ** (1 / 3)
-    late = 1.0 if n == n0 else 25 / finer / LATER
+    frame, late = divmod((LOOKS / 2 if n == n0 else 25 / finer) / LATER, 1)
     cut, skin, k = p["cut"] / finer, 0.7e-3 * dx0 / finer, n / n0
     grid = grid_of(ranks)
     total, fullest = {}, (0.0, 0.0)
-    for now, later in maps:
-        everyone, awake, cost = (one.drifted(other, late) for one, other in zip(now, later))
-        weighed = now[2]
+    for frames in maps:
+        everyone, awake, cost = (one.between(other, late) for one, other in zip(*(frames[int(frame):] + frames[-1:])[:2]))
+        weighed = frames[0][2]
         columns = weighed.grid(grid, skin) if layout == "grid" else weighed.bisected(ranks)
         inside, active = k * everyone.inside(columns), k * awake.inside(columns)
         ghosts, busy = k * everyone.inside(columns, cut) - inside, k * awake.inside(columns, cut) - active

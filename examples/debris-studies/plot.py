@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Figures and tables of the studies:  python3 plot.py [--tables DIR] [--runs DIR] [--out DIR] [NAME ...]
 
-Reads DIR/NAME.csv (written by python3 -m hvi sweep) for each study, draws OUT/NAME*.png and prints the tables of README.md in
+Reads DIR/NAME.csv (written by hvi sweep) for each study, draws OUT/NAME*.png and prints the tables of README.md in
 Markdown. Studies without a table are left out. Pictures of clouds need the dumps of the runs in --runs.
 """
 import argparse
@@ -287,7 +287,7 @@ def main(argv=None):
         parser.error(f"unknown study {', '.join(sorted(unknown))}; known: {', '.join(STUDIES)}")
     found = [name for name in args.names or STUDIES if (args.tables / f"{name}.csv").is_file()]
     if not found:
-        sys.exit(f"plot.py: no table of {', '.join(args.names or STUDIES)} in {args.tables}: run python3 -m hvi sweep first")
+        sys.exit(f"plot.py: no table of {', '.join(args.names or STUDIES)} in {args.tables}: run hvi sweep first")
     args.out.mkdir(parents=True, exist_ok=True)
     for name in found:
         rows = read(args.tables / f"{name}.csv")

@@ -74,7 +74,7 @@ def table(rows):
 def main(folder):
     voids, principal = read(folder, "onset"), read(folder, "onset-principal")
     if not voids:
-        sys.exit(f"no runs of studies/onset.yaml in {folder}: python3 -m hvi sweep studies/onset.yaml")
+        sys.exit(f"no runs of studies/onset.yaml in {folder}: hvi sweep studies/onset.yaml")
     three = ("rear", 0.1), ("apart", 0.1), ("apart", 0.5)
     rows = [["t/D", "layers", "measured onset", "rear: 10 % lost at, km/s", "sphere: 10 % lost", "half lost", "sound: half lost",
              "`spall principal`: rear 10 %, sphere 10 %, half lost", "discrete elements, sc: 10 %, half", "fcc"]]

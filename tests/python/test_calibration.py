@@ -222,12 +222,14 @@ def test_limits_near(km_s, near):
     """of the shields at the next speeds, each shift: A of 2.4 to 2.6 mm has 2 and 2.7, B of 1 to 1.1 has 2"""
     found = records(*ROWS, dataclasses.replace(ROWS[0], shift=0.25, limit=2.7)).near(km_s)
     assert found == near
+    alike = [dataclasses.replace(ROWS[0], shield="F", limit=2.5)]
+    assert list(records(*ROWS, *alike).near(5.0)) == ["A", "B", "F"]  # two at one speed
 
 
 def test_limits_near_are_said(case, tmp_path):
     """of a verdict and of a limit; a computed limit that is thinner than the tested one is in capitals; results of before have none"""
     of = records(*ROWS, LARGE)
-    line = "          computed limits of the shields tested at the next lower and higher speed, each shift: A (5 km/s) 18 % UNSAFE; B (6.5 km/s) 60 % safe"
+    line = "          computed limits of shields tested at the nearest speeds, by each shift (100 ln of computed over measured): A (5 km/s) 18 % UNSAFE, B (6.5 km/s) 60 % safe"
     found = of.of_verdict(case(), both(result(), result()))
     assert calibration.said_of_verdict(found)[-1] == line
     limit = of.of_limit(Limit(case(), tmp_path, "thickness2"), {"limit": 1.6, "undecided": [1.5, 1.7], "change_by_spacing": None, "on": "thickness2"})

@@ -69,6 +69,36 @@ def test_grid():
     assert m.grid((2, 4)).shape == (8, 4) and m.inside(m.grid((2, 4))).sum() == pytest.approx(weight.sum())
 
 
+def test_between():
+    """a density on its way from one map to another"""
+    edges, zeros = np.arange(5.0), np.zeros(4)
+    one, other = (scaling.Map(np.arange(4) + 0.5, zeros + 0.5, np.array(w, float), edges) for w in ([8, 0, 0, 0], [0, 0, 4, 4]))
+    assert np.allclose([one.between(other, 0.25).inside(column(k, k + 1, 0, 1))[0] for k in range(4)], [6, 0, 1, 1])
+
+
+@pytest.mark.parametrize("layout", ["grid", "bisected"])
+def test_plate_steps(layout):
+    """a plate that stays as it is needs no wait where columns are bisected; one whose front moves on does; eight times the particles, eight times the work"""
+    x = lattice((32, 32, 1))
+    edges = np.arange(33.0)
+
+    def frame(front):
+        awake = 1.0 * (np.hypot(x[:, 0], x[:, 1]) < front)
+        return [scaling.Map(x[:, 0], x[:, 1], w, edges) for w in (np.ones(len(x)), awake, 0.2 + 0.8 * awake)]
+
+    p = dict(P, cut=2.0, awake_s=1.0, asleep_s=0.2, ghost_share=0.0)
+    still, moving = [[frame(16)] * 3], [[frame(16), frame(20), frame(24)]]
+    one, later = (scaling.plate_steps(maps, 16, 1024, 1024, 1.0, p, layout) for maps in (still, moving))
+    if layout == "bisected":
+        assert one["over"] == pytest.approx(1.0, abs=1e-6) and later["over"] > 1.1
+    else:
+        assert one["over"] > 1.2
+    assert later["alone"] == pytest.approx(0.8 * (np.hypot(x[:, 0], x[:, 1]) < 20).sum() + 0.2 * 1024)
+    assert one["efficiency"] == pytest.approx(one["alone"] / 16 / (one["work"] + one["waiting"] + one["halo"] + one["reductions"]))
+    finer = scaling.plate_steps(moving, 16, 8 * 1024, 1024, 1.0, p, layout)  # 12.5 steps later: beyond the frames, so the last one
+    assert finer["alone"] == pytest.approx(8 * (0.8 * (np.hypot(x[:, 0], x[:, 1]) < 24).sum() + 0.2 * 1024))
+
+
 @pytest.mark.parametrize("ranks", [1, 2, 3, 7, 16])
 def test_bisected(ranks):
     """equal shares whatever the weights, as there are no gaps between columns"""
@@ -102,10 +132,12 @@ P = dict(forward=10, reverse=5, border=13, exchanges=(2, 1), builds=0.5, balance
 
 def test_step_time():
     """by hand"""
-    t = scaling.step_time(np.array([1.0, 3.0]), np.array([100.0, 200.0]), 4, 4, 4, P)
+    t = scaling.step_time(np.array([1.0, 3.0]), np.array([100.0, 200.0]), 4, 6, 4, P)
     assert t["work"] == 2.0 and t["waiting"] == 1.0
-    assert t["halo"] == pytest.approx((4 * 3 + 0.5 * 16) * 1e-6 + 8 * (15 + 0.5 * 5) * 200 / 1e9)
+    assert t["halo"] == pytest.approx((6 * 3 + 0.5 * (2 * 4 + 6)) * 1e-6 + 8 * (15 + 0.5 * 5) * 200 / 1e9)
     assert t["reductions"] == pytest.approx((2 + 0.5 * 4 + 1) * 2 * 2 * 1e-6)
+    tiled = scaling.step_time(np.array([1.0, 3.0]), np.array([100.0, 200.0]), 4, 6, 4, P, "bisected")
+    assert tiled["halo"] == t["halo"] and tiled["reductions"] == pytest.approx((2 + 0.5 * 9 + (2 * scaling.MEDIAN + 2) * 1.5 / 50) * 2 * 2 * 1e-6)
     alone = scaling.step_time(np.array([1.0]), np.array([0.0]), 1, 4, 4, P)
     assert alone == {"work": 1.0, "waiting": 0.0, "halo": 0.0, "reductions": 0.0}
     assert scaling.memory_of_rank(10, 5, 100, P) == 20 + 5 + 400

@@ -175,22 +175,25 @@ def test_run_that_writes_nothing(folder, monkeypatch, capsys):
 
     def said(launched, *files):
         now = time.time()
-        job.launched = now - launched
+        job.launched, job.stamp = time.monotonic() - launched, now - launched
         for name, age in files:
             (job.folder / name).touch()
             os.utime(job.folder / name, (now - age, now - age))
         return job.silence()
 
-    assert said(4000, ("in.tiny", 4001)) == ""  # nothing runs
+    assert said(4000, ("in.tiny", 4001)) is None  # nothing runs
     job.process = object()
-    assert said(50) == "" and said(100, ("in.tiny", 101), ("output.txt", 1)).startswith("LAMMPS has not begun after 2 min")
-    assert said(100, ("log.lammps", 99)) == said(4000, ("in.tiny", 4001), ("log.lammps", 1700)) == "" and said(4000, ("log.lammps", 3000)).startswith("nothing written for 50 min")
+    assert said(50) is None
+    kind, text = said(100, ("in.tiny", 101), ("output.txt", 1))
+    assert kind == "not begun" and text.startswith("LAMMPS has not begun after 2 min")
+    assert said(100, ("log.lammps", 99)) is said(4000, ("in.tiny", 4001), ("log.lammps", 1700)) is None
+    assert said(4000, ("log.lammps", 3000))[1].startswith("nothing written for 50 min")
 
     class Place:
         here, looks = True, 0
 
         def begin(self, jobs, say):
-            jobs[0].launched = 0.0
+            jobs[0].stamp = 0.0
 
         def ended(self, jobs, say):
             self.looks += 1

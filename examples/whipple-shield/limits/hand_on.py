@@ -1,6 +1,6 @@
 """Does a cloud of lumps harm a wall more than the same cloud of fragments? The matter on its way to the last wall is handed on as n^3 pieces per particle.
 
-    python3 -m hvi shield A635.yaml --write run; cd run/*; lmp -in in.shield -var until 7.0     # with write_data cloud.data before its last run
+    hvi shield A635.yaml --write run; cd run/*; lmp -in in.shield -var until 7.0     # with write_data cloud.data before its last run
     python3 hand_on.py . OUT --pieces 2 --spread; cd OUT; lmp -in in.wall
 
 Mass, momentum and energy per mass are those of the particles; pieces lie on a cube of the size of the particle, or with --spread within a sphere that reaches

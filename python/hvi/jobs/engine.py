@@ -175,7 +175,7 @@ class Job:
             self.record["files"] = files
         self.process, self.lock, self.start, self.problem, self.advice, self.asked = None, None, None, "", "", False
         self.resumed, self.saved = False, []  # if it went on, and from what
-        self.launched = 0.0  # time of the last call of LAMMPS
+        self.launched, self.stamp = 0.0, 0.0  # of the last call of LAMMPS: when, by this machine's clock without steps, and by that of the files
         self.began = 0  # when the call began that this job is of, which its engine says (ns)
         self.batch = ""  # of Slurm's jobs, that it was submitted in; "": runs without Slurm
 
@@ -307,7 +307,8 @@ class Job:
         """more: what it prints is added to what there is"""
         environment = {**os.environ, "LAMMPS_POTENTIALS": os.pathsep.join(map(str, potentials()))}
         with open(self.folder / "output.txt", "a" if more else "w") as out:
-            self.launched = time.time()
+            os.utime(out.fileno())
+            self.launched, self.stamp = time.monotonic(), os.stat(out.fileno()).st_mtime
             self.process = subprocess.Popen(command(self), cwd=self.folder, stdin=subprocess.DEVNULL, stdout=out, env=environment,
                                             stderr=subprocess.STDOUT, start_new_session=True, pass_fds=[self.lock])
 
@@ -393,16 +394,18 @@ class Job:
         return 0.0, ""
 
     def silence(self):
-        """what is said of a run that writes nothing, "" of others: mpirun waits for ever for a rank that was killed while others were being started"""
+        """("not begun" or "quiet", what is said) of a run that writes nothing, else None: mpirun waits for ever for a rank that was killed while others were being started"""
         if self.process is None:
-            return ""
-        last, now = 0.0, time.time()
+            return None
+        last, waited = 0.0, time.monotonic() - self.launched
         for path in self.folder.glob("*"):
             with contextlib.suppress(OSError):  # removed just now
                 last = max(last, path.stat().st_mtime if path.name != "output.txt" else 0.0)
-        if last < self.launched:
-            return f"LAMMPS has not begun after {duration(now - self.launched)}: if a rank was killed, mpirun may wait for it for ever: Ctrl-C, and call again" if now - self.launched > BEGINS else ""
-        return f"nothing written for {duration(now - last)}, as large runs may: if no rank is at work, Ctrl-C, and call again" if now - last > SILENT else ""
+        ends = "Ctrl-C ends all runs of this call, the next call goes on"
+        if last <= self.stamp:
+            return ("not begun", f"LAMMPS has not begun after {duration(waited)}, mpirun may be waiting for a rank that was killed; {ends}") if waited > BEGINS else None
+        quiet = time.time() - last
+        return ("quiet", f"nothing written for {duration(quiet)}: large runs may be at work, if no rank is {ends}") if quiet > SILENT else None
 
     def last_lines(self, n=8):
         """the end of what LAMMPS and mpirun said, from the first error on if there is one"""

@@ -116,9 +116,9 @@ def run(place, most, jobs, what, more=lambda job: []):
                 if place.here and time.monotonic() > watch:
                     watch = time.monotonic() + WATCH
                     for job in running:
-                        if job not in told and (words := job.silence()):
-                            told.add(job)
-                            bar.write(f"{job.name}: {words}; see {job.folder}")
+                        if (silence := job.silence()) and (job, silence[0]) not in told:
+                            told.add((job, silence[0]))
+                            bar.write(f"{job.name}: {silence[1]}; see {job.folder}")
                 if not isinstance(bar, progress.Silent) and time.monotonic() > look:
                     stages = [job.stage() for job in running]
                     bar.total = work + sum(j.weight for j in waiting + running)

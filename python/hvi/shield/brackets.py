@@ -210,7 +210,7 @@ def equations(study, bracket):
 
 
 def summary(rows, of_equations):
-    """[(name of the simulation, of the mean over shifts and of the safer one, or of the equation, brackets, mean |error|, mean error, least error)]; of_equations: {bracket: equations()}"""
+    """[(name, brackets, mean |error|, mean error, least error)] of the simulation (mean over shifts, and the safer shift) and of equations; of_equations: {bracket: equations()}"""
     def line(name, errors):
         n = len(errors)
         return (name, n, *((sum(map(abs, errors)) / n, sum(errors) / n, min(errors)) if n else (math.nan,) * 3))
@@ -223,7 +223,8 @@ def summary(rows, of_equations):
             if row["across"] == number and row["error"] is not None:
                 errors.setdefault(row["bracket"], []).append(row["error"])
         found.append(line(f"simulation, {number:g} across", [sum(each) / len(each) for each in errors.values()]))
-        if any(len(each) > 1 for each in errors.values()):  # hvi shield says holds where all shifts do
-            found.append(line(f"{number:g} across, safer shift", [max(each) for each in errors.values()]))
+        shifts = max(map(len, errors.values()), default=0)
+        if shifts > 1:  # hvi shield says holds where all shifts do
+            found.append(line(f"{number:g} across, safer shift", [max(each) for each in errors.values() if len(each) == shifts]))
     names = dict.fromkeys(name for one in of_equations.values() for name in one)
     return found + [line(name, [one[name][1] for one in of_equations.values() if name in one]) for name in names]

@@ -147,11 +147,10 @@ class Records:
         return {name: list(of.values()) for name, of in found.items()}
 
     def near(self, km_s):
-        """{name: {"km_s": speed, "errors_percent": [of each shift]}}: computed limits beside measured ones, of the shields whose speeds are next to this one, below and above"""
-        of = self.limits_by_shift
-        below, above = ([name for name, runs in of.items() if side(runs[0].km_s)] for side in (lambda v: v <= km_s, lambda v: v > km_s))
-        names = ([max(below, key=lambda name: of[name][0].km_s)] if below else []) + ([min(above, key=lambda name: of[name][0].km_s)] if above else [])
-        return {name: {"km_s": of[name][0].km_s, "errors_percent": [round(100 * run.error()) for run in of[name]]} for name in names}
+        """{name: {"km_s": speed, "errors_percent": [of each shift]}}: computed limits beside measured ones, of all shields at the same or the next lower speed and at the next higher one"""
+        of, speeds = self.limits_by_shift, {runs[0].km_s for runs in self.limits_by_shift.values()}
+        near = {max((v for v in speeds if v <= km_s), default=None), min((v for v in speeds if v > km_s), default=None)}
+        return {name: {"km_s": runs[0].km_s, "errors_percent": [round(100 * run.error()) for run in runs]} for name, runs in of.items() if runs[0].km_s in near}
 
     def finest(self):
         """those of the most particles across"""
@@ -329,11 +328,11 @@ def tests(found):
 
 def said_of_near(near):
     """lines of Records.near()"""
-    def side(percent):
+    def said(percent):
         return "right" if not percent else f"{abs(percent)} % {'safe' if percent > 0 else 'UNSAFE'}"
 
-    each = "; ".join(f"{name} ({of['km_s']:g} km/s) {', '.join(map(side, of['errors_percent']))}" for name, of in near.items())
-    return [f"          computed limits of the shields tested at the next lower and higher speed, each shift: {each}"] if near else []
+    each = ", ".join(f"{name} ({of['km_s']:g} km/s) {' / '.join(map(said, of['errors_percent']))}" for name, of in near.items())
+    return [f"          computed limits of shields tested at the nearest speeds, by each shift (100 ln of computed over measured): {each}"] if near else []
 
 
 def said_of_verdict(found):
