@@ -1,6 +1,7 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """Tables and sentences of the report on speed against error, as blocks, from the points of cases."""
 
+import math
 import statistics
 
 import pareto
@@ -22,8 +23,10 @@ def error_text(p):
         return Number("-")
     if p.scatter is None:
         return number(p.error)
-    text = number(p.error)
-    scatter = number(p.scatter) if "e" in text else f"{p.scatter:.{len(text.partition('.')[2])}f}"
+    text, scatter = number(p.error), number(p.scatter)
+    if "e" not in text and p.error > 0:  # the digits of number(), with zeros at the end
+        places = max(0, 2 - math.floor(math.log10(p.error)))
+        text, scatter = f"{p.error:.{places}f}", f"{p.scatter:.{places}f}"
     return Number(f"{text} +- {scatter} ({p.runs})")
 
 
