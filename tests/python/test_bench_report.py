@@ -127,7 +127,7 @@ def test_shifts_are_averaged(cases):
     assert default.runs == 3 and default.error == pytest.approx(2.6) and default.scatter == pytest.approx(0.6)
     assert default.cost == pytest.approx(17.0)
     assert default.rate == pytest.approx(1e6 * 34.0 / (2 * 4000 * 400)) and default.errors["other"] == pytest.approx(5.2)
-    assert sections.error_text(default) == "2.6 +- 0.6 (3)"
+    assert sections.error_text(default) == "2.60 +- 0.60 (3)"
     assert other.error < 0.95 * default.error and pareto.sides(other, default) == (-1, 0)
     [v] = pareto.variations(cases["sod"], [default, other])
     assert v.word == "cheaper"
