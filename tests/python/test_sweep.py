@@ -265,7 +265,7 @@ def test_plots(root, folder):
         assert (folder / f"{name}.png").stat().st_size > 5000
     assert done.stdout.count("\n|---|") == 9  # seven studies, two of them with a table for each lattice
     nothing = subprocess.run([*plot, "--tables", folder], cwd=folder, text=True, capture_output=True)
-    assert nothing.returncode == 1 and "run python3 -m hvi sweep first" in nothing.stderr
+    assert nothing.returncode == 1 and "run hvi sweep first" in nothing.stderr
 
 
 def test_debris_cloud_in_a_sweep(sweep, root, folder):
