@@ -31,8 +31,11 @@ def text(names, rows, quantities=None, units=None, left=False):
 
 def write_csv(path, names, rows):
     """A CSV file; numbers with all their digits."""
-    with writing(path):
-        with open(path, "w", newline="", encoding="utf-8") as stream:
-            writer = csv.writer(stream, lineterminator="\n")
-            writer.writerow(names)
-            writer.writerows(rows)
+    with writing(path), open(path, "w", newline="", encoding="utf-8") as stream:
+        csv_to(stream, names, rows)
+
+
+def csv_to(stream, names, rows):
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(names)
+    writer.writerows(rows)

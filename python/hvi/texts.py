@@ -1,8 +1,12 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
-"""Text files of users, and YAML in them: read with a limit of their size, never executed; byte order marks and line ends of Windows are no matter."""
+"""Text files: those of users and YAML in them are read with a limit of their size, never executed, and byte order marks and line ends of Windows are no matter;
+what must be whole for its reader is written beside its name first."""
 
+import contextlib
 import csv
+import os
 import pathlib
+import uuid
 
 from .errors import HVIError, reading
 
@@ -30,6 +34,20 @@ def read(path, most=LARGEST):
         return data.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError as problem:
         raise HVIError(f"{path}, line {data.count(bytes([10]), 0, problem.start) + 1}: no UTF-8 text (byte {data[problem.start]:#x}): save it as UTF-8") from None
+
+
+@contextlib.contextmanager
+def whole(path):
+    """A stream for a text file that others see whole or not at all, also where the machine stops; of processes that write it at once, the last one's stays"""
+    new = pathlib.Path(path).with_name(f"{pathlib.Path(path).name}.{uuid.uuid4().hex}.new")
+    try:
+        with open(new, "w", newline="", encoding="utf-8") as stream:
+            yield stream
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.replace(new, path)
+    finally:
+        new.unlink(missing_ok=True)
 
 
 def name_of(path):

@@ -13,7 +13,7 @@ import types
 import pytest
 import yaml
 from front_runs import CASE, case_folder, change, front, tries, wait_for  # noqa: F401
-from hvi import cli
+from hvi import cli, texts
 from hvi.jobs import engine
 from hvi.shield import case as cases
 from hvi.shield import decision, script
@@ -185,6 +185,22 @@ def test_two_calls_at_once(folder, capsys):
     assert front("shield", "--jobs", "4") == 3
     assert "its result is gone or of another case" in first.communicate(timeout=60)[1] and first.returncode == 1
     assert yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())["verdict"] == "fails"
+
+
+def test_a_result_written_by_two_at_once(tmp_path):
+    """both are written whole, the last one stays, and nothing else does, also where one is given up"""
+    path = tmp_path / "verdict.yaml"
+    with texts.whole(path) as first:
+        first.write("verdict: ")
+        engine.write_yaml(path, {"verdict": "holds"})
+        first.write("fails\n")
+        first.flush()
+        assert path.read_text() == "verdict: holds\n"
+    assert path.read_text() == "verdict: fails\n"
+    with pytest.raises(KeyboardInterrupt), texts.whole(path) as given_up:
+        given_up.write("verdict: ")
+        raise KeyboardInterrupt
+    assert path.read_text() == "verdict: fails\n" and list(tmp_path.iterdir()) == [path]
 
 
 def test_next_finer(folder, capsys):

@@ -2,14 +2,13 @@
 """python3 -m hvi export: dumps as VTU files for ParaView, a PVD file of all with their times; or as one dump for OVITO. Units are in the names, types have names, halves and quarters are whole."""
 
 import base64
-import os
 import pathlib
 import re
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from .. import progress
+from .. import progress, texts
 from .. import units as unit_systems
 from ..errors import HVIError
 from ..shield.run import runs_of
@@ -163,16 +162,10 @@ def to_ovito(dump, args, out, names):
     """the name of the file"""
     path = out if out.suffix == ".lammpstrj" else out.with_name(out.name + ".lammpstrj")
     words = {kind: re.sub(r"\s+", "", name.replace(", ", "_")) for kind, name in names.items()}  # a column of words between blanks
-    new = path.with_name(path.name + ".new")  # a whole dump or none
-    for written in (path, new):
-        check_other(written, dump, args)
-    try:
-        with open(new, "w", encoding="utf-8") as stream:
-            for frame in frames_of(dump, args):
-                write_frame(stream, frame, words)
-        os.replace(new, path)
-    finally:
-        new.unlink(missing_ok=True)
+    check_other(path, dump, args)
+    with texts.whole(path) as stream:
+        for frame in frames_of(dump, args):
+            write_frame(stream, frame, words)
     return path
 
 

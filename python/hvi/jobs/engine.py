@@ -54,13 +54,9 @@ def yaml_of(mapping):
 
 
 def write_yaml(path, mapping):
-    """a YAML file, whole or not at all, also where the machine stops"""
-    new = path.with_name(path.name + ".new")
-    with open(new, "w") as out:
+    """a YAML file, whole or not at all"""
+    with texts.whole(path) as out:
         out.write(yaml_of(mapping))
-        out.flush()
-        os.fsync(out.fileno())
-    os.replace(new, path)
 
 
 def is_whole(path):

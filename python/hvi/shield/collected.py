@@ -6,7 +6,7 @@ import datetime
 import math
 import pathlib
 
-from .. import tables
+from .. import tables, texts
 from ..errors import HVIError, writing
 from ..jobs import engine
 from ..places import ROOT
@@ -110,8 +110,6 @@ def within(path):
 def write(path, records):
     """what calibration.read() reads"""
     rows = [["" if value != value else value for value in vars(run).values()] for run in records.runs]
-    new = pathlib.Path(path).with_name(pathlib.Path(path).name + ".new")
-    tables.write_csv(new, calibration.COLUMNS, rows)
-    with writing(path):
-        new.write_text("".join(f"# {line}\n" for line in engine.yaml_of(records.head).splitlines()) + new.read_text())
-        new.replace(path)
+    with writing(path), texts.whole(path) as stream:
+        stream.writelines(f"# {line}\n" for line in engine.yaml_of(records.head).splitlines())
+        tables.csv_to(stream, calibration.COLUMNS, rows)
