@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from dumps import read_dump
+from scenes import books
 
 OUT = "compute cost all hvi/atom cost\ncompute rank all property/atom proc\ndump d all custom 1 {} id type x y z vx vy vz fx fy fz c_cost c_rank\ndump_modify d sort id format float %.17g\n"
 
@@ -74,3 +75,34 @@ def test_along_an_axis(lmp, root, tmp_path, axis, newton, nranks):
     assert apart(frame, "xyz".replace(axis, "")) and not apart(frame, axis)
     cost = loads(frame)
     assert cost.max() < 1.05 * cost.mean()
+
+
+@pytest.mark.parametrize("first, second", [(1, 3), (2, 2), (3, 1), (4, 2)])
+def test_restart(lmp, root, tmp_path, first, second):
+    """columns are made anew where a run goes on, on as many ranks or others: places, forces and books are those of the run that was not interrupted"""
+    env = {"LAMMPS_POTENTIALS": str(root / "potentials")}
+    text = (root / "tests/inputs/in.solid").read_text().replace("boundary s s s", "boundary s s s\ncomm_style tiled").replace("run 30", "fix share all hvi/balance 5 1.0\n")
+    head, _, fixes = text.partition("velocity left")
+    whole = lmp(text + OUT.format("whole") + "restart 12 half\nrun 30\n", nranks=first, cwd=tmp_path, env=env)
+    part = lmp("newton on\ncomm_style tiled\nread_restart half.12\npair_style hvi/sph cubic dissipation riemann\npair_coeff * * file Al6061-T6.hvi spacing 1e-3\n"
+               + fixes.partition("\n")[2] + OUT.format("part") + "run 18\n", nranks=second, cwd=tmp_path, env=env)
+    one, other = read_dump(tmp_path / "whole"), read_dump(tmp_path / "part")
+    assert len(np.unique(other["c_rank"])) == second and loads(other).max() < 1.1 * loads(other).mean()
+    assert np.array_equal(one["id"], other["id"])
+    for name in ("x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz"):
+        assert np.abs(one[name] - other[name]).max() < 1e-10 * np.abs(one[name]).max(), name
+    assert all(part.thermo[f"c_book[{k}]"][-1] == pytest.approx(whole.thermo[f"c_book[{k}]"][-1], rel=1e-10) for k in (1, 9))
+
+
+@pytest.mark.parametrize("newton, nranks", [("on", 1), ("on", 3), ("off", 2)])
+def test_leavers(lmp, root, tmp_path, newton, nranks):
+    """particles leave through faces of a box while columns are made anew, all of them in the end: none is lost without being counted"""
+    text = (root / "tests/inputs/in.solid").read_text().replace("boundary s s s", "boundary f f f\ncomm_style tiled").replace("newton on", f"newton {newton}")
+    text = text.replace("run 30", "velocity all set 20000 15000 0 units box\nfix share all hvi/balance 2 1.0\nthermo 1\nthermo_style custom step atoms c_book[*]\n"
+                        "thermo_modify lost ignore norm no format float %.17g\nrun 400\n").replace("fix step all hvi/dt 0.5", "timestep 5e-9")
+    result = lmp(text, nranks=nranks, cwd=tmp_path, env={"LAMMPS_POTENTIALS": str(root / "potentials")}).thermo
+    book, atoms = books(result), result["Atoms"]
+    assert atoms[0] == 324 and len(set(atoms)) > 5 and atoms[-1] == 0 and np.array_equal(atoms + book["left_count"], np.full(len(atoms), 324))
+    for name in ("mass", "px", "py"):
+        assert np.abs(book[name] + book[f"left_{name}"] - book[name][0]).max() < 1e-12 * book[name][0], name
+    assert np.abs(book["ratio"] - 1).max() < 1e-3
