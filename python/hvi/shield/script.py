@@ -187,7 +187,7 @@ class Shield:
         if body:  # read_data shrinks the box to what is in it, so walls come before
             self.projectile(text)
         if g.quarter:
-            text("change_box", f"all x final {number(-g.a)} {number(box[1])} y final {number(-g.a)} {number(box[3])} units box", "no face of the box on a mirror plane")
+            text("change_box", f"all x final {number(-g.a)} {number(box[1])} y final {number(-g.a)} {number(box[3])} units box", "no face on a mirror plane: nodes of elements may be there")
         text.say("what moves how")
         text("group", "ball type 1")
         if self.elements:
