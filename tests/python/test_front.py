@@ -579,3 +579,19 @@ def test_real_meshes(root, lmp, tmp_path):
     lmp(tmp_path / "run/in.shield", cwd=tmp_path / "run", vars={"until": 0.05})
     elements = sum(int(re.search(r"^(\d+) elements$", (tmp_path / f"run/wall{k}.data").read_text()[:400], re.M)[1]) for k in (1, 2))
     assert np.loadtxt(tmp_path / "run/history.dat")[0, 3 + record.BOOK] == elements
+
+
+@pytest.mark.parametrize("coarse, fine, found", [
+    ((0.04, 0.09), (0.01, 0.04), "the largest piece that strikes wall 2 has 0.06 of the projectile's mass at 0.4 mm and 0.02 at 0.2 mm: finer spacings may make it smaller still"),
+    ((0.02, 0.02), (0.04, 0.04), "has 0.02 of the projectile's mass at 0.4 mm and 0.04 at 0.2 mm: finer spacings may make it larger still"),
+    ((0.04, 0.09), (0.05, 0.05), ""), ((0.04, 0.09), (0.0, 0.01), ""), ((None, 0.09), (0.01, 0.01), "")])
+def test_pieces_that_go_with_the_spacing(folder, coarse, fine, found):
+    """geometric means over the shifts"""
+    case = cases.read("emi.yaml")
+    values = dict(zip(decision.members(case), (*coarse, *fine)))
+    results = {member: {} if value is None else {"wall1_largest_fragment_mass_fraction": value} for member, value in values.items()}
+    jobs = {member: types.SimpleNamespace(result=lambda one=one: one) for member, one in results.items()}
+    notes = decision.note_of_pieces(case, jobs)
+    assert len(notes) == bool(found) and all(note.endswith(found) for note in notes)
+    (folder / "emi.yaml").write_text(change("[0.2, 0.4]", "[0.2]"))
+    assert decision.note_of_pieces(cases.read("emi.yaml"), jobs) == []

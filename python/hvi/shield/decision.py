@@ -3,6 +3,7 @@
 
 import dataclasses
 import itertools
+import statistics
 
 from ..errors import HVIError
 from ..jobs import engine
@@ -10,6 +11,7 @@ from . import chain, elements, geometry
 from . import case as cases
 
 STATUS = {"holds": 0, "fails": 3, "undecided": 4}  # exit status of each verdict
+CHANGES = 1.5  # of the mass of the largest piece from one spacing to the next: some two shifts of the lattice do as much (examples/whipple-shield/limits/tables.md)
 
 
 def members(case):
@@ -70,6 +72,21 @@ def decide(case, said):
     notes = [f"{text} ({member_name(case, finest)})" for text in said[finest][2]]
     return verdict, [f"{'both' if len(said) == 2 else f'all {len(said)}'} runs say so: spacings of {', '.join(f'{dx:g}' for dx in case.spacings_mm)} mm, "
                      f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told], notes
+
+
+def note_of_pieces(case, jobs):
+    """[note] where the largest piece that strikes the last wall is another at another spacing; else []"""
+    if len(case.walls) < 2 or len(case.spacings_mm) < 2:
+        return []
+    key, finest = f"wall{len(case.walls) - 1}_largest_fragment_mass_fraction", len(case.spacings_mm) - 1
+    found = [[jobs[which, shift].result().get(key) or 0.0 for shift in case.shifts] for which in (finest - 1, finest)]
+    if min(map(min, found)) <= 0.0:
+        return []
+    coarse, fine = map(statistics.geometric_mean, found)
+    if max(coarse / fine, fine / coarse) < CHANGES:
+        return []
+    return [f"the largest piece that strikes wall {len(case.walls)} has {coarse:.2g} of the projectile's mass at {case.spacings_mm[-2]:g} mm and {fine:.2g} at {case.spacings_mm[-1]:g} mm: "
+            f"finer spacings may make it {'smaller' if fine < coarse else 'larger'} still"]
 
 
 def finer(case, said, jobs):
