@@ -64,6 +64,7 @@ for k in range(n):
     row = dict.fromkeys(WALL, 0.0)
     row["tip"] = 1e-3 * (fronts[k + 1] if k + 1 < n else fronts[k] + 50)
     row["momentum"] = row["mass"] = 1.0
+    row["largest_mass"] = float(os.environ.get("FAKE_PIECE", "0")) * mass * (dx / 0.4) ** 2
     if k == n - 1:
         row["coming_energy"] = 0.01 / images * 0.5 * mass * v0**2 if verdict == "undecided" or note else 0.0
         row["missed_mass"] = 0.12 / images * mass if note else 0.0

@@ -582,16 +582,26 @@ def test_real_meshes(root, lmp, tmp_path):
 
 
 @pytest.mark.parametrize("coarse, fine, found", [
-    ((0.04, 0.09), (0.01, 0.04), "the largest piece that strikes wall 2 has 0.06 of the projectile's mass at 0.4 mm and 0.02 at 0.2 mm: finer spacings may make it smaller still"),
-    ((0.02, 0.02), (0.04, 0.04), "has 0.02 of the projectile's mass at 0.4 mm and 0.04 at 0.2 mm: finer spacings may make it larger still"),
-    ((0.04, 0.09), (0.05, 0.05), ""), ((0.04, 0.09), (0.0, 0.01), ""), ((None, 0.09), (0.01, 0.01), "")])
+    ((0.04, 0.09), (0.02, 0.03), "the largest piece that strikes wall 2 has not converged: 0.06 of the projectile's mass at 0.4 mm, 0.024 at 0.2 mm"),
+    ((0.02, 0.02), (0.04, 0.04), "0.02 of the projectile's mass at 0.4 mm, 0.04 at 0.2 mm"),
+    ((0.04, 0.09), (0.01, 0.05), ""), ((0.04, 0.05), (0.03, 0.035), ""), ((0.0003, 0.09), (0.0001, 0.0002), ""), ((0.04, 0.09), (0.0, 0.01), ""), ((None, 0.09), (0.01, 0.01), "")])
 def test_pieces_that_go_with_the_spacing(folder, coarse, fine, found):
-    """geometric means over the shifts"""
+    """geometric means over the shifts, of pieces wider than two spacings"""
     case = cases.read("emi.yaml")
     values = dict(zip(decision.members(case), (*coarse, *fine)))
-    results = {member: {} if value is None else {"wall1_largest_fragment_mass_fraction": value} for member, value in values.items()}
+    results = {member: {} if value is None else {"wall2_reached": True, "wall1_largest_fragment_mm": 5 * value**(1 / 3), "wall1_largest_fragment_mass_fraction": value}
+               for member, value in values.items()}
     jobs = {member: types.SimpleNamespace(result=lambda one=one: one) for member, one in results.items()}
     notes = decision.note_of_pieces(case, jobs)
     assert len(notes) == bool(found) and all(note.endswith(found) for note in notes)
+    results[0, case.shifts[0]]["wall2_reached"] = False
+    assert decision.note_of_pieces(case, jobs) == []
     (folder / "emi.yaml").write_text(change("[0.2, 0.4]", "[0.2]"))
     assert decision.note_of_pieces(cases.read("emi.yaml"), jobs) == []
+
+
+def test_the_note_of_pieces_is_told(folder, capsys, monkeypatch):
+    monkeypatch.setenv("FAKE_PIECE", "0.1")
+    assert front("shield") == 3
+    said = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())["notes"]
+    assert said == ["the largest piece that strikes wall 2 has not converged: 0.1 of the projectile's mass at 0.4 mm, 0.025 at 0.2 mm"] and said[0] in capsys.readouterr().out

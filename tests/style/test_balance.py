@@ -79,7 +79,7 @@ def test_along_an_axis(lmp, root, tmp_path, axis, newton, nranks):
 
 @pytest.mark.parametrize("first, second", [(1, 3), (2, 2), (3, 1), (4, 2)])
 def test_restart(lmp, root, tmp_path, first, second):
-    """columns are made anew where a run goes on, on as many ranks or others: places, forces and books are those of the run that was not interrupted"""
+    """columns are made anew where a run goes on, on as many ranks or others: places, forces and energies are those of the run that was not interrupted"""
     env = {"LAMMPS_POTENTIALS": str(root / "potentials")}
     text = (root / "tests/inputs/in.solid").read_text().replace("boundary s s s", "boundary s s s\ncomm_style tiled").replace("run 30", "fix share all hvi/balance 5 1.0\n")
     head, _, fixes = text.partition("velocity left")

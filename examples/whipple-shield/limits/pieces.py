@@ -1,4 +1,4 @@
-"""How large are the pieces that strike a rear wall, over spacing and shift of the lattice? Sphere and bumper of A27 to A635 until the cloud has flown some 60 mm.
+"""How large are the pieces that strike a rear wall, over spacing and shift of the lattice? Sphere and bumper of A27 to A635, before the cloud is at the wall.
 
     python3 pieces.py --speed 4.25 --across 10 --shifts 0 0.125 0.25 0.375 0.5
 
@@ -32,10 +32,10 @@ def largest(lmp, speed, across, fill, shift):
         folder = pathlib.Path(scratch)
         (folder / "pieces.yaml").write_text(CASE.format(diameter=DIAMETER, fill=fill, speed=speed, spacing=DIAMETER / across, shift=shift))
         hvi = [sys.executable, "-m", "hvi"]
-        subprocess.run([*hvi, "shield", folder / "pieces.yaml", "--write", folder / "run"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        subprocess.run([*hvi, "shield", folder / "pieces.yaml", "--write", folder / "run"], check=True, stdout=subprocess.DEVNULL)
         (run,) = (folder / "run").glob("*/")
         subprocess.run([lmp, "-in", "in.shield", "-screen", "none", "-var", "until", f"{60 / speed:.1f}"], cwd=run, check=True)
-        subprocess.run([*hvi, "judge", "."], cwd=run, stdout=subprocess.DEVNULL)
+        subprocess.run([*hvi, "judge", "."], cwd=run, stdout=subprocess.DEVNULL)  # its status is the verdict
         return yaml.safe_load((run / "result.yaml").read_text())["wall1_largest_fragment_mass_fraction"]
 
 

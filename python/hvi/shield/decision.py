@@ -11,7 +11,8 @@ from . import chain, elements, geometry
 from . import case as cases
 
 STATUS = {"holds": 0, "fails": 3, "undecided": 4}  # exit status of each verdict
-CHANGES = 1.5  # of the mass of the largest piece from one spacing to the next: some two shifts of the lattice do as much (examples/whipple-shield/limits/tables.md)
+CHANGES = 1.5  # of the mass of the largest piece between two spacings, beyond its range over the shifts (examples/whipple-shield/limits/tables.md),
+LUMP = 2  # if it is wider than so many spacings: smaller ones are as coarse as the particles
 
 
 def members(case):
@@ -75,18 +76,23 @@ def decide(case, said):
 
 
 def note_of_pieces(case, jobs):
-    """[note] where the largest piece that strikes the last wall is another at another spacing; else []"""
-    if len(case.walls) < 2 or len(case.spacings_mm) < 2:
+    """[note] where the largest piece that strikes the last wall differs between the two finest spacings; else []"""
+    last, finest = len(case.walls), len(case.spacings_mm) - 1
+    if last < 2 or finest < 1:
         return []
-    key, finest = f"wall{len(case.walls) - 1}_largest_fragment_mass_fraction", len(case.spacings_mm) - 1
-    found = [[jobs[which, shift].result().get(key) or 0.0 for shift in case.shifts] for which in (finest - 1, finest)]
-    if min(map(min, found)) <= 0.0:
+    found = []
+    for which in (finest - 1, finest):
+        results = [jobs[which, shift].result() for shift in case.shifts]
+        if not all(one.get(f"wall{last}_reached") and one.get(f"wall{last - 1}_largest_fragment_mm", 0.0) > LUMP * case.spacings_mm[which] for one in results):
+            return []
+        found.append([one[f"wall{last - 1}_largest_fragment_mass_fraction"] for one in results])
+    coarse, fine = found
+    if max(fine) >= min(coarse) and max(coarse) >= min(fine):
         return []
     coarse, fine = map(statistics.geometric_mean, found)
     if max(coarse / fine, fine / coarse) < CHANGES:
         return []
-    return [f"the largest piece that strikes wall {len(case.walls)} has {coarse:.2g} of the projectile's mass at {case.spacings_mm[-2]:g} mm and {fine:.2g} at {case.spacings_mm[-1]:g} mm: "
-            f"finer spacings may make it {'smaller' if fine < coarse else 'larger'} still"]
+    return [f"the largest piece that strikes wall {last} has not converged: {coarse:.2g} of the projectile's mass at {case.spacings_mm[-2]:g} mm, {fine:.2g} at {case.spacings_mm[-1]:g} mm"]
 
 
 def finer(case, said, jobs):
