@@ -46,6 +46,10 @@ def whole(path):
             stream.flush()
             os.fsync(stream.fileno())
         os.replace(new, path)
+    except OSError as problem:
+        if problem.filename in (new, str(new)):
+            problem.filename = str(path)
+        raise
     finally:
         new.unlink(missing_ok=True)
 

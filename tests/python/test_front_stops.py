@@ -201,6 +201,8 @@ def test_a_result_written_by_two_at_once(tmp_path):
         given_up.write("verdict: ")
         raise KeyboardInterrupt
     assert path.read_text() == "verdict: fails\n" and list(tmp_path.iterdir()) == [path]
+    with pytest.raises(OSError, match="none/verdict.yaml'$"):
+        engine.write_yaml(tmp_path / "none/verdict.yaml", {})
 
 
 def test_next_finer(folder, capsys):
