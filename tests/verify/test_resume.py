@@ -47,7 +47,7 @@ def test_half_a_file_beside(shield, undisturbed):
     named, other = run.files()
     data = named.read_bytes()
     other.write_bytes(data[:len(data) // 2])
-    (run.folder / "chain.yaml.new").write_text("{leg: 2, fi")
+    (run.folder / "chain.yaml.0123abcd.new").write_text("{leg: 2, fi")
     assert run.call()[0] == 4
     same(run, undisturbed("particles"))
 
