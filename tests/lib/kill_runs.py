@@ -12,6 +12,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -48,6 +49,15 @@ def at_work(folder, name=""):
     return found
 
 
+def has_begun(pids):
+    """one of these ranks has its log open, so all have passed MPI_Init: Open MPI may wait for ever for a rank that dies before"""
+    for pid in pids:
+        with contextlib.suppress(OSError):
+            if any(re.search(r"/log[^/]*[.]lammps$", os.readlink(file)) for file in pathlib.Path(f"/proc/{pid}/fd").iterdir()):
+                return True
+    return False
+
+
 def kill(pids):
     for pid in pids:
         with contextlib.suppress(ProcessLookupError):
@@ -79,7 +89,8 @@ class Killed:
         """one rank gets SIGKILL once moment() is true: the call ends by itself, with an exit status that says so"""
         process = self.begin(nranks)
         self.wait_for(moment, process)
-        ranks = at_work(self.folder, "lmp")
+        while not has_begun(ranks := at_work(self.folder, "lmp")) and process.poll() is None:
+            time.sleep(0.001)
         kill(ranks[-1:])
         said, _ = process.communicate(timeout=1500)
         assert not at_work(self.folder), "ranks that nobody waits for"
