@@ -163,7 +163,7 @@ class Job(engine.Job):
                                                     "checksum": self.checksum(self.folder / file), "before": before})
             return False
         write_result(self.shield, self.folder)
-        for path in (self.folder / CHAIN, *self.folder.glob("shield.restart.*"), *self.folder.glob("*.new")):  # .new: half a file of a call that was killed
+        for path in (self.folder / CHAIN, *self.folder.glob("shield.restart.*"), *self.folder.glob("*.yaml.*.new")):  # .new: half a file of a call that was killed
             path.unlink(missing_ok=True)
         return True
 
