@@ -26,7 +26,7 @@ def block(first):
 
 
 def run(lmp, folder, mesh="", without="", fem=""):
-    words = shlex.split(block("python3 -m hvi mesh wall").replace("\\\n", ""))[3:]
+    words = shlex.split(block("build/hvi mesh wall").replace("\\\n", ""))[1:]
     words[words.index("wall.data")] = str(folder / "wall.data")
     words[words.index("--material") + 1] = str(POTENTIALS / "Al6061-T6.hvi")
     if without:
@@ -41,7 +41,7 @@ def run(lmp, folder, mesh="", without="", fem=""):
     line = re.search(r"fix +wall all hvi/fem.*", text)[0]
     t = lmp(text.replace(line, f"{line} {fem}")).thermo
     energy = t["c_book[1]"][0]
-    return dict(elements=t["f_wall"][0], gone=t["f_wall[1]"][-1], hole=1e3 * t["c_hole[1]"][-1], heat=t["f_wall[7]"][-1] / energy,
+    return dict(elements=t["f_wall"][0], gone=t["f_wall"][0] - t["f_wall"][-1], hole=1e3 * t["c_hole[1]"][-1], heat=t["f_wall[7]"][-1] / energy,
                 hourglass=t["f_wall[8]"][-1] / energy, drift=np.abs(t["c_book[9]"] - 1).max(), end=1e6 * t["Time"][-1])
 
 
