@@ -119,7 +119,8 @@ OUTSIDE = [
     ("speed_km_s: 6", "speed_km_s: 7.1", "speed in km/s 7.1, of the records 5 to 7"), ("gap_mm: 60", "gap_mm: 90", "gap over diameter 22.5, of the records 12.5 to 17.5"),
     ("  - {thickness_mm: 1.0, material: Al6061-T6}\n", "", "it has 1 wall, not 2"), ("spacings_mm", "  - {thickness_mm: 2.0, material: Al6061-T6, gap_mm: 60}\nspacings_mm", "it has 3 walls, not 2"),
     ("[0.4, 0.3]", "[0.6, 0.5]", "its spacings are coarser than those of the records"), ("gap_mm: 60", "gap_mm: 60, spacings_mm: [1, 0.8]", "coarser"),
-    ("Al2017-T4", "Cu-OFHC", "Cu-OFHC is in none of them"), ("speed_km_s: 6", "speed_km_s: 6\nnot_modelled: [MLI]", "what is not modelled"), ("speed_km_s: 6", "speed_km_s: 6\nsettings: {eta: 1.3}", "eta is 1.3, not 1.2")]
+    ("Al2017-T4", "Cu-OFHC", "Cu-OFHC is in none of them"), ("speed_km_s: 6", "speed_km_s: 6\nnot_modelled: [MLI]", "what is not modelled"), ("speed_km_s: 6", "speed_km_s: 6\nsettings: {eta: 1.3}", "eta is 1.3, not 1.2"),
+    ("speed_km_s: 6", "speed_km_s: 6\nsettings: {debris: yes}", "settings: debris is yes, not no"), ("{diameter_mm: 4,", "{fill: glass, diameter_mm: 4,", "projectile: fill is glass, not lattice")]
 
 
 @pytest.mark.parametrize("old, new, message", OUTSIDE)
@@ -129,6 +130,15 @@ def test_outside(case, old, new, message):
     other = case(text if "{thickness_mm: 1.0" in text else text.replace(", gap_mm: 60", ""))  # nothing is in front of wall 1
     with pytest.raises(HVIError, match="the case is outside of what the records cover: .*" + message):
         records(*ROWS).for_case(other)
+
+
+def test_records_older_than_a_setting(case):
+    """had its default"""
+    old = records(*ROWS)
+    old.head["model"] = {name: value for name, value in old.head["model"].items() if name not in ("debris", "fill")}
+    assert len(old.for_case(case()).shields) == 3
+    with pytest.raises(HVIError, match="debris is yes, not no"):
+        old.for_case(case(CASE.replace("speed_km_s: 6", "speed_km_s: 6\nsettings: {debris: yes}")))
 
 
 @pytest.mark.parametrize("old, new", [("speed_km_s: 6", "speed_km_s: 7"), ("gap_mm: 60", "gap_mm: 60, spacings_mm: [1, 0.7]"), ("speed_km_s: 6", "speed_km_s: 6\nsettings: {film: 1}")])

@@ -26,7 +26,7 @@ from hvi.errors import HVIError
 from hvi.figures import sketch
 from hvi.io.data import DataFile
 from hvi.jobs import engine
-from hvi.material import laws
+from hvi.material import laws, library
 from hvi.model import bodies
 from hvi.shield import ble, chain, decision, projectile, record
 from hvi.shield import case as cases
@@ -72,6 +72,61 @@ def test_the_case_of_one_run(folder):
     (folder / "one.yaml").write_text(yaml.safe_dump(one.mapping()))
     assert cases.read("one.yaml") == dataclasses.replace(one, name="one")
     assert (one.spacings_mm, one.shifts, one.walls[1].spacings_mm) == ((0.2,), (0.5,), (0.3,))
+
+
+def test_materials_are_those_that_the_case_names(folder):
+    """not files of their name in the working directory, or of another wall"""
+    (folder / "cases").mkdir()
+    (folder / "cases/emi.yaml").write_text(CASE)
+    (folder / "Al6061-T6.hvi").write_text(MINE)
+    shield = chain.shield_of(cases.read("cases/emi.yaml"), 0, 0.0)
+    assert shield.texts()["Al6061-T6.hvi"] == (library.POTENTIALS / "Al6061-T6.hvi").read_text() and shield.rho[2] == 2703
+    (folder / "cases/Al6061-T6.hvi").write_text(MINE)
+    shield = chain.shield_of(cases.read("cases/emi.yaml"), 0, 0.0)
+    assert shield.texts()["Al6061-T6.hvi"] == MINE and shield.rho[2] == 2700
+    (folder / "cases/weak").mkdir()
+    (folder / "cases/weak/Al2024-T3.hvi").write_text(MINE)
+    (folder / "cases/emi.yaml").write_text(CASE.replace("0.8, material: Al2024-T3", "0.8, material: weak/Al2024-T3.hvi"))
+    with pytest.raises(HVIError, match=r"wall 1: material: .*weak/Al2024-T3.hvi and .*potentials/Al2024-T3.hvi have one name"):
+        cases.read("cases/emi.yaml")
+
+
+def test_equations_know_the_density_of_today(folder):
+    (folder / "emi.yaml").write_text(CASE.replace("material: Al6061-T6", "material: mine"))
+    for rho in (2700, 5400):
+        (folder / "mine.hvi").write_text(MINE.replace("rho0 2700", f"rho0 {rho}"))
+        assert ble.from_case(cases.read("emi.yaml")).wall_density == pytest.approx(1e-3 * rho)
+
+
+@pytest.mark.parametrize("spacings, message", [("[0.3, 0.5]", None), ("[0.5, 0.3]", "wall 2: spacings_mm: 0.3, 0.5 mm grow where those of the case, 0.4, 0.2 mm, become finer"),
+                                               ("[0.3, 0.3]", "wall 2: spacings_mm: of the last wall the largest must be 1.2 times the smallest at least")])
+def test_spacings_of_a_wall_become_finer(folder, spacings, message):
+    """so that the verdict of two spacings is one"""
+    (folder / "emi.yaml").write_text(CASE.replace("gap_mm: 60", f"gap_mm: 60\n    spacings_mm: {spacings}"))
+    with pytest.raises(HVIError, match=message) if message else contextlib.nullcontext():
+        cases.read("emi.yaml")
+
+
+def test_a_folder_keeps_its_run(folder, capsys):
+    """--write does not mix a run with another case, and judge does not take it for one"""
+    assert cli.main(["shield", "emi.yaml", "--write", "w"]) == 0 and cli.main(["shield", "emi.yaml", "--write", "w"]) == 0
+    (folder / "w/dx-0.4_shift-0.0/walls.dat").write_text("")
+    assert cli.main(["shield", "emi.yaml", "--write", "w"]) == 0
+    (folder / "emi.yaml").write_text(change("speed_km_s: 7.1", "speed_km_s: 5"))
+    capsys.readouterr()
+    assert cli.main(["shield", "emi.yaml", "--write", "w"]) == 1 and "w/dx-0.4_shift-0.0 has a run of another case" in capsys.readouterr().err
+
+
+def test_a_thick_last_wall_has_a_next_spacing(folder):
+    """of hundreds of layers, where one more changes nothing; of layers that the case gives there is none"""
+    (folder / "emi.yaml").write_text(CASE.replace("thickness_mm: 1.2", "thickness_mm: 250\n    radius_mm: 8"))
+    case = cases.read("emi.yaml")
+    said = {member: ("undecided", [], []) for member in decision.members(case)}
+    jobs = {member: types.SimpleNamespace(result=lambda: {"core_s": 1.0}) for member in said}
+    assert decision.finer(case, said, jobs)["spacings_mm"][1] == pytest.approx(0.2 / 1.2, rel=1e-3)
+    thin = dataclasses.replace(case, walls=(case.walls[0], dataclasses.replace(case.walls[1], thickness_mm=1.2)))
+    assert decision.finer(thin, said, jobs)["spacings_mm"] == [0.2, 0.15]
+    assert decision.finer(dataclasses.replace(thin, settings={"layers": (3, 3)}), said, jobs) is None
 
 
 def test_tables_of_keys(capsys):
@@ -281,16 +336,21 @@ def test_one_spacing_is_no_verdict(folder, capsys):
 @pytest.mark.parametrize("ball", ["fill: glass\n  diameter_mm: 5", "shape: file\n  file: ball.data"])
 def test_particles_in_files(folder, ball):
     """The front door runs what is not on a lattice, and what is done is not run again; particles of a file that has changed are another projectile"""
-    (folder / "emi.yaml").write_text(change("diameter_mm: 5", ball).replace("[0.2, 0.4]", "[0.5]"))
+    text = change("diameter_mm: 5", ball).replace("[0.2, 0.4]", "[0.5]")
+    (folder / "emi.yaml").write_text(text)
     made = bodies.make(bodies.sphere(2.5e-3), 5e-4, "glass", 1)
 
     def write(density):
         bodies.write_data(folder / "ball.data", made.x, 1, [density * made.volume] * len(made.x), density, made.x.min(axis=0) - 5e-4, made.x.max(axis=0) + 5e-4, (), "ball")
 
     write(2785)
+    if "file" in ball:
+        with pytest.raises(HVIError, match="shifts: particle files have no lattice that could be shifted"):
+            cases.read("emi.yaml")
+        (folder / "emi.yaml").write_text(text.replace("shifts: [0, 0.5]\n", ""))
     assert front("shield") == 4
     first = begun(folder)
-    assert len(first) == 2 and len(list(folder.glob("runs/emi/*/ball.data"))) == 2
+    assert len(first) == len(list(folder.glob("runs/emi/*/ball.data"))) == (1 if "file" in ball else 2)
     assert front("shield") == 4 and begun(folder) == first
     write(2700)
     assert front("shield") == 4

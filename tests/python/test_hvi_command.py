@@ -12,7 +12,7 @@ import hvi
 import numpy as np
 import pytest
 from hvi import cli
-from hvi.jobs import compare
+from hvi.jobs import compare, engine
 
 CLOUD = ["--axis", "z", "--plane", "-1e-3"]
 MASS = ["--mass", "1=5e-7", "--mass", "2=5e-7"]
@@ -244,10 +244,11 @@ def test_compare_results(command, files):
 
 
 def test_compare_lists_in_results(files):
-    """as hvi shield writes them: reasons, and margins"""
-    text = "verdict: fails\nreasons:\n  - a hole of {0} mm\n  - spall\nmargins:\n  hole_mm: {0}\n  layers: 3\nsteps: 5\n"
+    """as hvi shield writes them: reasons, and margins; lists may be indented, too"""
     for name, hole in (("a", 4), ("b", 5)):
-        (files / f"{name}.yaml").write_text(text.format(hole))
+        engine.write_yaml(files / f"{name}.yaml", {"verdict": "fails", "reasons": [f"a hole of {hole} mm", "spall"], "margins": {"hole_mm": hole, "layers": 3}, "steps": 5})
+    (files / "c.yaml").write_text((files / "a.yaml").read_text().replace("\n- ", "\n  - "))
+    assert compare.read_result("c.yaml") == compare.read_result("a.yaml")
     found = compare.read_result("a.yaml")
     assert found == {"verdict": "fails", "reasons": "a hole of 4 mm; spall", "margins.hole_mm": 4, "margins.layers": 3, "steps": 5}
     assert cli.main(["compare", "a.yaml", "b.yaml", "--keys", "margins.hole_mm", "--rtol", "0.2"]) == 1

@@ -88,6 +88,9 @@ def test_write_run_and_judge(lmp, tmp_path, capsys, monkeypatch, change):
     assert said[0]["walls_reached"] == 2 and said[0]["wall1_perforated"] and abs(said[0]["energy_ratio"] - 1) < 1e-3
     assert said[0]["momentum_error"] < 1e-9 and abs(said[0]["mass_error"]) < 1e-9 and said[0]["hole1_diameter_mm"] > 3
     assert (tmp_path / "one/dx-0.75_shift-0.0/cloud1.dump").exists()
+    of = tmp_path / "one/dx-0.75_shift-0.0/case.yaml"
+    of.write_text(re.sub("speed_km_s: .*", "speed_km_s: 5.1", of.read_text()))
+    assert cli.main(["judge", str(of.parent)]) == 1 and re.search(r"the run began with [\d.]+ J, and the projectile of case.yaml has [\d.]+ J", capsys.readouterr().err)
 
 
 def test_front_door_runs_it(root, lmp_exe, tmp_path, capsys, monkeypatch):
@@ -167,7 +170,9 @@ def apart(mg=2.0, particles=3, **changed):
     ({"wall2_bulge_m_s": 31.0}, "undecided", ["bulges", "sound"]), ({"wall2_bulge_m_s": 29.0}, "holds", ["sound"]),
     (apart(wall2_bulge_m_s=31.0), "fails", ["bulges", "through"]), ({"wall2_bulge_m_s": -31.0, "ended_by": "time"}, "undecided", ["bulges", "sound"]),
     ({"walls_reached": 1}, "undecided", ["late"]), ({"walls_reached": 1, "wall1_cloud_energy_ratio": 5e-5}, "holds", ["spared"]),
-    ({"wall1_layers": 2}, "holds", ["sound", "coarse"]), ({"method": "tied"}, "undecided", ["tied", "sound"])])
+    ({"wall1_layers": 2}, "holds", ["sound", "coarse"]), ({"method": "tied"}, "undecided", ["tied", "sound"]),
+    ({"ended_by": "until"}, "undecided", ["stopped", "sound"]), (apart(ended_by="until"), "fails", ["stopped", "through"]),
+    ({"ended_by": "until", "walls_reached": 1, "wall1_cloud_energy_ratio": 5e-5}, "undecided", ["stopped", "spared"])])
 def test_rules(tmp_path, changed, said, rules):
     """each rule by the number that it is about, and what it makes of the verdict"""
     shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
@@ -191,6 +196,30 @@ def test_whole_walls_and_what_is_not_modelled(tmp_path):
     found = verdict.of_run(shield, result())
     assert found["verdict"] == "undecided" and found["rules"] == ["not modelled", "whole", "sound"]
     assert any(text.startswith("wall 2 is of Ti-6Al-4V.hvi, whose file has no law of spall (damage yes spall voids)") for text in found["reasons"])
+
+
+def test_thick_layers_are_coarse(tmp_path):
+    """layers of 1.33 spacings hold too early, whatever their spacing in the plane; all spacings have the same ones, which a note says"""
+    for layers, rules in ((3, ["coarser", "sound"]), (4, ["sound"])):
+        text = CASE.replace("thickness_mm: 2.25", "thickness_mm: 3").replace("settings: {tstop: 8}", f"settings: {{tstop: 8, layers: [1, {layers}]}}")
+        found = verdict.of_run(chain.shield_of(read(tmp_path / "c.yaml", text), 0, 0.0), result(wall1_layers=3))
+        assert found["rules"] == rules, layers
+    assert any("1.3 times as far apart" in text and text.endswith("take more layers, or let spacings_mm say how many") for text in
+               verdict.of_run(chain.shield_of(read(tmp_path / "c.yaml", text.replace("[1, 4]", "[1, 3]")), 0, 0.0), result(wall1_layers=3))["reasons"])
+    case = read(tmp_path / "c.yaml", text.replace("[0.75]", "[0.75, 0.6]"))
+    said = {member: ("holds", [], []) for member in decision.members(case)}
+    assert decision.decide(case, said)[::2] == ("holds", ["settings: layers are the same with all spacings: how much they matter is not known"])
+
+
+@pytest.mark.parametrize("kind", ["spall", "damage"])
+def test_elements_that_cannot_fail(tmp_path, kind):
+    """by words of fix hvi/fem"""
+    text = CASE.replace("spacings_mm: [0.75]", "method: hybrid\nspacings_mm: [0.375]")
+    shield = chain.shield_of(read(tmp_path / "c.yaml", text.replace("tstop: 8", f"tstop: 8, fem: strain 0.3 {kind} no")), 0, 0.0)
+    found = verdict.of_run(shield, result(method="hybrid"))
+    assert found["verdict"] == "undecided" and sum(f"with settings: {{fem: {kind} no}} of its elements" in text for text in found["reasons"]) == 2
+    with pytest.raises(errors.HVIError, match="settings: fem: whether elements become particles is said by method"):
+        read(tmp_path / "c.yaml", text.replace("tstop: 8", "tstop: 8, fem: strain 0.3 convert no"))
 
 
 def test_walls_coarser_than_what_strikes_them(tmp_path):

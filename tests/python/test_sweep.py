@@ -12,6 +12,7 @@ import hvi
 import pytest
 import yaml
 from hvi.jobs import engine, runs
+from hvi.jobs import sweep as study_of
 
 # some hundred particles; result.yaml as in the examples; mode: good, or a way to fail; from: what it goes on from
 INPUT = """variable n index 5
@@ -240,6 +241,45 @@ def test_full_size_and_dry_run(sweep, folder):
 def test_wrong_study(sweep, study, message):
     process = sweep(study)
     assert process.returncode == 1 and message in process.text and "Traceback" not in process.text
+
+
+@pytest.mark.parametrize("value", ["yes", "off", "~", "010", "1:30", "1_000", "2026-11-27", "0x10"])
+def test_values_reach_lammps_as_they_are_written(folder, value):
+    """YAML 1.1 reads these as true, null, 8, 90, ...: they need quotes"""
+    text = "input: in.tiny\nvariables: {{n: 5}}\ngrid:\n  mode: [good, {}]\n"
+    (folder / "s.yaml").write_text(text.format(value))
+    with pytest.raises(hvi.HVIError, match=f"line 4: {re.escape(value)} would reach LAMMPS as another word: write it in quotes"):
+        study_of.Study(folder / "s.yaml")
+    (folder / "s.yaml").write_text(text.format(f"'{value}'"))
+    assert study_of.Study(folder / "s.yaml").cases == [{"mode": "good"}, {"mode": value}]
+    (folder / "s.yaml").write_text(text.format("good2") + f"full: {{variables: {{n: {value}}}}}\n")
+    with pytest.raises(hvi.HVIError, match="line 5: .* would reach LAMMPS"):
+        study_of.Study(folder / "s.yaml")
+
+
+def test_numbers_are_read_as_lammps_reads_them(folder):
+    (folder / "s.yaml").write_text("input: in.tiny\ngrid: {speed: [1, 2.50, -3e-3, .5, 1.0e+3, 0]}\n")
+    assert [case["speed"] for case in study_of.Study(folder / "s.yaml").cases] == [1, 2.5, "-3e-3", 0.5, 1000.0, 0]  # YAML 1.1 takes -3e-3 for a text
+
+
+def test_files_that_the_input_names(folder):
+    """a run is done only while these are as they were; what the run itself has written does not matter"""
+    (folder / "in.tiny").write_text(INPUT + "variable material index mine.hvi # other.hvi\nread_data ../../plate.data &\n  add append\npair_coeff * * file ${material}\n")
+    (folder / "s.yaml").write_text(yaml.safe_dump({**STUDY, "input": "in.tiny"}))
+
+    def files():
+        return study_of.Study(folder / "s.yaml").jobs(folder / "runs")[0].record.get("files")
+
+    assert files() is None
+    job = folder / "runs/s/speed-1.0_mode-good"
+    job.mkdir(parents=True)
+    (folder / "runs/plate.data").write_text("a")
+    (job / "mine.hvi").write_text("b")
+    assert files() == {"../../plate.data": engine.digest(b"a")}
+    (folder / "runs/plate.data").write_text("c")
+    assert files() == {"../../plate.data": engine.digest(b"c")}
+    (folder / "in.tiny").write_text((folder / "in.tiny").read_text().replace("mine.hvi", "Cu-OFHC.hvi"))
+    assert set(files()) == {"../../plate.data", "Cu-OFHC.hvi"}
 
 
 def test_wrong_options(sweep):

@@ -14,7 +14,7 @@ WIDE = 40  # characters of a text in a table
 def read_result(path):
     """{key: value} of a result.yaml, "key: value" per line; numbers as int or float, all else as text.
 
-    What is indented belongs to the key before: a list "- text" is joined, "margins:" and "  hole_mm: 0" are margins.hole_mm.
+    A list "- text" belongs to the key before and is joined; so does what is indented: "margins:" and "  hole_mm: 0" are margins.hole_mm.
     """
     if os.path.isdir(path):
         path = os.path.join(path, "result.yaml")
@@ -24,7 +24,7 @@ def read_result(path):
         line = raw.split(" #")[0].strip()
         if not line or line.startswith("#") or line == "---":
             continue
-        inside = raw[0] == " " and parent is not None
+        inside = (raw[0] == " " or line.startswith("- ")) and parent is not None
         if inside and line.startswith("- "):
             result[parent] = "; ".join(filter(None, [result.get(parent), line[2:]]))
             continue

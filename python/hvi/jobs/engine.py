@@ -113,6 +113,11 @@ class Input:
     def checksum(self):
         return digest("\0".join(self.texts[name] for name in sorted(self.texts)).encode())
 
+    def reads(self):
+        """names of the files that the texts themselves name for reading: materials, data"""
+        joined = re.sub(r"&[ \t]*\n", " ", re.sub(r"#.*", "", "\n".join(self.texts.values())))
+        return re.findall(r"[\w./+-]+\.hvi\b", joined) + re.findall(r"^\s*read_data\s+([\w./+-]+)", joined, re.M)
+
     def check(self, variables, where):
         """LAMMPS takes any name after -var; one that the input does not know would change nothing"""
         for name, value in variables.items():
@@ -176,11 +181,12 @@ class Job:
         self.batch = ""  # of Slurm's jobs, that it was submitted in; "": runs without Slurm
 
     def _files(self):
-        """checksums of the files that variables name: materials, plates"""
+        """checksums of the files that variables and the input name: materials, plates"""
+        named = [word for value in self.variables.values() for word in words(value)] + self.input.reads()
         found = {}
-        for word in (word for value in self.variables.values() for word in words(value)):
-            for path in (folder / word for folder in potentials()):  # an absolute path stays what it is
-                if re.search(r"\.\w*[a-z]\w*$", word) and path.is_file():
+        for word in dict.fromkeys(word for word in named if re.search(r"\.\w*[a-z]\w*$", word)):
+            for path in (*(folder / word for folder in potentials()), pathlib.Path(os.path.normpath(self.folder / word))):  # an absolute path stays what it is
+                if path.is_file() and self.folder.resolve() not in path.resolve().parents:  # what is in the folder was written by the run
                     found[word] = digest(path.read_bytes())
                     break
         return found

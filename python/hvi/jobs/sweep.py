@@ -4,12 +4,14 @@
 import itertools
 import math
 import os
+import re
 
 from .. import texts
 from ..errors import HVIError
 from . import engine, measures
 
 MOST = 10_000  # jobs of a study
+PLAIN = r"[-+]?(0|[1-9]\d*|\d*\.\d*)([eE][-+]?\d+)?"  # a number that YAML 1.1 reads as LAMMPS does: not octal, not of base 60
 KEYS = {"input", "variables", "grid", "ranks", "timeout", "restart", "continue", "remove", "full"}
 
 
@@ -25,6 +27,28 @@ class Job(engine.Job):
         return ""
 
 
+def refuse_changed(root, path):
+    """values of variables that YAML reads as something else than what is written: LAMMPS would get another word"""
+    def scalars(node):
+        if isinstance(node.value, str):
+            yield node
+        else:
+            for item in node.value:
+                yield from scalars(item[1] if isinstance(item, tuple) else item)
+
+    def look(node):
+        for key, value in node.value if isinstance(node.value, list) and node.tag.endswith(":map") else ():
+            if key.value in ("variables", "grid"):
+                for one in scalars(value):
+                    kind = one.tag.rpartition(":")[2]
+                    if one.style is None and kind != "str" and not (kind in ("int", "float") and re.fullmatch(PLAIN, one.value)):
+                        raise HVIError(f"{path}, line {one.start_mark.line + 1}: {one.value or 'nothing'} would reach LAMMPS as another word: write it in quotes, '{one.value}'")
+            elif key.value == "full":
+                look(value)
+
+    look(root)
+
+
 class Study:
     """A study file: the input, and the variables of each job."""
 
@@ -34,6 +58,7 @@ class Study:
         study = texts.load(path)
         if not isinstance(study, dict):
             raise HVIError(f"{path}: not a mapping of {', '.join(sorted(KEYS))}")
+        refuse_changed(texts.compose(path), path)
         self.path = path
         if full:
             if not isinstance(study.get("full"), dict):

@@ -50,7 +50,7 @@ def check(case, reader):
     words = case.setting("solid").split()
     law = next((new for old, new in zip(words, words[1:]) if old == "strength"), "johnson-cook")
     places = [("projectile: material", case.material), *((f"wall {k}: material", wall.material) for k, wall in enumerate(case.walls, 1))]
-    laws = {name: strengths(path) for _, name in places if (path := library.path_of(name))}
+    laws = {name: strengths(path) for _, name in places if (path := library.of_case(name)).is_file()}
     common = sorted(set.intersection(*map(set, laws.values())) - {"none"}) if laws else []
     for key, name in places:
         if name not in laws or law in laws[name] or law == "none":
@@ -63,8 +63,8 @@ def check(case, reader):
 
 def lacking(name, solid):
     """{kind: why} of the laws, spall and damage, by which a material does not fail with these words of fix hvi/johnson-cook: its file has none, or the words take none"""
-    path = library.path_of(name)
-    if path is None:
+    path = library.of_case(name)
+    if not path.is_file():
         return {}  # LAMMPS says so
     words, text = solid.split(), path.read_text(errors="replace")
     law = {kind: next((new for old, new in zip(words, words[1:]) if old == kind), preset) for kind, preset in (("spall", "principal"), ("damage", "yes"))}

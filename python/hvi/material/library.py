@@ -12,7 +12,7 @@ import re
 from typing import Optional
 
 from .. import texts
-from ..errors import HVIError
+from ..errors import HVIError, reading
 from ..places import POTENTIALS
 
 # keys of each law as its table in src/USER-HVI has them: (key, quantity, range, value if it is not given, None: it must be);
@@ -128,6 +128,18 @@ def potentials():
 def path_of(name):
     """of a material file by its name or path, None if there is none"""
     return next((path for path in (pathlib.Path(name), *(folder / name for folder in potentials())) if os.path.isfile(path)), None)  # is_file() raises for a long name
+
+
+def of_case(name):
+    """The file of a material as a Case has its name: a whole path, or a file of the folders of materials, whatever is in the working directory"""
+    return next((path for path in (folder / name for folder in potentials()) if os.path.isfile(path)), pathlib.Path(name))
+
+
+def text_of(name):
+    """of a material file, by its name in a Case"""
+    path = of_case(name)
+    with reading(path):
+        return path.read_text(errors="replace")
 
 
 def nowhere():

@@ -48,7 +48,7 @@ class Answer:
     @property
     def areal_densities(self):
         """kg/m^2 of each wall, a list"""
-        return [1e-3 * wall.thickness_mm * library.density_of(wall.material, si=True)[0] for wall in self.case.walls]
+        return [1e-3 * wall.thickness_mm * library.density_of(library.of_case(wall.material), si=True)[0] for wall in self.case.walls]
 
     @property
     def core_s(self):

@@ -308,10 +308,9 @@ def properties(stem):
     return PROPERTIES[max(found, key=len)] if found else (None,) * 4
 
 
-@functools.lru_cache
 def _density(name):
     """g/cm^3 of a material file"""
-    return 1e-3 * library.density_of(name, si=True)[0]
+    return 1e-3 * library.density_of(library.of_case(name), si=True)[0]
 
 
 def from_case(case):

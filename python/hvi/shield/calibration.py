@@ -17,6 +17,8 @@ from ..errors import HVIError
 from ..jobs import engine
 from ..material import library
 from . import brackets, shots
+from .case import SETTINGS
+from .projectile import FILLS
 
 FILE = pathlib.Path(__file__).with_name("calibration.csv")
 MARGINS = {"rear_plastic_strain": "a plastic strain of {:.2g} at its rear", "bulge_over_thickness": "a bulge of {:.2g} thicknesses",
@@ -26,7 +28,17 @@ ALIKE = 0.02  # lengths and speeds of one shield in two lists
 COARSER = 1.1  # than the records' are spacings of a case that they may judge, at most: that of hvi limit stays while the diameter varies
 HEAD: dict[str, type] = {**dict.fromkeys(("command", "date", "margin", "limits_in_the_band_of_the_others"), str), **dict.fromkeys(("rows", "shields"), int),
         **dict.fromkeys(("spacing", "settings", "model", "materials", "scores", "scores_by_other_reports"), dict)}  # what a file must say
-MODEL = ("kernel", "eta", "pair", "solid", "C", "edge", "layers")  # settings that change what a run computes
+MODEL = ("kernel", "eta", "pair", "solid", "debris", "C", "edge", "layers")  # settings that change what a run computes
+
+
+def model_of(case):
+    """{name: value} of what changes what a run computes, beside spacings"""
+    return {**{name: case.setting(name) for name in MODEL}, "fill": case.projectile.fill}
+
+
+def complete(model):
+    """of a file of records that is older than some of the names: these were their defaults"""
+    return {**{name: SETTINGS[name].default for name in MODEL}, "fill": FILLS[0], **model}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -108,7 +120,7 @@ def of_result(case, result, **more):
     margins = result.get("margins") or {}
     if result.get("decided_by") != f"wall{len(case.walls)}" or not margins:
         return None
-    mg = 1e-3 * library.density_of(case.material, si=True)[0] * case.projectile.volume_mm3
+    mg = 1e-3 * library.density_of(library.of_case(case.material), si=True)[0] * case.projectile.volume_mm3
     found = {"failed_share": margins["deepest_failed_layer"] / margins["layers"], APART: margins["apart_mass_mg"] / mg,
              **{name: margins[name] for name in ("bulge_over_thickness", "rear_plastic_strain")}}
     empty = {**dict.fromkeys(COLUMNS, math.nan), "shield": "", "source": "", "on": "-", "test": "between"}
@@ -227,14 +239,13 @@ class Records:
         found += ["it has what is not modelled"] if case.not_modelled else []
         found += [f"method is {case.method()}, not sph"] if case.method() else []
         for name in dict.fromkeys([case.material, *(wall.material for wall in case.walls)]):
-            known, path = self.head["materials"].get(pathlib.Path(name).name), library.path_of(name)
+            known, path = self.head["materials"].get(pathlib.Path(name).name), library.of_case(name)
             if known is None:
                 found.append(f"{library.stem(name)} is in none of them")
-            elif path is None or engine.digest(pathlib.Path(path).read_bytes()) != known:
+            elif not path.is_file() or engine.digest(path.read_bytes()) != known:
                 found.append(f"the file of {library.stem(name)} is not that of the records")
-        for name in MODEL:
-            given, of = case.setting(name), self.head["model"].get(name)
-            found += [f"settings: {name} is {given}, not {of}"] if given != of else []
+        known = complete(self.head["model"])
+        found += [f"{'projectile' if name == 'fill' else 'settings'}: {name} is {value}, not {known[name]}" for name, value in model_of(case).items() if value != known[name]]
         for name, value in scope(lengths(case)).items() if not found else ():
             values = [scope(vars(run))[name] for run in self.runs]
             if not min(values) * 0.999 <= value <= max(values) * 1.001:

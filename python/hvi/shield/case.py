@@ -149,7 +149,7 @@ class Case:
 
     def checksums(self):
         """{name: checksum} of the files that mapping() names: materials, as texts, since runs have copies of these, and files of the projectile; HVIError if one is gone"""
-        found = {pathlib.Path(name).name: library.find(name).read_text(errors="replace").encode() for name in (self.material, *(wall.material for wall in self.walls))}
+        found = {pathlib.Path(name).name: library.text_of(name).encode() for name in (self.material, *(wall.material for wall in self.walls))}
         for path in self.projectile.files:
             with reading(path):
                 found[pathlib.Path(path).name] = pathlib.Path(path).read_bytes()
@@ -205,10 +205,29 @@ class Case:
         for k, (wall, reach) in enumerate(zip(self.walls, geometry.reaches(self)), 1):
             if self.setting("edge") != "free" and self.setting("rim") >= (wall.radius_mm or reach):
                 wrong("settings: rim", f"{self.setting('rim'):g} mm is no narrower than wall {k}, whose radius is {wall.radius_mm or reach:.4g} mm")
+        self.check_materials(wrong)
+        self.check_refined(wrong)
         if "layers" in self.settings and len(self.settings["layers"]) != len(self.walls):
             wrong("settings: layers", f"must be {len(self.walls)} values, one for each wall")
         self.check_elements(wrong)
         self.check_projectile(wrong)
+
+    def check_materials(self, wrong):
+        """runs have copies of material files, by their names"""
+        known = {}
+        for key, name in (("projectile: material", self.material), *((f"wall {k}: material", wall.material) for k, wall in enumerate(self.walls, 1))):
+            path = library.of_case(name).resolve()
+            if known.setdefault(path.name, path) != path:
+                wrong(key, f"{path} and {known[path.name]} have one name, and a run has a folder for all its files: rename one")
+
+    def check_refined(self, wrong):
+        """spacings of a wall go with those of the case, those of the last one by as much as these must"""
+        for k, wall in enumerate(self.walls, 1):
+            own = wall.spacings_mm or ()
+            if any(fine > coarse for coarse, fine in zip(own, own[1:])):
+                wrong(f"wall {k}: spacings_mm", f"{', '.join(f'{dx:g}' for dx in own)} mm grow where those of the case, {', '.join(f'{dx:g}' for dx in self.spacings_mm)} mm, become finer")
+            if k == len(self.walls) and len(own) > 1 and own[0] < RATIO * own[-1]:
+                wrong(f"wall {k}: spacings_mm", f"of the last wall the largest must be {RATIO:g} times the smallest at least, as of the case: else nothing says how much it matters")
 
     def check_projectile(self, wrong):
         body = self.projectile
@@ -225,6 +244,8 @@ class Case:
                 found = projectile.spacing_of(body.files[which], body.of_files[which][1])
                 if not 0.9 * dx < found < 1.1 * dx:
                     wrong("spacings_mm", f"{dx:g} mm, and the particles of {body.files[which]} are {found:.3g} mm apart")
+            if len(self.shifts) > 1:
+                wrong("shifts", "particle files have no lattice that could be shifted: one value")
         elif len(body.files) > 1:
             wrong("projectile: file", "one STL file is enough for all spacings")
 
@@ -242,6 +263,8 @@ class Case:
     def check_elements(self, wrong):
         """that walls which shall have elements can have them"""
         method = self.method()
+        if "convert" in self.setting("fem").split():
+            wrong("settings: fem", "whether elements become particles is said by method, hybrid or tied, not by convert")
         for k, wall in enumerate(self.walls, 1):
             if wall.method == "sph":
                 if wall.hold_mm is not None:
@@ -280,6 +303,12 @@ def read_settings(reader, node, key):
     return {name: value for name, value in given.items() if f"{key}: {name}" in reader.at}
 
 
+def last_word(words, key):
+    """what follows a keyword in the words of a style, where it is given last; None: it is not"""
+    words = words.split()
+    return next((value for name, value in reversed([*zip(words, words[1:])]) if name == key), None)
+
+
 def read(path, model=True):
     """The Case in a file; HVIError names line and key of what is wrong.
 
@@ -298,6 +327,9 @@ def read(path, model=True):
         if wall.spacings_mm and len(wall.spacings_mm) != len(order):
             reader.wrong(f"wall {k}: spacings_mm", f"must be {len(order)} values, one for each of spacings_mm of the case")
         walls.append(dataclasses.replace(wall, method=wall.method or method, spacings_mm=wall.spacings_mm and tuple(wall.spacings_mm[i] for i in order)))
+    body = data["projectile"]
+    if body.files and not projectile.is_surface(body.files[0]) and "shifts" not in reader.at:
+        data["shifts"] = data["shifts"][:1]
     data.update(walls=tuple(walls), spacings_mm=tuple(data["spacings_mm"][i] for i in order))
     case = Case(name=texts.name_of(reader.path), **data)
     if not model:

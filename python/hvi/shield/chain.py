@@ -14,6 +14,7 @@ import warnings
 
 import numpy as np
 
+from .. import texts
 from ..errors import HVIError, HVIWarning
 from ..io import packed
 from ..jobs import engine
@@ -28,6 +29,7 @@ FRAMES, BUDGET = 30, 5e8  # intervals between the frames of a film, and bytes th
 ROW = 150  # bytes of a particle in a dump,
 RECORD = 600  # in a restart file,
 BYTES = 6100  # in memory: 8,218 MB were measured for 1.35e6 particles, of a single plate at 0.125 mm
+OF_THE_CASE = 0.02  # of the energy of the projectile: a run that begins with another has another case
 STEPS = 1.6  # of script.Shield.steps(), in runs of 600 to 4,000 steps
 SPEED = 6e5  # particle-steps per second of a core, in the same runs
 
@@ -42,6 +44,9 @@ class Written:
 
     def checksum(self):
         return engine.digest("\0".join(self.texts.values()).encode())
+
+    def reads(self):
+        return []  # materials are among the texts, and of variables
 
 
 def shield_of(case, which, shift):
@@ -236,9 +241,17 @@ def clouds(found, folder):
 def write_run(case, which, shift, folder):
     """a folder that LAMMPS alone can run: inputs, materials, meshes; the case of this run, for the verdict"""
     shield = shield_of(case, which, shift)
+    folder = pathlib.Path(folder)
+    if has_run(folder) and any(texts.read(folder / name) != text for name, text in shield.texts().items() if (folder / name).is_file()):
+        raise HVIError(f"{folder} has a run of another case, or of another state of it: remove the folder, or take another one")
     shield.write(folder)
     write_plan(shield, folder)
     return shield
+
+
+def has_run(folder):
+    """whether LAMMPS has written what the verdict is made of"""
+    return any((folder / name).is_file() for name in ("walls.dat", "pieces.dat", "history.dat", "result.yaml"))
 
 
 def judge(folder):
@@ -247,5 +260,9 @@ def judge(folder):
     if not (folder / script.CASE).is_file():
         raise HVIError(f"{folder} has no {script.CASE}: it is no folder of python3 -m hvi shield --write")
     case = cases.read(folder / script.CASE)
-    write_result(shield_of(case, 0, case.shifts[0]), folder)
+    shield = shield_of(case, 0, case.shifts[0])
+    found = record.measure(shield, folder)
+    if abs(found["energy_start_J"] / shield.energy - 1) > OF_THE_CASE:
+        raise HVIError(f"{folder}: the run began with {found['energy_start_J']:.4g} J, and the projectile of {script.CASE} has {shield.energy:.4g} J: it is of another case")
+    write_result(shield, folder)
     return engine.read_yaml(folder / "result.yaml")

@@ -26,7 +26,7 @@ class Collected:
             return None
         if (record or {}).get("variables") != job.variables or record.get("input") != job.record["input"]:
             raise HVIError(f"{job.folder} was run with other settings, or another input, than {self.study.path} has now: run it again")
-        self.model = {name: job.case.setting(name) for name in calibration.MODEL}
+        self.model = calibration.model_of(job.case)
         for name, digest in record.get("files", {}).items():
             if self.materials.setdefault(pathlib.Path(name).name, digest) != digest:
                 raise HVIError(f"{job.folder} was run with another {name} than others: run them again")
@@ -85,7 +85,7 @@ def collect(study, runs, published=None, before=None):
 def join(head, before, runs):
     """the runs of earlier records, with the head of all; HVIError: they are of another rule, or one of them was run again"""
     def rule(of):
-        return {**of["spacing"], "across": None}, of["settings"], of["model"]
+        return {**of["spacing"], "across": None}, of["settings"], calibration.complete(of["model"])
 
     if rule(before.head) != rule(head):
         raise HVIError("--add: those records have other spacings, settings or another model than the study")

@@ -3,6 +3,7 @@
 
 import dataclasses
 import itertools
+import math
 import statistics
 
 from ..errors import HVIError
@@ -71,6 +72,8 @@ def decide(case, said):
         return "undecided", reasons + told, []
     (verdict,) = per[0]
     notes = [f"{text} ({member_name(case, finest)})" for text in said[finest][2]]
+    if "layers" in case.settings and len(case.spacings_mm) > 1:
+        notes.append("settings: layers are the same with all spacings: how much they matter is not known")
     return verdict, [f"{'both' if len(said) == 2 else f'all {len(said)}'} runs say so: spacings of {', '.join(f'{dx:g}' for dx in case.spacings_mm)} mm, "
                      f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told], notes
 
@@ -100,15 +103,19 @@ def finer(case, said, jobs):
 
     said: {member: (verdict, reasons, notes)}; None if no spacing can decide
     """
-    if case.not_modelled or "whole" in (jobs[0, case.shifts[0]].result().get("rules") or ()):
+    if case.not_modelled or "layers" in case.settings or "whole" in (jobs[0, case.shifts[0]].result().get("rules") or ()):
         return None
     last, which = case.walls[-1], len(case.spacings_mm) - 1
     fine = (last.spacings_mm or case.spacings_mm)[-1]
     pair = 2 if geometry.is_graded(last) else 1  # layers come so
     layers = pair * geometry.layers(last.thickness_mm, pair * fine)
     first = 1.0 if layers >= cases.LAYERS else last.thickness_mm / cases.LAYERS / fine
-    steps = (last.thickness_mm / n / fine for n in itertools.count(max(layers, cases.LAYERS) + pair, pair))
-    second = next(r for r in itertools.islice(steps, 100) if r * cases.RATIO <= first and fits(case, r))
+    more = max(layers, cases.LAYERS) + pair
+    enough = math.ceil(cases.RATIO * last.thickness_mm / (first * fine) - 1e-9)
+    steps = (last.thickness_mm / n / fine for n in itertools.count(more + max(0, -(-(enough - more) // pair)) * pair, pair))
+    second = next((ratio for ratio in itertools.islice(steps, 100) if fits(case, ratio)), None)
+    if second is None:
+        return None
     stay = first == 1.0 and all(said[which, shift][0] != "undecided" for shift in case.shifts)  # those of the finest need not be run again
 
     def spacings(own):

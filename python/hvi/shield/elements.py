@@ -71,4 +71,4 @@ def file_of(k):
 
 def write(path, material, **words):
     """its file, of the density of a material file"""
-    mesh_plate.plate(**words).write(path, library.density_of(material, si=True)[0], pathlib.Path(path).name)
+    mesh_plate.plate(**words).write(path, library.density_of(library.of_case(material), si=True)[0], pathlib.Path(path).name)

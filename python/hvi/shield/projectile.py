@@ -186,7 +186,7 @@ def read(reader, node, key):
             reader.wrong(f"{key}: file", f"{name!r} is copied into folders of runs, so its name has letters, digits and . _ + - only, and is none of theirs, such as *.dat and in.*: rename it")
     files = tuple(str((reader.path.parent / name).resolve()) for name in names)
     try:
-        density = library.density_of(found["material"], si=True)[0] if files else None
+        density = library.density_of(library.of_case(found["material"]), si=True)[0] if files else None
         return Projectile(**found, files=files, of_files=tuple(measured(path, density) for path in files))
     except HVIError as problem:
         reader.wrong(f"{key}: file", str(problem))

@@ -104,7 +104,7 @@ class Shield:
     @functools.cached_property
     def rho(self):
         """kg/m^3 of the projectile and of the walls, from their material files"""
-        return [library.density_of(name, si=True)[0] for name in (self.case.material, *(wall.material for wall in self.case.walls))]
+        return [library.density_of(library.of_case(name), si=True)[0] for name in (self.case.material, *(wall.material for wall in self.case.walls))]
 
     @property
     def energy(self):
@@ -420,5 +420,5 @@ class Shield:
     def texts(self):
         """{file: text}: the inputs, the material files, so that LAMMPS alone can run the folder, and the case of this run, for judge"""
         names = dict.fromkeys((self.case.material, *(wall.material for wall in self.case.walls)))
-        return {BEGIN: self.text(), CONTINUE: self.text(new=False), **{pathlib.Path(name).name: library.find(name).read_text(errors="replace") for name in names},
+        return {BEGIN: self.text(), CONTINUE: self.text(new=False), **{pathlib.Path(name).name: library.text_of(name) for name in names},
                 CASE: yaml_of(self.case.one(self.which, self.shift).mapping())}

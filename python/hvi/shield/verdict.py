@@ -11,7 +11,7 @@ from typing import Callable, Optional
 
 from ..material import laws
 from . import case as cases
-from .script import BULGE, FEW, STILL
+from .script import BULGE, CONTINUE, FEW, STILL
 
 NEEDED = cases.LAYERS  # layers of particles in the wall that decides
 SPARED = 1e-4  # of the energy of the shot: less does no harm to a wall that was not reached
@@ -78,11 +78,14 @@ def measured(shield, result):
     walls = shield.geometry.walls
     finest = min([shield.geometry.a, *(wall.spacing for wall in walls[:d - 1])])
     m.sieve = walls[d - 1].spacing / finest
+    m.coarser = max(walls[d - 1].spacing, walls[d - 1].dz) / finest  # layers of settings may be thicker than they are apart in their plane
     m.slips = m.last and m.hole == 0 and m.spall == 0 and m.apart > 0 and m.sieve > FINER
     m.failed = m.last and not m.plugged and (m.hole > 0 or (m.parts >= FEW and m.missed <= BESIDE and not m.slips))
     solid = shield.settings["solid"]
     m.solid = solid
     m.whole = [(k, *lack) for k in range(1, d + 1) for lack in laws.lacking(case.walls[k - 1].material, solid).items()]
+    m.whole += [(k, kind, f"with settings: {{fem: {kind} no}} of its elements") for k in range(1, d + 1) if case.walls[k - 1].method != "sph"
+                for kind in HOW if cases.last_word(shield.settings["fem"], kind) == "no"]
     m.ball_whole = [lack for lack in laws.lacking(case.material, solid).items() if lack[0] == "spall"]  # what breaks a projectile is tension
     m.thickness = case.walls[d - 1].thickness_mm
     m.tstop = 1.5 * max(shield.geometry.tstop_us, result["time_us"])
@@ -113,6 +116,8 @@ RULES = (
          lambda m: f"the energy of the ledger is off by {100 * m.off:.2g} percent", lambda m: ({"settings": {"C": 0.3}}, "take settings: C smaller")),
     Rule("tied", ALWAYS, lambda m: m.r["method"] == "tied", "its elements cannot fail",
          lambda m: "method tied lets no element become particles", lambda m: ({"method": "hybrid"}, "take method hybrid")),
+    Rule("stopped", UNLESS, lambda m: m.r["ended_by"] == "until", "nobody knows what comes later",
+         lambda m: f"the run was stopped at {m.r['time_us']:.1f} us, before its event was over", lambda m: ({}, f"go on with {CONTINUE}, or run it again")),
     Rule("blunt", ALWAYS, lambda m: m.r["elements_failed_without_particles"] > 0, "they bear what they cannot bear",
          lambda m: f"{m.r['elements_failed_without_particles']} elements that hold no particles have failed and stay",
          lambda m: ({"hold_mm": None}, "take a larger hold_mm")),
@@ -136,9 +141,10 @@ RULES = (
     Rule("slips", UNLESS, lambda m: m.slips, f"particles {FINER:g} times finer pass between those of the wall",
          lambda m: f"what came through wall {m.d} may have slipped between its particles, {m.sieve:.2g} times as far apart as those of the cloud",
          lambda m: ({"spacings_mm": None}, "take spacings that are alike")),
-    Rule("coarser", UNLESS, lambda m: m.last and m.sieve > COARSER, "a single wall struck by a fragment holds from 6 to 15 percent too early with particles 1.4 times as coarse, from 10 to 20 percent and more with twice (examples/crater)",
-         lambda m: f"the particles of wall {m.d} are {m.sieve:.2g} times as far apart as those of what strikes it: it holds what a finer one does not",
-         lambda m: ({f"wall {m.d}: spacings_mm": None}, "take spacings for it as fine as those of the projectile" + ("; with core_mm they cost little" if m.case.walls[m.d - 1].method == "sph" else ""))),
+    Rule("coarser", UNLESS, lambda m: m.last and m.coarser > COARSER, "a single wall struck by a fragment holds from 6 to 15 percent too early with particles 1.4 times as coarse, from 10 to 20 percent and more with twice (examples/crater)",
+         lambda m: f"the particles of wall {m.d} are {m.coarser:.2g} times as far apart as those of what strikes it: it holds what a finer one does not",
+         lambda m: ({"settings": {"layers": None}}, "take more layers, or let spacings_mm say how many") if m.coarser > m.sieve else
+         ({f"wall {m.d}: spacings_mm": None}, "take spacings for it as fine as those of the projectile" + ("; with core_mm they cost little" if m.case.walls[m.d - 1].method == "sph" else ""))),
     Rule("few", UNLESS, lambda m: m.few, f"with fewer than {FEW} particles apart, other shifts of the lattice say anything",
          lambda m: f"no more than {m.parts} particles are apart behind wall {m.d}, and {FEW} are needed", lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
     Rule("no plate", UNLESS, lambda m: m.unknown, "a hole is what a plate around it has",
