@@ -82,6 +82,7 @@ void ComputeHVIAtom::find_sources()
   const auto integrators = modify->get_fix_by_style("^hvi/sph$");
   integrator = integrators.empty() ? nullptr : dynamic_cast<FixHVISPH *>(integrators[0]);
   strength = FixHVIJohnsonCook::find(lmp);
+  mesh = HVI::find_mesh(lmp);
   for (const Value v : values) {
     if (v != BONDS && !store)
       error->all(FLERR, "Compute hvi/atom {} needs pair style hvi/sph", NAMES[v]);
@@ -115,14 +116,16 @@ double ComputeHVIAtom::value_of(Value value, int i) const
   // from density and energy as they are in output: those of the forces were extrapolated
 
   const double m = atom->rmass ? atom->rmass[i] : atom->mass[itype];
-  const double e = atom->esph[i] / m;
+  double rho = atom->rho[i], esph = atom->esph[i];
+  if (mesh) mesh->is_shown(i, rho, esph);
+  const double e = esph / m;
   if (value == ENERGY) return e;
   if (value == TEMPERATURE) {
     const double T = material->eos->temperature(strength ? strength->density(i) : atom->rho[i], e);
     return std::isnan(T) ? 0.0 : T;
   }
   double p, csq;
-  if (!material->eos->evaluate(atom->rho[i], e, p, csq)) p = csq = 0.0;
+  if (!material->eos->evaluate(rho, e, p, csq)) p = csq = 0.0;
   if (value == SOUND) return std::sqrt(csq);
   if (strength) p = strength->pressure(i, p);
   return value == PRESSURE ? p : solid_value(value, i, p);

@@ -16,6 +16,7 @@ ComputeStyle(hvi/atom,ComputeHVIAtom);
 #define LMP_COMPUTE_HVI_ATOM_H
 
 #include "compute.h"
+#include "hvi_mesh.h"
 
 #include <vector>
 
@@ -69,6 +70,7 @@ class ComputeHVIAtom : public Compute {
   class FixHVIStore *store;
   class FixHVISPH *integrator;
   class FixHVIJohnsonCook *strength;
+  HVI::Mesh *mesh;
 
   void find_sources();
   double value_of(Value, int) const;

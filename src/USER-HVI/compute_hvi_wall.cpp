@@ -405,7 +405,7 @@ void ComputeHVIWall::sum_up()
           if (energy > 0.0) moved[k] = 1;
           sum[k * NCOLUMNS + PUSH] += atom->f[i][axis];
           sum[k * NCOLUMNS + MOMENTUM] += m * v[axis];
-          sum[k * NCOLUMNS + ENERGY] += energy;
+          sum[k * NCOLUMNS + ENERGY] += energy + mesh->energy_without_particles(i);
           sum[k * NCOLUMNS + MASS] += m;
         }
       continue;
@@ -438,8 +438,10 @@ void ComputeHVIWall::sum_up()
       }
 
       const double *const x0 = first->astore[i];
-      if (energy > 0.0 || atom->esph[i] != 0.0) moved[k] = 1;
-      s[ENERGY] += atom->esph[i];
+      double rho = atom->rho[i], esph = atom->esph[i];
+      if (mesh) mesh->is_shown(i, rho, esph);
+      if (energy > 0.0 || esph != 0.0) moved[k] = 1;
+      s[ENERGY] += esph;
       if (!is_embedded(i)) {
         s[PUSH] += atom->f[i][axis];
         s[MOMENTUM] += m * v[axis];
@@ -451,8 +453,8 @@ void ComputeHVIWall::sum_up()
         s[HELD_MASS] += m;
       if (!strength) continue;
       const FixHVIJohnsonCook::Solid &state = strength->state(i);
-      if (state.rate > 0.0 && atom->rho[i] > 0.0)
-        s[PLASTIC_POWER] += m / atom->rho[i] * HVI::von_mises(state.S) * state.rate;
+      if (state.rate > 0.0 && rho > 0.0)
+        s[PLASTIC_POWER] += m / rho * HVI::von_mises(state.S) * state.rate;
       const double depth = x0[axis] - w.front;
       // layers of the outer part are twice as thick: their middle is between two of the others
 

@@ -62,8 +62,6 @@ FixHVIBalance::FixHVIBalance(LAMMPS *lmp, int narg, char **arg) :
   }
   if (axis != 2 && domain->dimension == 2)
     error->all(FLERR, "Fix hvi/balance: columns of two dimensions are along z");
-  if (domain->triclinic) error->all(FLERR, "Fix hvi/balance needs a box that is not triclinic");
-
   // as in fix balance
 
   box_change = BOX_CHANGE_DOMAIN;
@@ -89,6 +87,7 @@ void FixHVIBalance::init()
 {
   if (comm->style != Comm::TILED)
     error->all(FLERR, "Fix hvi/balance needs comm_style tiled, before the box is made");
+  if (domain->triclinic) error->all(FLERR, "Fix hvi/balance needs a box that is not triclinic");
   if (modify->get_fix_by_style("^hvi/balance$").size() > 1 ||
       !modify->get_fix_by_style("^balance$").empty())
     error->all(FLERR, "Fix hvi/balance beside another fix that balances: one is enough");
@@ -104,7 +103,8 @@ void FixHVIBalance::setup_pre_exchange()
 
 void FixHVIBalance::pre_exchange()
 {
-  if (update->ntimestep >= next_reneighbor) look();
+  if (update->ntimestep >= next_reneighbor || next_reneighbor > update->ntimestep + nevery)
+    look();    // the latter after reset_timestep
 }
 
 // cost of the fullest rank over the mean

@@ -112,7 +112,8 @@ void FixHVIDt::setup(int /*vflag*/)
   // reset_timestep may have turned back the clock
 
   if (laststep > update->ntimestep) laststep = update->ntimestep;
-  if (update->dt != restored) apply(choose(chosen));    // the command timestep may have changed it
+  if (update->dt != restored || update->dt > dtmax)    // by the command timestep, a new max
+    apply(choose(chosen));
   restored = 0.0;
   chosen = 1;
 }

@@ -465,7 +465,7 @@ void FixHVIFEM::show_particles()
     one.kick = 0.0;
     for (const HVI::Node *const node : nodes_of(e)) one.kick += node->kick / CORNERS;
   }
-  coupling.show_velocities();
+  coupling.show_end();
   coupling.show_all();
   read_probes();
 }
@@ -662,7 +662,8 @@ double FixHVIFEM::fingerprint(std::size_t e) const
 
 void FixHVIFEM::check_drag()
 {
-  if (!modify->get_fix_by_style("^(hvi/dt|dt/reset)$").empty()) return;
+  for (const char *const style : {"^hvi/dt", "^dt/reset"})
+    if (!modify->get_fix_by_style(style).empty()) return;
   double stable;
   MPI_Allreduce(&shortest, &stable, 1, MPI_DOUBLE, MPI_MIN, world);
   const double viscous = mechanics.options.viscous;
@@ -688,6 +689,20 @@ double FixHVIFEM::internal_energy(int i) const
   double sum = 0.0;
   each_of(i, [&](const Element &one) {
     sum += one.mass * (one.e - one.kick);
+  });
+  return sum;
+}
+
+bool FixHVIFEM::is_shown(int i, double &rho, double &esph) const
+{
+  return shown == update->ntimestep && coupling.is_shown(i, rho, esph);
+}
+
+double FixHVIFEM::energy_without_particles(int i) const
+{
+  double sum = 0.0;
+  each_of(i, [&](const Element &one) {
+    if (one.particles() == 0) sum += one.mass * (one.e - one.kick);
   });
   return sum;
 }

@@ -65,6 +65,8 @@ class FixHVIFEM :
   double compute_array(int, int) override;
   double internal_energy(int) const override;
   double plastic_work(int) const override;
+  double energy_without_particles(int) const override;
+  bool is_shown(int, double &, double &) const override;
   double void_work(int) const override;
 
   bool is_node(int itype) const override { return node_types[itype]; }

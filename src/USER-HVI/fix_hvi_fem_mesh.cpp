@@ -493,10 +493,10 @@ void FixHVIFEMMesh::read_data_section(char *keyword, int n, char *buf, tagint of
         throw TokenizerException("IDs of elements must be positive", std::to_string(one.id));
       one.id += id_before;
       if (section) {
+        double number[COLUMNS] = {};    // all ranks see what is wrong
+        for (int c = 0; c < columns(section); c++) number[c] = values.next_double();
         const auto found = by_id.find(one.id);
         if (found == by_id.end()) continue;    // of another rank
-        double number[COLUMNS] = {};
-        for (int c = 0; c < columns(section); c++) number[c] = values.next_double();
         memcpy((double *) &elements[found->second] + IDS + COLUMNS * (section - 1), number,
                columns(section) * sizeof(double));
         continue;
@@ -527,9 +527,11 @@ void FixHVIFEMMesh::read_data_section(char *keyword, int n, char *buf, tagint of
   total = -1;
 }
 
+// no run may have counted them yet
+
 void FixHVIFEMMesh::write_data_header(FILE *fp, int /*mth*/)
 {
-  utils::print(fp, "{} elements\n", total);
+  utils::print(fp, "{} elements\n", total < 0 ? expected : total);
 }
 
 void FixHVIFEMMesh::write_data_section_size(int section, int &nx, int &ny)

@@ -54,9 +54,9 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"eps", STATE, offsetof(Solid, eps)},
     {"damage", STATE, offsetof(Solid, damage)},
     {"spalled", STATE, offsetof(Solid, spalled)},
-    {"heat", STATE, offsetof(Solid, heat)},
-    {"expansion", STATE, offsetof(Solid, expansion)},
 
+    {"heat", FORCES, offsetof(Solid, heat)},
+    {"expansion", FORCES, offsetof(Solid, expansion)},
     {"p_min_before", FORCES, offsetof(Solid, before.p_min),
      [](const FixHVIJohnsonCook &fix, int i) {
        return std::max(fix.extra[i].before.p_min, -DBL_MAX);
@@ -84,6 +84,7 @@ FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
     store(nullptr), in_setup(true), checked(false)
 {
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
+  static_assert(have_room(FIELDS), "lines of data files are too long");
   read_options(narg, arg);
   if (options.damage) HVI::cite(lmp->citeme, HVI::CITE_JOHNSON_COOK);
   begin();
@@ -497,7 +498,7 @@ void FixHVIJohnsonCook::start(int i, bool anew)
   in_setup = true;
   if (const HVI::SolidModel *const model = of(i))
     model->start(extra[i], input(i), anew);
-  else if (anew || !HVI::SolidModel::started(extra[i]))
+  else
     HVI::SolidModel::liquefy(extra[i]);
 }
 
@@ -573,11 +574,11 @@ FixHVIJohnsonCook::Stress FixHVIJohnsonCook::stress(int i) const
 {
   const Solid &s = extra[i];
   const HVI::SolidModel *const model = of(i);
-  double p_min = -HVI::NO_LIMIT;
+  double p_min = s.failed() ? 0.0 : -HVI::NO_LIMIT;    // rubble stays rubble, as a liquid, too
   if (model && in_setup)
     p_min = model->p_min(s, model->looks(s) ? input_of_end(i) : HVI::SolidInput());
-  else if (model)
-    p_min = s.failed() ? 0.0 : s.p_min;
+  else if (model && !s.failed())
+    p_min = s.p_min;
   return {s.S, p_min, s.shear};
 }
 

@@ -73,7 +73,7 @@ class FixHVIJohnsonCook :
   double pressure(int i, double p) const    // what is left of that of the equation of state
   {
     const HVI::SolidModel *const model = of(i);
-    if (!model) return p;
+    if (!model) return failed(i) ? std::max(p, 0.0) : p;
     HVI::SolidInput in = model->looks(extra[i]) ? input(i) : HVI::SolidInput();
     in.p = p;
     return model->pressure(extra[i], in);

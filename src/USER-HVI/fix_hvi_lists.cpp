@@ -309,7 +309,13 @@ void FixHVILists::post_integrate()
 {
   // with run ... pre no nothing is set up, and post_run() of the run before has given the delay back
 
-  if (update->ntimestep == update->firststep + 1) setup(0);
+  if (update->ntimestep == update->firststep + 1) {
+    setup(0);
+    if (made > update->firststep || next > update->ntimestep + LOOK_AHEAD) {    // reset_timestep
+      made = looked = update->firststep;
+      next = update->ntimestep;
+    }
+  }
   if (neighbor->delay != NEVER || update->ntimestep < next) return;
   measure();
   const bigint last = looked;

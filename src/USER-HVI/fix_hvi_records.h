@@ -36,6 +36,7 @@ namespace LAMMPS_NS {
      section    of data files
      place      in the record, in bytes; NOWHERE: a column beside the record
      get, set   of a column that is not just the number in the record
+     is_id      of a particle, if it is from 1 on: read_data may add an offset
 
    All of the record goes along with its particle, and into restart files.
 ------------------------------------------------------------------------- */
@@ -48,6 +49,7 @@ template <class Owner> struct HVIField {
   size_t place;
   double (*get)(const Owner &, int) = nullptr;
   void (*set)(Owner &, int, double) = nullptr;
+  bool is_id = false;
 };
 
 // whether a table has all of a record, and nothing twice
@@ -58,6 +60,18 @@ template <class Record, class Field, int N> constexpr bool covers(const Field (&
     int n = 0;
     for (const Field &field : fields) n += field.place == place;
     if (n != 1) return false;
+  }
+  return true;
+}
+
+// whether LAMMPS can read the lines of all sections
+
+template <class Field, int N> constexpr bool have_room(const Field (&fields)[N])
+{
+  for (int section = 0; section < N; section++) {
+    int n = 0;
+    for (const Field &field : fields) n += field.column && field.section == section;
+    if (n > HVIDataRows::MOST) return false;
   }
   return true;
 }
@@ -314,7 +328,7 @@ void FixHVIRecords<Owner, Record>::read_data_section(char *keyword, int n, char 
         (keyword != sections[0].title() && utils::strmatch(keyword, suffixes[s] + "$")))
       k = s;
 
-  sections[k].read(n, buf, offset, [this, k](int i, const double *value) {
+  sections[k].read(n, buf, offset, [this, k, offset](int i, const double *value) {
     const bool given = std::any_of(sections.begin(), sections.end(), [i](const HVIDataRows &rows) {
       return rows.has(i);
     });
@@ -322,7 +336,10 @@ void FixHVIRecords<Owner, Record>::read_data_section(char *keyword, int n, char 
     for (int m = 0; m < nfields; m++) {
       const Field &field = fields[m];
       if (!field.column || field.section != k) continue;
-      if (field.set)
+      const double shifted = *value + offset;
+      if (field.is_id && *value >= 1.0 && shifted <= MAXTAGINT)
+        memcpy((char *) &extra[i] + field.place, &shifted, sizeof(double));
+      else if (field.set)
         field.set(static_cast<Owner &>(*this), i, *value);
       else
         memcpy((char *) &extra[i] + field.place, value, sizeof(double));

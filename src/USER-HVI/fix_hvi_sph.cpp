@@ -40,11 +40,11 @@ using namespace FixConst;
 
 /* ----------------------------------------------------------------------
    Data files: what the last rates belong to, for particles that go on from it, and the constant of
-   variable h.  atom_style sph does not write vest.  In a section of its own: rates of the begin of the last step.
-   Data files have no NaN: it is DBL_MAX.
+   variable h.  atom_style sph does not write vest.  In sections of their own: rates of the begin of the last step, and
+   what the last forces belong to.  Data files have no NaN: it is DBL_MAX.
 ------------------------------------------------------------------------- */
 
-static constexpr int RATES = 1;
+static constexpr int RATES = 1, STEP = 2;
 
 // sleep exact: what rounding of sums over neighbors leaves of rest, in parts of the speed of sound
 
@@ -99,14 +99,14 @@ constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
     {"ax", RATES, offsetof(Extra, old_a[0])},
     {"ay", RATES, offsetof(Extra, old_a[1])},
     {"az", RATES, offsetof(Extra, old_a[2])},
-    {"work_vx", RATES, offsetof(Extra, v_work[0])},
-    {"work_vy", RATES, offsetof(Extra, v_work[1])},
-    {"work_vz", RATES, offsetof(Extra, v_work[2])},
-    {"new_rho", RATES, offsetof(Extra, new_rho)},
-    {"step", RATES, offsetof(Extra, step)},
-    {"weight", RATES, offsetof(Extra, weight)},
-    {"frozen", RATES, offsetof(Extra, frozen)},
-    {"body", RATES, offsetof(Extra, body)},
+    {"work_vx", STEP, offsetof(Extra, v_work[0])},
+    {"work_vy", STEP, offsetof(Extra, v_work[1])},
+    {"work_vz", STEP, offsetof(Extra, v_work[2])},
+    {"new_rho", STEP, offsetof(Extra, new_rho)},
+    {"step", STEP, offsetof(Extra, step)},
+    {"weight", STEP, offsetof(Extra, weight)},
+    {"frozen", STEP, offsetof(Extra, frozen)},
+    {"body", STEP, offsetof(Extra, body), nullptr, nullptr, true},
 
     // 0 between steps, or made anew when a run begins
     {nullptr, 0, offsetof(Extra, drho)},
@@ -126,12 +126,13 @@ const double *FixHVISPH::felt_velocity(int i) const
 /* ---------------------------------------------------------------------- */
 
 FixHVISPH::FixHVISPH(LAMMPS *lmp, int narg, char **arg) :
-    FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {"", "_rates"}), store(nullptr), ledger(nullptr),
-    strength(nullptr), evaluation(nullptr), dtv(0.0), dtf(0.0), power(0.0), push{0.0, 0.0, 0.0},
-    last(0.0), due(false), stepping(0), wallbit(0), follow(0), checked(0), quiet(1.0e-10),
-    relative(true), most_frozen(0), deletes_frozen(false), swiftest(0.0)
+    FixHVIRecords(lmp, narg, arg, Extra(), FIELDS, {"", "_rates", "_step"}), store(nullptr),
+    ledger(nullptr), strength(nullptr), evaluation(nullptr), dtv(0.0), dtf(0.0),
+    power(0.0), push{0.0, 0.0, 0.0}, last(0.0), due(false), stepping(0), wallbit(0), follow(0),
+    checked(0), quiet(1.0e-10), relative(true), most_frozen(0), deletes_frozen(false), swiftest(0.0)
 {
   static_assert(covers<Extra>(FIELDS), "a number of the record is missing, or there twice");
+  static_assert(have_room(FIELDS), "lines of data files are too long");
   if (!atom->esph_flag || !atom->rho_flag || !atom->vest_flag)
     error->all(FLERR,
                "Fix hvi/sph needs density, energy and velocity estimates of particles: use "
@@ -328,13 +329,13 @@ void FixHVISPH::give_density(int i)
 
 void FixHVISPH::set_arrays(int i)
 {
-  static constexpr int64_t NO_ID = (int64_t) 1 << 51;
+  static constexpr int64_t NO_ID = (int64_t) 1 << 48;    // with planes it is exact in a double
   FixHVIRecords::set_arrays(i);
   if (!stepping || !store || !integrates(i) || extra[i].mark != 0) return;
   if (atom->rmass) atom->rmass[i] = atom->mass[atom->type[i]];
   give_density(i);
   for (int k = 0; k < 3; k++) atom->vest[i][k] = extra[i].v_work[k] = atom->v[i][k];
-  set_body(i, NO_ID + update->ntimestep);
+  set_body(i, NO_ID + update->ntimestep, ALL_PLANES);
 }
 
 void FixHVISPH::pre_neighbor()

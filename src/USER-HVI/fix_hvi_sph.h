@@ -17,6 +17,7 @@ FixStyle(hvi/sph,FixHVISPH);
 
 #include "fix_hvi_records.h"
 #include "hvi_energy_carrier.h"
+#include "hvi_sph_records.h"
 #include "hvi_sph_step.h"
 #include "hvi_timestep.h"
 
@@ -45,7 +46,8 @@ struct HVISPHExtra {
   double x_before[3] = {0.0, 0.0,
                         0.0};    // place at the end of the last step, if another fix moves it
   double frozen = 0.0;           // 1: takes no part any more
-  double body = -1.0;            // of solids: label of what hangs together; -1: none yet
+  double body =
+      -1.0;    // of solids: label of what hangs together, and in eighths planes: see body(); -1: none yet
   double new_rho =
       0.0;    // density at the end of the step that led to the last forces; 0: of a fluid
 
@@ -129,12 +131,20 @@ class FixHVISPH :
   bool relative_lists() const { return relative; }
   bool is_new(int i) const { return extra[i].hscale == 0.0; }    // in no run before
 
-  // owned and ghost particles: constant of variable h; label of its body, which the scheme of solids makes
+  // owned and ghost particles: constant of variable h; label of its body, which the scheme of solids makes, and mirror
+  // planes (bits by direction) whose images are other bodies; both in one, for SphState
+
+  static constexpr int ALL_PLANES = HVI::SphState::PLANES;
 
   double hscale(int i) const { return extra[i].hscale; }
   bool has_body(int i) const { return extra[i].body >= 0.0; }
-  int64_t body(int i) const { return has_body(i) ? extra[i].body : 0; }
-  void set_body(int i, int64_t label) { extra[i].body = label; }
+  int64_t body_code(int i) const { return has_body(i) ? (ALL_PLANES + 1) * extra[i].body : 0; }
+  int64_t body(int i) const { return body_code(i) / (ALL_PLANES + 1); }
+  int apart_from(int i) const { return body_code(i) & ALL_PLANES; }
+  void set_body(int i, int64_t label, int planes)
+  {
+    extra[i].body = label + planes / (ALL_PLANES + 1.0);
+  }
   void tell_ghosts() { comm->forward_comm(this); }
 
   // in the middle of a step esph is ahead of the velocity; in a setup it waits while forces are asked for

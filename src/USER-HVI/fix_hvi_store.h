@@ -16,6 +16,7 @@ FixStyle(hvi/store,FixHVIStore);
 #define LMP_FIX_HVI_STORE_H
 
 #include "fix.h"
+#include "hvi_anew.h"
 #include "hvi_materials.h"
 #include "hvi_sph_fields.h"
 
@@ -30,6 +31,7 @@ namespace LAMMPS_NS {
 class FixHVIStore : public Fix {
  public:
   FixHVIStore(class LAMMPS *, int, char **);
+  ~FixHVIStore() override { HVI::run_anew(update); }
   int setmask() override { return 0; }
   double memory_usage() override { return fields.bytes(); }
 

@@ -20,12 +20,14 @@ namespace LAMMPS_NS {
 
 /* ----------------------------------------------------------------------
    A section of data files with a row of numbers per particle: its ID, then
-   the columns, in as many digits as they have.  LAMMPS reads lines of less
-   than 256 characters, that is, 10 columns.
+   the columns, in as many digits as they have, up to 24 characters.  LAMMPS
+   reads lines of less than 256, that is, MOST columns.
 ------------------------------------------------------------------------- */
 
 class HVIDataRows : protected Pointers {
  public:
+  static constexpr int MOST = 9;
+
   HVIDataRows(class LAMMPS *, const std::string &title, const std::string &columns);
 
   const std::string &title() const { return name; }

@@ -344,17 +344,34 @@ void HVIFEMCoupling::show()
       });
 }
 
-// of particles, as output sees them: velocity of the end of the step, with that of nodes
+/* ----------------------------------------------------------------------
+   of particles, as output sees them, at the end of the step: velocity, with that of nodes; density and energy beside those
+   of the forces, from which a run goes on
+------------------------------------------------------------------------- */
 
-void HVIFEMCoupling::show_velocities()
+void HVIFEMCoupling::show_end()
 {
+  struct End : HVI::Motion {
+    Shown shown;
+  };
+  at_end.assign(atom->nlocal, {0.0, 0.0});
   mesh.of_embedded.scatter(
       [this](int k) {
-        return mesh.motion(k);
+        const HVI::Element &one = mesh.element_of(k);
+        return End{mesh.motion(k), {one.rho, one.e * one.mass / one.particles()}};
       },
-      [this](int i, const HVI::Motion &now) {
+      [this](int i, const End &now) {
         std::copy_n(now.v, 3, atom->v[i]);
+        if (i < (int) at_end.size()) at_end[i] = now.shown;
       });
+}
+
+bool HVIFEMCoupling::is_shown(int i, double &rho, double &esph) const
+{
+  if (i >= (int) at_end.size() || at_end[i].rho == 0.0) return false;
+  rho = at_end[i].rho;
+  esph = at_end[i].esph;
+  return true;
 }
 
 /* ----------------------------------------------------------------------

@@ -45,7 +45,8 @@ class HVIFEMCoupling : protected Pointers {
   void take_masses();    // from nodes, of elements that are no more
   void show_all();       // state, to all embedded particles
   void show();           // to those that pairs act on, and density, pressure, velocity gradient
-  void show_velocities();
+  void show_end();
+  bool is_shown(int i, double &rho, double &esph) const;
   void gather_sums();
   void gather_forces();
   void take_forces(std::vector<std::array<double, 3>> &node_forces);    // of other styles
@@ -55,7 +56,11 @@ class HVIFEMCoupling : protected Pointers {
   class FixHVILedger *ledger = nullptr;
   int group_bit;             // of embedded particles
   std::vector<int> inner;    // by type: bit of the group that lists leave out; 0: none is embedded
-  bool others = false;       // other styles may act on embedded particles
+  struct Shown {
+    double rho, esph;    // rho 0: it is free
+  };
+  std::vector<Shown> at_end;    // of owned particles
+  bool others = false;          // other styles may act on embedded particles
 
   bool is_embedded(int i) const { return atom->mask[i] & group_bit; }
   void make_groups();

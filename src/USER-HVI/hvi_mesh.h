@@ -32,6 +32,16 @@ class Mesh {
 
   virtual void advance() = 0;
 
+  // internal energy of those elements of an owned node that hold no particles, which would have it; each element is of one
+  // of its nodes
+
+  virtual double energy_without_particles(int i) const = 0;
+
+  // density and energy of an owned particle that an element holds, at the end of this step; false: it is free, or that is not
+  // known
+
+  virtual bool is_shown(int i, double &rho, double &esph) const = 0;
+
   // What hangs together by elements, collective: an element holds its particles and nodes if one of
   // its particles has an id above 0; one without particles does, unless failed ones are alone and it
   // has failed.  Vertices are owned particles, nodes with their node_id(), and from first on copies

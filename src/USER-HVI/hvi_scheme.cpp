@@ -64,6 +64,7 @@ void HVIScheme::choose(int terms, bool may_be_inactive)
     set.laws.a = pairs.visc_a[first][first];
     set.laws.b = pairs.visc_b[first][first];
   }
+  asked = terms;
   sweeps = HVI::make_sph_sweeps(set.kernel, terms);
   fields.choose(sweeps->scene());
   work.laws = set.laws;
@@ -212,7 +213,7 @@ void HVIScheme::gather_records()
 
 /* ----------------------------------------------------------------------
    A particle that takes no part, or none from now on: a ghost is one if its owner is.  Its record is out of
-   reach of all others.
+   reach of all others, other such particles among them.
 ------------------------------------------------------------------------- */
 
 void HVIScheme::take_out(int i)
@@ -221,8 +222,8 @@ void HVIScheme::take_out(int i)
   if (i < atom->nlocal &&
       !(integrator && (integrator->has_frozen(i) || integrator->freeze(i, atom->rho[i]))))
     no_answer(i, atom->rho[i]);
-  const double *const x = atom->x[i], h = set.h[atom->type[i]];
-  fields.view().place[i] = {x[0] + AWAY * h, x[1] + AWAY * h, x[2] + AWAY * h, h};
+  const double *const x = atom->x[i], h = set.h[atom->type[i]], away = AWAY * h * (i + 1);
+  fields.view().place[i] = {x[0] + away, x[1] + away, x[2] + away, h};
   fields.view().state[i] = {0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, HVI::SphState::code(atom->type[i])};
   if (fields.view().traction) fields.view().traction[i] = {};
 }

@@ -55,7 +55,8 @@ class HVIScheme : protected Pointers {
   void prepare();
   void forces(bool tally);
 
-  int terms() const { return sweeps->scene(); }         // bits of SphScene
+  int terms() const { return sweeps->scene(); }    // bits of SphScene
+  bool wants(int term) const { return asked & term; }
   bool vectors() const { return sweeps->vectors(); }    // of pairs, not the reference loop
   bool has_inactive() const { return quiet.v < HVI::NO_BOUND; }
 
@@ -150,6 +151,7 @@ class HVIScheme : protected Pointers {
   std::vector<int> filled;
 
  private:
+  int asked = 0;    // terms, of which those of the loop may be more
   bool prepared = false;
   bool placed = false;    // all particles are in cells
   HVI::SphKept kept;

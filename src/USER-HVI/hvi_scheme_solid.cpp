@@ -13,6 +13,7 @@
 #include "hvi_scheme_solid.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_lists.h"
@@ -25,6 +26,7 @@
 #include "neigh_list.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace LAMMPS_NS;
@@ -133,7 +135,7 @@ double HVISchemeSolid::gather(int i, const EosState &eos, HVI::SphState &s)
   s.w = T.volume * eos.width;
   fields.view().gradv[i].weight = limit.weight;
   s.p = T.p;
-  s.body = HVI::SphState::code(atom->type[i], integrator->body(i),
+  s.body = HVI::SphState::code(atom->type[i], integrator->body_code(i),
                                limit.p_min == 0.0 && limit.shear == 0.0);
   return eos.csq + 4.0 / 3.0 * limit.shear / s.rho;
 }
@@ -154,7 +156,7 @@ bool HVISchemeSolid::looks_at_all() const
 
 void HVISchemeSolid::label_bodies()
 {
-  if (!(terms() & HVI::SPH_BODIES)) return;
+  if (!wants(HVI::SPH_BODIES)) return;
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   if (integrator->is_due()) {
     if (!looks_at_all()) return;
@@ -186,7 +188,7 @@ void HVISchemeSolid::label_bodies()
     for (int jj = 0; jj < list.numneigh[i]; jj++) {
       const int j = list.firstneigh[i][jj] & NEIGHMASK;
       if (!is_sound(j) || pairs.tension[atom->type[i]][atom->type[j]] == 0.0 ||
-          integrator->body(i) != integrator->body(j))
+          integrator->body_code(i) != integrator->body_code(j))
         continue;
       const HVI::SphPlace &pj = records.place[j];
       const double reach = set.support * MAX(pi.h, pj.h);
@@ -201,16 +203,86 @@ void HVISchemeSolid::label_bodies()
   for (int i = 0; i < nlocal; i++) {
     const int64_t lowest = ids[i] ? components.component(i).id : 0;
     if (ids[i])
-      integrator->set_body(i, lowest > highest ? lowest - highest : 0);
+      integrator->set_body(i, lowest > highest ? lowest - highest : 0, integrator->apart_from(i));
     else if (has_record(i) && !integrator->has_body(i))
-      integrator->set_body(i, 0);
+      integrator->set_body(i, 0, 0);
   }
   integrator->tell_ghosts();
+  if (set.mirror.planes) part_from_images();
   for (int i = 0; i < nall; i++)
     if (has_record(i))
-      records.state[i].body =
-          HVI::SphState::code(atom->type[i], integrator->body(i), records.state[i].is_rubble());
+      records.state[i].body = HVI::SphState::code(atom->type[i], integrator->body_code(i),
+                                                  records.state[i].is_rubble());
   if (set.mirror.planes) images.fill(set.mirror, records);
+}
+
+/* ----------------------------------------------------------------------
+   A body that a plane cuts is one with its image; one that comes to the plane later meets another, as in the whole scene.
+   So it is told of each body by which planes it is within reach of its own image, and was before.
+------------------------------------------------------------------------- */
+
+void HVISchemeSolid::part_from_images()
+{
+  const HVI::SphView &records = work.records;
+  const HVI::MirrorPlanes &mirror = set.mirror;
+  const auto is_sound = [&](int i) {
+    return has_record(i) && !records.state[i].is_rubble() && integrator->body(i) > 0;
+  };
+  std::vector<int64_t> cut;    // labels, each with the direction of a plane
+  const auto look = [&](int i, int j) {
+    const HVI::SphPlace &pi = records.place[i], &pj = records.place[j];
+    const double d[3] = {pi.x - pj.x, pi.y - pj.y, pi.z - pj.z};
+    const double sum[3] = {pi.x + pj.x, pi.y + pj.y, pi.z + pj.z};
+    const double rsq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    const double reach = set.support * MAX(pi.h, pj.h);
+    for (int k = 0; k < 3; k++) {
+      if (!mirror.has(k)) continue;
+      const double across = sum[k] - 2.0 * mirror.at[k];
+      if (rsq - d[k] * d[k] + across * across < reach * reach)
+        cut.push_back(3 * integrator->body(i) + k);
+    }
+  };
+  const HVI::SphList list = all_pairs();
+  for (int ii = 0; ii < list.inum; ii++) {
+    const int i = list.ilist[ii];
+    if (!is_sound(i)) continue;
+    look(i, i);
+    for (int jj = 0; jj < list.numneigh[i]; jj++) {
+      const int j = list.firstneigh[i][jj] & NEIGHMASK;
+      if (is_sound(j) && integrator->body(i) == integrator->body(j) &&
+          pairs.tension[atom->type[i]][atom->type[j]] != 0.0)
+        look(i, j);
+    }
+  }
+
+  // bodies may be on many ranks, few are cut
+
+  const auto sort = [](std::vector<int64_t> &some) {
+    std::sort(some.begin(), some.end());
+    some.erase(std::unique(some.begin(), some.end()), some.end());
+  };
+  sort(cut);
+  const int n = cut.size();
+  std::vector<int> counts(comm->nprocs), begins(comm->nprocs, 0);
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int k = 1; k < comm->nprocs; k++) begins[k] = begins[k - 1] + counts[k - 1];
+  std::vector<int64_t> all(begins.back() + counts.back() + 1);
+  cut.push_back(0);    // no null buffers
+  MPI_Allgatherv(cut.data(), n, MPI_INT64_T, all.data(), counts.data(), begins.data(), MPI_INT64_T,
+                 world);
+  all.pop_back();
+  sort(all);
+
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int64_t label = integrator->body(i);
+    if (!is_sound(i)) continue;
+    int apart = integrator->apart_from(i);
+    for (int k = 0; k < 3; k++)
+      if (mirror.has(k) && !std::binary_search(all.begin(), all.end(), 3 * label + k))
+        apart |= 1 << k;
+    integrator->set_body(i, label, apart);
+  }
+  integrator->tell_ghosts();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -48,6 +48,7 @@ class HVISchemeSolid : public HVIScheme {
   HVI::Components components;    // of sound matter
 
   void label_bodies();
+  void part_from_images();
   void sum_gradients();
   void correct_gradients();
   void advance();

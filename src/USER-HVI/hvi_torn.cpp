@@ -15,6 +15,7 @@
 #include "atom.h"
 #include "hvi_energy_carrier.h"
 #include "hvi_interface.h"
+#include "neighbor.h"
 
 #include <algorithm>
 
@@ -37,6 +38,11 @@ HVITorn::HVITorn(LAMMPS *lmp) : Pointers(lmp)
 void HVITorn::find_pairs()
 {
   const auto styles = HVI::pair_styles(force);
+  excludes = neighbor->nex_group || neighbor->nex_mol;
+  weighs = atom->molecular != Atom::ATOMIC &&
+      !std::all_of(force->special_lj + 1, force->special_lj + 4, [](double w) {
+             return w == 1.0;
+           });
   for (auto *carrier : HVI::find_interface<EnergyCarrier>(lmp))
     if (!dynamic_cast<Pair *>(carrier)) pairs.push_back({carrier, nullptr});
   if (styles.empty()) return;
@@ -57,7 +63,10 @@ void HVITorn::find_pairs()
 
   for (auto *pair : styles) {
     const char *const name = force->pair_match_ptr(pair);
-    if (auto *carrier = dynamic_cast<EnergyCarrier *>(pair))
+    auto *const carrier = dynamic_cast<EnergyCarrier *>(pair);
+    if (excludes && carrier)
+      names.emplace_back(name);
+    else if (carrier)
       pairs.push_back({carrier, pair});
     else if (needs_types_only(pair))
       pairs.push_back({nullptr, pair});
@@ -74,6 +83,7 @@ void HVITorn::find_pairs()
 
 bool HVITorn::needs_types_only(Pair *pair) const
 {
+  if (excludes || weighs) return false;    // by groups, molecules or bonds
   // a pair style that is there: no carrier is no null
   // NOLINTNEXTLINE(clang-analyzer-core.NullDereference)
   if (!pair->single_enable || pair->manybody_flag || pair->single_extra || pair->nextra)
@@ -112,6 +122,10 @@ void HVITorn::find_bonds()
 
 double HVITorn::cutsq(const PairSource &s, int itype, int jtype) const
 {
+  for (int m = 0; m < neighbor->nex_type; m++) {
+    const int a = neighbor->ex1_type[m], b = neighbor->ex2_type[m];
+    if ((itype == a && jtype == b) || (itype == b && jtype == a)) return 0.0;
+  }
   if (s.pair && !HVI::acts(force, s.pair, itype, jtype)) return 0.0;
   // without a carrier there is a pair style: find_pairs()
   // NOLINTNEXTLINE(clang-analyzer-core.NullDereference)

@@ -51,6 +51,8 @@ class HVITorn : protected Pointers {
   std::vector<PairSource> pairs;
   std::vector<BondSource> bonds;    // by type; both null: not known
   std::vector<std::string> names;
+  bool excludes,
+      weighs;    // pairs are left out, or have a weight, by what is not known of particles that have left
 
   void find_pairs();
   void find_bonds();

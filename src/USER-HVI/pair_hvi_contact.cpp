@@ -429,6 +429,23 @@ double PairHVIContact::init_one(int i, int j)
   return HVI::Contact::r_eq(sigma[i][j]);
 }
 
+/* ----------------------------------------------------------------------
+   fix adapt: lists and ghosts are those of the coefficients at the start of the run
+------------------------------------------------------------------------- */
+
+void PairHVIContact::reinit()
+{
+  Pair::reinit();
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++)
+      if (law[i][j].cutsq > cutsq[i][j] * (1.0 + 1.0e-12))
+        error->all(FLERR,
+                   "Pair style hvi/contact: contacts of types {} and {} reach farther than at the "
+                   "start of the run, as sigma has grown: give pair_coeff the largest sigma, and "
+                   "let fix adapt make it smaller",
+                   i, j);
+}
+
 /* ---------------------------------------------------------------------- */
 
 void PairHVIContact::write_restart(FILE *fp)

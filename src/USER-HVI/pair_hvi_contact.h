@@ -32,6 +32,7 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::Ener
   void coeff(int, char **) override;
   void init_style() override;
   double init_one(int, int) override;
+  void reinit() override;
   void setup() override;
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;

@@ -35,6 +35,7 @@
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "tokenizer.h"
 #include "update.h"
 
 #include <cmath>
@@ -441,15 +442,15 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
   if ((volume > 0.0 || spacing > 0.0) && !(made->eos->rho0() > 0.0))
     error->all(FLERR, "Pair_coeff hvi/sph {}: {} has no density at rest",
                volume > 0.0 ? "volume" : "spacing", made->name);
-  if (volume > 0.0 && !atom->mass)
+  if (volume > 0.0 && atom->rmass)
     error->all(FLERR,
                "Pair_coeff hvi/sph volume sets masses of types, but particles have their own");
   if (h == 0.0) h = H_OF_SPACING * spacing;
   const bool keeps_mass = volume == 0.0;    // that the type has from a data file, say
   if (keeps_mass && spacing > 0.0) volume = MathSpecial::powint(spacing, set.laws.dim);
 
-  std::string spec = words[0];
-  for (std::size_t n = 1; n < nwords; n++) spec += " " + words[n];
+  std::string spec;    // a word in each line, as names of files may have blanks
+  for (std::size_t n = 0; n < nwords; n++) spec += (n ? "\n" : "") + words[n];
 
   int count = 0;
   for (int i = ilo; i <= ihi; i++) {
@@ -812,6 +813,12 @@ void PairHVISPH::check_extent()
                  "Pair hvi/sph dim {}: the box is only {} long along {}, particles would interact "
                  "with their images beyond the reach of {}",
                  dim, domain->prd[k], "xyz"[k], cutmax);
+    else if (set.mirror.has(k))
+      error->all(
+          FLERR,
+          "Pair hvi/sph dim {}: particles do not extend along {}, across which there is a mirror: "
+          "they would interact with their images",
+          dim, "xyz"[k]);
   }
   if (extended > dim)
     error->all(FLERR, "Pair hvi/sph dim {}: particles extend along {} directions", dim, extended);
@@ -919,7 +926,10 @@ void PairHVISPH::read_restart(FILE *fp)
   HVI::RestartSection section(lmp, WHOSE, RESTART_FORMAT, fp);
   for (int i = 1; i < np1; i++) {
     const std::string spec = section.text();
-    if (!spec.empty()) set_material(i, i, i, i, utils::split_words(spec), true);
+    const bool lines = spec.find('\n') != std::string::npos;    // else of an older version
+    if (!spec.empty())
+      set_material(i, i, i, i, lines ? Tokenizer(spec, "\n").as_vector() : utils::split_words(spec),
+                   true);
     section.get(setflag[i], np1);
     section.get(visc_a[i], np1);
     section.get(visc_b[i], np1);

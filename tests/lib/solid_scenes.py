@@ -56,7 +56,7 @@ atom_modify map {map} sort 0 0
 region box block 0 1 0 1 0 1
 create_box 2 box
 {fixes}
-read_data half.data add merge fix sph NULL NULL fix sph NULL sph_rates fix jc NULL NULL fix jc NULL jc_forces
+read_data half.data add merge fix sph NULL NULL fix sph NULL sph_rates fix sph NULL sph_step fix jc NULL NULL fix jc NULL jc_forces
 """
 
 

@@ -142,3 +142,68 @@ def test_without_a_law_of_failure(lmp, tmp_path):
     assert set(rows(tmp_path / "apart.dump")[1]) == {1}
     lmp(blocks().replace("damage yes spall pressure", "damage no spall none") + "pair_coeff 1 2 tension no\nrun 0\n" + OUT.format("two.dump"))
     assert len(set(rows(tmp_path / "two.dump")[1])) == 2
+
+
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
+def test_a_body_comes_to_its_image(lmp, tmp_path, nranks, newton):
+    """Two blocks that meet in the plane between them, and one of them that meets its image there: both rebound, alike"""
+    whole = blocks(newton).replace("-6 0\n", "-8 -2\n").replace("2 8\n", "2 8\n")
+    assert "-8 -2" in whole
+    speeds = "velocity upper set 0 0 -150 units box\nvelocity lower set 0 0 150 units box\n"
+    end = "unfix step\ntimestep 4e-8\nthermo 100\nrun 700\n"
+    text = whole.replace("group upper", "group lower region lower\ngroup upper") + speeds + end
+    r = lmp(text, nranks=nranks)
+    half = text.replace("create_atoms 1 region lower\n", "").replace("pair_style hvi/sph cubic dissipation riemann", "pair_style hvi/sph cubic dissipation riemann mirror z 0 lo").replace(
+        "-14 14", "0 14").replace("s s s", "s s f")
+    m = lmp(half.replace("group lower region lower\n", "").replace("velocity lower set 0 0 150 units box\n", "") + OUT.format("half.dump"), nranks=nranks)
+    assert r.thermo["v_up"][-1] > 15 and m.thermo["v_up"] == pytest.approx(r.thermo["v_up"], abs=1e-6 * 150)
+    assert set(rows(tmp_path / "half.dump")[1]) == {1}
+
+
+def test_a_body_that_a_plane_cuts(lmp, tmp_path):
+    """is one with its image, until it is pulled away: then it bounces there, too; so after a restart"""
+    text = blocks(gap=0).replace("create_atoms 1 region lower\n", "").replace("dissipation riemann", "dissipation riemann mirror z 0 lo").replace("s s s", "s s f").replace("-14 14", "0 14")
+    text += "unfix step\ntimestep 4e-8\nthermo 10\n"
+    r = lmp(text + "velocity all set 0 0 20 units box\nrun 40\n")
+    assert r.thermo["v_up"].min() < 19  # it is held
+    move = "displace_atoms all move 0 0 {} units box\n"
+    parted = text + "run 1\n" + move.format(5 * DX) + "run 104\nwrite_restart apart.restart\n"
+    back = move.format(-5 * DX) + "velocity all set 0 0 20 units box\nrun 40\n"
+    assert lmp(parted + back).runs[-1]["v_up"] == pytest.approx(20.0, rel=1e-9)
+    again = "units si\natom_modify map yes\nread_restart apart.restart\n" + text[text.index("pair_style"):]
+    assert lmp(again + "run 0\n" + back).runs[-1]["v_up"] == pytest.approx(20.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("kernel", ["cubic", "wendland2"])
+def test_terms_that_were_not_asked_for(lmp, kernel):
+    """What no law lets fail, of one type, is one body: with h variable, too, whose loop knows bodies"""
+    text = blocks().replace("damage yes spall pressure", "damage no spall none").replace("create_box 2", "create_box 1").replace("hvi/sph cubic", f"hvi/sph {kernel}")
+    assert "pair_coeff * *" in text
+    ends = []
+    for more in ("", "h variable 1 1"):
+        r = lmp(text.replace("dissipation riemann", f"dissipation riemann {more}") + APART.format(-300.0) + "unfix step\ntimestep 4e-8\nthermo 100\nrun 300\n")
+        ends.append(r.thermo["v_up"])
+    assert ends[0] == pytest.approx(ends[1], rel=1e-9)
+
+
+def test_bodies_of_two_files(lmp, tmp_path):
+    """labels are IDs: read_data add append shifts them, so a block read twice is two bodies"""
+    one = blocks().replace("create_atoms 1 region upper\n", "") + "unfix step\ntimestep 4e-8\nrun 1\nwrite_data one.data\n"
+    lmp(one)
+    sections = " ".join(f"fix {fix} NULL {name}" for fix, name in (("move", "NULL"), ("move", "move_rates"), ("move", "move_step"), ("solid", "NULL"), ("solid", "solid_forces")))
+    text = blocks()
+    head = text[:text.index("region lower")]
+    text = head + "fix move all hvi/sph\nfix solid all hvi/johnson-cook damage yes spall pressure\n" + "".join(
+        f"read_data one.data add append {shift} nocoeff {sections}\n" for shift in ("", f"shift 0 0 {12 * DX}")) + text[text.index("pair_style"):].replace(
+        "fix move all hvi/sph\nfix solid all hvi/johnson-cook damage yes spall pressure\n", "").replace("variable up equal vcm(upper,z)\n", "").replace(" v_up", "")
+    lmp(text + "unfix step\ntimestep 4e-8\nreset_timestep 1\nrun 0\n" + OUT.format("two.dump"))
+    label = rows(tmp_path / "two.dump")[1]
+    half = len(label) // 2
+    assert set(label[:half]) == {1} and set(label[half:]) == {half + 1}
+
+
+def test_lines_of_data_files(lmp, tmp_path):
+    """numbers have all their digits and an exponent at the front of a wave: LAMMPS must be able to read the lines"""
+    text = blocks(gap=0).replace("-3 3 -3 3", "-6 6 -6 6")
+    lmp(text + APART.format(-1e-3) + "run 12\nwrite_data wave.data\n")
+    assert max(map(len, open("wave.data"))) < 256

@@ -14,8 +14,8 @@ import re
 import numpy as np
 from scipy.spatial import cKDTree
 
-SECTIONS = ("Masses", "Atoms", "Velocities", "move", "move_rates", "solid", "solid_forces", "solid_voids")
-FIX = "fix move NULL NULL fix move NULL move_rates fix solid NULL NULL fix solid NULL solid_forces fix solid NULL solid_voids"
+SECTIONS = ("Masses", "Atoms", "Velocities", "move", "move_rates", "move_step", "solid", "solid_forces", "solid_voids")
+FIX = "fix move NULL NULL fix move NULL move_rates fix move NULL move_step fix solid NULL NULL fix solid NULL solid_forces fix solid NULL solid_voids"
 
 
 def sections(lines):
@@ -67,7 +67,7 @@ def hand_on(lines, n, spread, time, front):
             piece["move"][4] = repr(float(piece["move"][4]) / N)
             add(piece["move"], 5, v)
             piece["move_rates"][2] = repr(float(piece["move_rates"][2]) / N)
-            add(piece["move_rates"], 6, v)
+            add(piece["move_step"], 1, v)
             if spread:
                 piece["solid"][9] = "1"  # spalled
             for title, row in piece.items():

@@ -257,7 +257,9 @@ const SolidModel::Begun *SolidModel::misread(const SolidModel *model, const Soli
 
 void SolidModel::liquefy(SolidState &s)
 {
-  s.before = {-NO_LIMIT, s.shear};
+  s.S = {};
+  s.shear = 0.0;
+  s.before = {s.failed() ? 0.0 : -NO_LIMIT, s.shear};
 }
 
 /* ---------------------------------------------------------------------- */

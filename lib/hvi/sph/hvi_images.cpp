@@ -52,6 +52,7 @@ void Images::fill(const MirrorPlanes &mirror, const SphView &records) const
       if (image.op >> k & 1) x[k] = 2.0 * mirror.at[k] - x[k];
     records.state[a] = records.state[image.owner];
     reflect.velocity(records.state[a]);
+    records.state[a].reflect_body(image.op);
     records.rates[a] = {};
     if (records.gradv) {
       records.gradv[a] = {};

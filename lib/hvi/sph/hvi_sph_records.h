@@ -45,14 +45,14 @@ struct alignas(64) SphState {
   double body;    // see code()
 
   // the bits of a whole number, for vectors: label of the body that it is part of, its type, and whether it is a solid
-  // that failed
+  // that failed.  The last bits of a label are mirror planes, by direction: images across these are another body.
 
-  static constexpr int MOST_TYPES = 1023;
+  static constexpr int MOST_TYPES = 1023, PLANES = 7;
   static constexpr int64_t RUBBLE = 1, TYPE = 2 * MOST_TYPES, LABEL = ~(TYPE | RUBBLE);
 
   static double code(int type, int64_t label = 0, bool rubble = false)
   {
-    const int64_t whole = (label << 11) + 2 * type + rubble;
+    const int64_t whole = label * (TYPE + 2) + 2 * type + rubble;
     double code;
     memcpy(&code, &whole, sizeof(code));
     return code;
@@ -70,6 +70,13 @@ struct alignas(64) SphState {
   int64_t label() const { return label_of(body); }
   int type() const { return type_of(body); }
   bool is_rubble() const { return is_rubble(body); }
+
+  // of the image by an operation, a set of planes: a label below 0 that no particle has
+
+  void reflect_body(int op)
+  {
+    if (label() & op) body = code(type(), -1 - label(), is_rubble());
+  }
 };
 
 // the forces: what its neighbors do to it; drho of solids is written between the sweeps, too

@@ -1,0 +1,154 @@
+"""What once went wrong without a word: a scene for each fault that was found by reading, in the inputs of tests/inputs."""
+
+import re
+
+import numpy as np
+import pytest
+from dumps import read_dump
+
+
+@pytest.fixture
+def scene(root):
+    """scene(name, (old, new), ...) -> text of tests/inputs/in.NAME with these lines changed, without its run"""
+    def text(name, *changes):
+        found = re.sub(r"^run \d+\n", "", (root / f"tests/inputs/in.{name}").read_text(), flags=re.M).replace("wall.data", str(root / "tests/inputs/wall.data"))
+        for old, new in changes:
+            assert old in found, old
+            found = found.replace(old, new)
+        return found
+    return text
+
+
+# ---------------------------------------------------------------------- solids and fluids
+def test_what_becomes_a_liquid_bears_no_shear(lmp, scene):
+    """and what has failed stays rubble, which bears no tension"""
+    text = scene("solid") + 'compute l left reduce max c_state[2]\nvariable r atom "(c_state[4] >= 1 || c_state[5] > 0) && type == 1"\nvariable p atom v_r*c_state[1]\ncompute n all reduce sum v_r\n' \
+        "compute least all reduce min v_p\nthermo_style custom step c_l c_n c_least\nthermo_modify format float %.12g\n"
+    r = lmp(text + "run 300\npair_coeff 1 1 file Al6061-T6.hvi spacing 1e-3 strength none\nrun 300\n")
+    before, after = r.runs
+    assert before["c_l"][-1] > 1e8 and before["c_n"][-1] > 10
+    assert (after["c_l"] == 0.0).all() and (after["c_n"] == before["c_n"][-1]).all() and after["c_least"].min() >= 0.0
+
+
+@pytest.mark.parametrize("words", ["dissipation riemann", "viscosity 1 2"])
+@pytest.mark.parametrize("bad", ["bad freeze 5", "bad delete 5"])
+def test_frozen_neighbors(lmp, scene, words, bad):
+    """two particles without an answer, within reach of each other: they take no part, and nothing is NaN"""
+    text = scene("liquid", ("pair_style hvi/sph cubic", f"pair_style hvi/sph cubic {words}"), ("fix move all hvi/sph", f"fix move all hvi/sph {bad}"))
+    r = lmp(text + "set atom 43 sph/rho -1.0\nset atom 44 sph/rho -1.0\nrun 40\n")
+    assert np.isfinite(r.thermo["c_book[9]"]).all() and r.thermo["Atoms"][-1] == 200 - 2 * ("delete" in bad)
+
+
+def test_restart_of_a_material_with_a_blank_in_its_name(lmp, scene, root, tmp_path):
+    (tmp_path / "my mat.hvi").write_text((root / "potentials/Al6061-T6.hvi").read_text())
+    text = scene("solid", ("file Al6061-T6.hvi", 'file "my mat.hvi"'))
+    lmp(text + "run 5\nwrite_restart half\nrun 5\n")
+    rest = text[text.index("fix move"):]
+    r = lmp("units si\natom_modify map array\nread_restart half\n" + rest + "run 5\n")
+    assert r.thermo["c_book[9]"][-1] == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("name", ["liquid", "solid"])
+def test_the_store_is_removed(lmp, scene, name):
+    """it may not be: no crash, a message or a run that is right"""
+    text = re.sub(r"^compute (state|pressure|stress).*\n", "", scene(name), flags=re.M)
+    text = re.sub(r" c_(pressure|stress)\S*", "", text)
+    r = lmp(text + "run 15\nunfix HVI_STORE\nrun 15 pre no\n", expect_fail=None)
+    assert r.error or r.thermo["c_book[9]"][-1] == pytest.approx(1.0, abs=1e-2)
+
+
+# ---------------------------------------------------------------------- lists, time step, ledger
+@pytest.mark.parametrize("back", [0, 100000])
+def test_the_clock_is_set_between_runs_without_setup(lmp, scene, back):
+    """lists are looked at from the first step on"""
+    text = scene("liquid", ("velocity left set 1.0 0 0", "velocity left set 3.0 0 0"),
+                 ("block 5 9 0 5 0 5", "block 8 11 0 5 0 5"), ("fix step all hvi/dt 0.3", "timestep 0.003"))
+    text = re.sub("thermo_style.*", "thermo_style custom step ke", text)
+    ends = [lmp(text + f"run 350\n{clock}run 350 pre no\n").runs[-1]["KinEng"][-1] for clock in ("", f"reset_timestep {back}\n")]
+    assert ends[0] == pytest.approx(ends[1], rel=1e-9)
+
+
+def test_a_smaller_max_holds_after_a_restart(lmp, scene):
+    text = scene("dem")
+    lmp(text + "run 50\nwrite_restart half\n")
+    rest = text[text.index("neighbor "):].replace("hvi/dt 0.1", "hvi/dt 0.1 every 1000 max {}").replace("custom step", "custom step dt")
+    steps = [lmp("atom_modify map array\nread_restart half\n" + rest.format(most) + "run 20\n").thermo["Dt"] for most in (1.0, 5e-4)]
+    assert steps[0].max() > 6e-4 and (steps[1] <= 5e-4).all()
+
+
+@pytest.mark.parametrize("exclude, booked", [("type 1 2", True), ("group one two", False)])
+def test_pairs_that_are_excluded_are_not_booked(lmp, exclude, booked):
+    """when one of them leaves: those of types are known to have no energy, for groups there is a warning"""
+    r = lmp("units lj\nboundary f f f\natom_style bond\natom_modify map array\nregion box block -5 5 -5 5 -5 5\ncreate_box 2 box bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 4\n"
+            "create_atoms 1 single 4.5 0 0\ncreate_atoms 2 single 3.6 0 0\nmass * 1.0\nvelocity all set 3 0 0\ngroup one type 1\ngroup two type 2\npair_style hvi/contact\npair_coeff * * 10.0 1.0\n"
+            f"neigh_modify exclude {exclude}\nneighbor 0.3 bin\nfix move all nve\ntimestep 0.001\ncompute book all hvi/energy\nthermo 50\nthermo_style custom step atoms c_book[9]\n"
+            "thermo_modify lost ignore\nrun 300\n")
+    assert r.thermo["Atoms"][-1] == 1 and r.thermo["c_book[9]"] == pytest.approx(1.0, abs=1e-9)
+    assert ("hvi/contact" in " ".join(r.warnings)) is not booked
+
+
+def test_special_weights_are_not_booked(lmp):
+    """energy of a bonded pair of lj/cut that does not act: a warning in place of a wrong number"""
+    r = lmp("units lj\nboundary f f f\natom_style bond\natom_modify map array\nspecial_bonds lj/coul 0 1 1\nregion box block -5 5 -5 5 -5 5\n"
+            "create_box 1 box bond/types 1 extra/bond/per/atom 2 extra/special/per/atom 4\ncreate_atoms 1 single 4.5 0 0\ncreate_atoms 1 single 3.6 0 0\nmass * 1.0\nvelocity all set 3 0 0\n"
+            "pair_style lj/cut 2.5\npair_coeff * * 1.0 1.0\nbond_style harmonic\nbond_coeff 1 50 0.9\ncreate_bonds single/bond 1 1 2\nneighbor 0.3 bin\nfix move all nve\ntimestep 0.001\n"
+            "compute book all hvi/energy\nthermo 50\nthermo_style custom step atoms c_book[9]\nthermo_modify lost ignore\nrun 300\n")
+    assert r.thermo["Atoms"][-1] == 1 and r.thermo["c_book[9]"] == pytest.approx(1.0, abs=1e-6)
+    assert "lj/cut" in " ".join(r.warnings)
+
+
+# ---------------------------------------------------------------------- elements
+def test_the_default_timestep_does_not_matter(lmp, scene):
+    """where fix hvi/dt chooses it, wherever it stands"""
+    r = lmp(scene("elements", ("fix step", "timestep 1e-3\nfix step")) + "run 5\n")
+    assert r.thermo["c_book[9]"][-1] == pytest.approx(1.0, abs=1e-3)
+
+
+def test_output_of_embedded_particles_is_that_of_their_elements(lmp, scene, tmp_path):
+    """density and energy, at the end of the step, and the pressure of these"""
+    text = scene("elements", ("hvi/fem nodes 3", "hvi/fem nodes 3 local 1"))
+    lmp(text + "compute p all hvi/atom p e\ncompute rho all sph/rho/atom\ndump 1 all custom 20 p.dump id type c_p[1] c_p[2] c_rho\ndump_modify 1 sort id format float %.12g\n"
+        "dump 2 all local 20 e.dump index f_wall[*]\ndump_modify 2 format float %.12g\nrun 20\n")
+    held = read_dump(tmp_path / "p.dump", -1).table
+    lines = (tmp_path / "e.dump").read_text().split("ITEM: ENTRIES")[-1].splitlines()[1:]
+    of_elements = {tuple(map(float, (line.split()[6], line.split()[16]))) for line in lines}
+    assert max(abs(p) for p, _ in of_elements) > 1e9 and len({round(e) for _, e in of_elements}) == 2
+    for p, e in of_elements:  # that of the forces was with an extrapolated energy, here as with all particles
+        at = held[(held[:, 1] == 2) & (abs(held[:, 3] - e) < 1e-6 * e)]
+        assert len(at) == 32 and at[:, 2] == pytest.approx(p, rel=0.01)
+
+
+def test_a_wrong_number_of_an_element_on_two_ranks(lmp, scene):
+    """all ranks end"""
+    text = scene("elements")
+    lmp(text + "run 5\nwrite_data now.data\n")
+    data = open("now.data").read()
+    found = [line.split("#")[0].strip() for line in data.splitlines() if line[:1].isalpha()]
+    words = ["fix wall elements Elements"] + [f"fix {fix} NULL {name}" for name in found for fix, first in (("prop", "prop"), ("move", "move"), ("solid", "solid"), ("wall", "wall_"))
+                                              if name.startswith(first)]
+    at = data.index("wall_state_3")
+    row = data[at:].split("\n")[2].split()
+    open("bad.data", "w").write(data[:at] + data[at:].replace(" ".join(row), " ".join([row[0], "x1", *row[2:]]), 1))
+    text = re.sub(r"read_data \S+ add append .*", "read_data bad.data add append " + " ".join(words), text).replace("velocity", "# velocity")
+    for nranks in (1, 2):
+        r = lmp(text + "run 1\n", nranks=nranks, expect_fail=True, timeout=60)
+        assert "Fix hvi/fem: wrong row of section wall_state_3 of the data file" in r.error, nranks
+
+
+def test_data_file_before_a_run(lmp, scene):
+    text = scene("elements")
+    lmp(text + "write_data now.data noinit\n")
+    assert re.search(r"^8 elements$", open("now.data").read(), re.M)
+
+
+def test_energy_of_elements_without_particles(lmp, scene, root, tmp_path):
+    """is a part of that of their wall"""
+    lines = (root / "tests/inputs/wall.data").read_text()
+    head, rows = lines[:lines.index("Elements")], lines[lines.index("Elements"):].splitlines()
+    bare = [row.split() for row in rows[2:10]]
+    assert [row[10] for row in bare] == 8 * ["2"]
+    (tmp_path / "bare.data").write_text(head + "\n".join(rows[:2] + [" ".join([*row[:10], "0", "0"]) if k < 4 else " ".join(row) for k, row in enumerate(bare)] + rows[10:]) + "\n")
+    text = re.sub(r"read_data \S+", "read_data bare.data", scene("elements"))
+    r = lmp(text + "compute w all hvi/wall axis z wall 2 -1e-3 1e-3 nodes 3 layers 2\nrun 0\ngroup nodes type 3\ngroup plate type 2\ncompute kn nodes ke\ngroup held union wall_embedded\ngroup free subtract plate held\n"
+            "compute kf free ke\ncompute eall all sph/e/atom\ncompute ef free reduce sum c_eall\nvariable right equal c_kn+c_kf+f_wall[10]+c_ef\nthermo_style custom step c_w[1][5] v_right\nthermo_modify norm no format float %.12g\nrun 30\n")
+    assert r.thermo["c_w[1][5]"][1:] == pytest.approx(r.thermo["v_right"][1:], rel=2e-3)
