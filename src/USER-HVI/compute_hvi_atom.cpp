@@ -121,7 +121,8 @@ double ComputeHVIAtom::value_of(Value value, int i) const
   const double e = esph / m;
   if (value == ENERGY) return e;
   if (value == TEMPERATURE) {
-    const double T = material->eos->temperature(strength ? strength->density(i) : atom->rho[i], e);
+    const bool held = mesh && mesh->is_shown(i, rho, esph);
+    const double T = material->eos->temperature(strength && !held ? strength->density(i) : rho, e);
     return std::isnan(T) ? 0.0 : T;
   }
   double p, csq;

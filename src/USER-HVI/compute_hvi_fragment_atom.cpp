@@ -20,6 +20,7 @@
 #include "fix_hvi_store.h"
 #include "force.h"
 #include "group.h"
+#include "hvi_excluded.h"
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -303,23 +304,10 @@ void ComputeHVIFragmentAtom::join_close(const HVI::Mesh *mesh)
 
 bool ComputeHVIFragmentAtom::excluded(int i, int j) const
 {
-  if (!neighbor->exclude) return false;
-  const int *const type = atom->type, *const mask = atom->mask;
-  for (int m = 0; m < neighbor->nex_type; m++) {
-    const int a = neighbor->ex1_type[m], b = neighbor->ex2_type[m];
-    if ((type[i] == a && type[j] == b) || (type[i] == b && type[j] == a)) return true;
-  }
-  for (int m = 0; m < neighbor->nex_group; m++) {
-    const int a = group->bitmask[neighbor->ex1_group[m]],
-              b = group->bitmask[neighbor->ex2_group[m]];
-    if ((mask[i] & a && mask[j] & b) || (mask[i] & b && mask[j] & a)) return true;
-  }
-  for (int m = 0; m < neighbor->nex_mol; m++) {
-    const int bit = group->bitmask[neighbor->ex_mol_group[m]];
-    const bool one = atom->molecule[i] == atom->molecule[j];
-    if (mask[i] & bit && mask[j] & bit && one == (neighbor->ex_mol_intra[m] != 0)) return true;
-  }
-  return false;
+  const auto of = [this](int k) {
+    return HVI::ExcludedBy{atom->type[k], atom->mask[k], atom->molecule ? atom->molecule[k] : 0};
+  };
+  return neighbor->exclude && HVI::excluded(*neighbor, *group, of(i), of(j));
 }
 
 /* ---------------------------------------------------------------------- */

@@ -127,7 +127,7 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
   void check_restored();    // in init()
 
  private:
-  static constexpr int RESTART_FORMAT = 1;
+  static constexpr int RESTART_FORMAT = 2;    // bodies know planes
 
   const Record fresh;
   const Field *const fields;

@@ -335,7 +335,7 @@ void FixHVISPH::set_arrays(int i)
   if (atom->rmass) atom->rmass[i] = atom->mass[atom->type[i]];
   give_density(i);
   for (int k = 0; k < 3; k++) atom->vest[i][k] = extra[i].v_work[k] = atom->v[i][k];
-  set_body(i, NO_ID + update->ntimestep, ALL_PLANES);
+  set_body(i, NO_ID + update->ntimestep, 0);
 }
 
 void FixHVISPH::pre_neighbor()

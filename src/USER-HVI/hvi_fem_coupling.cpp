@@ -354,21 +354,22 @@ void HVIFEMCoupling::show_end()
   struct End : HVI::Motion {
     Shown shown;
   };
-  at_end.assign(atom->nlocal, {0.0, 0.0});
+  at_end.assign(atom->nlocal, {0.0, 0.0, 0});
   mesh.of_embedded.scatter(
       [this](int k) {
         const HVI::Element &one = mesh.element_of(k);
-        return End{mesh.motion(k), {one.rho, one.e * one.mass / one.particles()}};
+        return End{mesh.motion(k), {one.rho, one.e * one.mass / one.particles(), 0}};
       },
       [this](int i, const End &now) {
         std::copy_n(now.v, 3, atom->v[i]);
-        if (i < (int) at_end.size()) at_end[i] = now.shown;
+        if (i < (int) at_end.size()) at_end[i] = {now.shown.rho, now.shown.esph, atom->tag[i]};
       });
 }
 
 bool HVIFEMCoupling::is_shown(int i, double &rho, double &esph) const
 {
-  if (i >= (int) at_end.size() || at_end[i].rho == 0.0) return false;
+  if (i >= (int) at_end.size() || at_end[i].tag != atom->tag[i])
+    return false;    // commands may have moved it
   rho = at_end[i].rho;
   esph = at_end[i].esph;
   return true;

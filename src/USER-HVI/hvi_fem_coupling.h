@@ -57,7 +57,8 @@ class HVIFEMCoupling : protected Pointers {
   int group_bit;             // of embedded particles
   std::vector<int> inner;    // by type: bit of the group that lists leave out; 0: none is embedded
   struct Shown {
-    double rho, esph;    // rho 0: it is free
+    double rho, esph;
+    tagint tag;    // 0: it is free
   };
   std::vector<Shown> at_end;    // of owned particles
   bool others = false;          // other styles may act on embedded particles

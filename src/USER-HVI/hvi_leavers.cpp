@@ -183,8 +183,13 @@ void HVILeavers::share(bool bonded)
         apart = apart || above < 0.0 || above > hi - lo;
       }
       if (apart) continue;
-      leavers.push_back(
-          {atom->tag[i], atom->type[i], comm->me, {x[0], x[1], x[2]}, {v[0], v[1], v[2]}});
+      leavers.push_back({atom->tag[i],
+                         atom->type[i],
+                         comm->me,
+                         {x[0], x[1], x[2]},
+                         {v[0], v[1], v[2]},
+                         atom->mask[i],
+                         atom->molecule ? atom->molecule[i] : 0});
       rank.push_back(p);
       for (int n = 0; bonded && n < atom->num_bond[i]; n++)
         if (atom->bond_type[i][n] > 0) {
@@ -213,11 +218,12 @@ double HVILeavers::torn(const Law &law, const double *x, const double *v, const 
   return phi + 0.5 * dt * fforce * rdotv;
 }
 
-double HVILeavers::contact(const HVITorn &laws, int type, const double *x, const double *v,
-                           const Leaver &l) const
+double HVILeavers::contact(const HVITorn &laws, const HVI::ExcludedBy &one, const double *x,
+                           const double *v, const Leaver &l) const
 {
+  if (HVI::excluded(*neighbor, *group, one, {l.type, l.mask, l.molecule})) return 0.0;
   const auto law = [&](double rsq, double &fforce) {
-    return laws.pair(type, l.type, rsq, fforce);
+    return laws.pair(one.type, l.type, rsq, fforce);
   };
   return torn(law, x, v, l);
 }
@@ -263,7 +269,9 @@ double HVILeavers::tear_contacts(const HVITorn &laws) const
   for (const int i : near) {
     fractional(atom->x[i], s);
     cells.near(s, [&](int n) {
-      energy += contact(laws, atom->type[i], atom->x[i], atom->v[i], out[n]);
+      const HVI::ExcludedBy one = {atom->type[i], atom->mask[i],
+                                   atom->molecule ? atom->molecule[i] : 0};
+      energy += contact(laws, one, atom->x[i], atom->v[i], out[n]);
     });
   }
 
@@ -271,7 +279,8 @@ double HVILeavers::tear_contacts(const HVITorn &laws) const
     if (out[n].rank != comm->me) continue;
     fractional(out[n].x, s);
     cells.near(s, [&](int m) {
-      if (m < n) energy += contact(laws, out[n].type, out[n].x, out[n].v, out[m]);
+      const HVI::ExcludedBy one = {out[n].type, out[n].mask, out[n].molecule};
+      if (m < n) energy += contact(laws, one, out[n].x, out[n].v, out[m]);
     });
   }
   return energy;

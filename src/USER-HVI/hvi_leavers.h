@@ -10,6 +10,7 @@
 #define LMP_HVI_LEAVERS_H
 
 #include "hvi_clamps.h"
+#include "hvi_excluded.h"
 #include "pointers.h"
 
 #include <string>
@@ -45,6 +46,8 @@ class HVILeavers : protected Pointers {
     tagint tag;
     int type, rank;
     double x[3], v[3];
+    int mask;
+    tagint molecule;
   };
   struct LeaverBond {
     tagint tag, partner;
@@ -61,7 +64,8 @@ class HVILeavers : protected Pointers {
   void share(bool bonded);
   template <class Law>
   double torn(const Law &, const double *, const double *, const Leaver &) const;
-  double contact(const class HVITorn &, int, const double *, const double *, const Leaver &) const;
+  double contact(const class HVITorn &, const HVI::ExcludedBy &, const double *, const double *,
+                 const Leaver &) const;
   double spring(const class HVITorn &, int, const double *, const double *, const Leaver &) const;
   double tear_contacts(const class HVITorn &) const;
   double tear_bonds(const class HVITorn &, bigint &);

@@ -135,7 +135,7 @@ double HVISchemeSolid::gather(int i, const EosState &eos, HVI::SphState &s)
   s.w = T.volume * eos.width;
   fields.view().gradv[i].weight = limit.weight;
   s.p = T.p;
-  s.body = HVI::SphState::code(atom->type[i], integrator->body_code(i),
+  s.body = HVI::SphState::code(atom->type[i], wants(HVI::SPH_BODIES) ? integrator->body_code(i) : 0,
                                limit.p_min == 0.0 && limit.shear == 0.0);
   return eos.csq + 4.0 / 3.0 * limit.shear / s.rho;
 }

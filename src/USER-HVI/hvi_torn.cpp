@@ -15,7 +15,6 @@
 #include "atom.h"
 #include "hvi_energy_carrier.h"
 #include "hvi_interface.h"
-#include "neighbor.h"
 
 #include <algorithm>
 
@@ -38,8 +37,7 @@ HVITorn::HVITorn(LAMMPS *lmp) : Pointers(lmp)
 void HVITorn::find_pairs()
 {
   const auto styles = HVI::pair_styles(force);
-  excludes = neighbor->nex_group || neighbor->nex_mol;
-  weighs = atom->molecular != Atom::ATOMIC &&
+  weighs = atom->molecular != Atom::ATOMIC && atom->nbonds > 0 &&
       !std::all_of(force->special_lj + 1, force->special_lj + 4, [](double w) {
              return w == 1.0;
            });
@@ -64,7 +62,7 @@ void HVITorn::find_pairs()
   for (auto *pair : styles) {
     const char *const name = force->pair_match_ptr(pair);
     auto *const carrier = dynamic_cast<EnergyCarrier *>(pair);
-    if (excludes && carrier)
+    if (carrier && weighs && has_energy(*carrier))
       names.emplace_back(name);
     else if (carrier)
       pairs.push_back({carrier, pair});
@@ -75,6 +73,16 @@ void HVITorn::find_pairs()
   }
 }
 
+// of pairs
+
+bool HVITorn::has_energy(const EnergyCarrier &carrier) const
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++)
+      if (carrier.pair_cutsq(i, j) > 0.0) return true;
+  return false;
+}
+
 /* ----------------------------------------------------------------------
    What single() reads is not to be known, so none of the data may be there
    that those of LAMMPS's styles read: charge, dipole, radius, ..., or what a
@@ -83,7 +91,7 @@ void HVITorn::find_pairs()
 
 bool HVITorn::needs_types_only(Pair *pair) const
 {
-  if (excludes || weighs) return false;    // by groups, molecules or bonds
+  if (weighs) return false;
   // a pair style that is there: no carrier is no null
   // NOLINTNEXTLINE(clang-analyzer-core.NullDereference)
   if (!pair->single_enable || pair->manybody_flag || pair->single_extra || pair->nextra)
@@ -122,10 +130,6 @@ void HVITorn::find_bonds()
 
 double HVITorn::cutsq(const PairSource &s, int itype, int jtype) const
 {
-  for (int m = 0; m < neighbor->nex_type; m++) {
-    const int a = neighbor->ex1_type[m], b = neighbor->ex2_type[m];
-    if ((itype == a && jtype == b) || (itype == b && jtype == a)) return 0.0;
-  }
   if (s.pair && !HVI::acts(force, s.pair, itype, jtype)) return 0.0;
   // without a carrier there is a pair style: find_pairs()
   // NOLINTNEXTLINE(clang-analyzer-core.NullDereference)

@@ -51,12 +51,12 @@ class HVITorn : protected Pointers {
   std::vector<PairSource> pairs;
   std::vector<BondSource> bonds;    // by type; both null: not known
   std::vector<std::string> names;
-  bool excludes,
-      weighs;    // pairs are left out, or have a weight, by what is not known of particles that have left
+  bool weighs;    // pairs have a weight by bonds, which are not known of particles that have left
 
   void find_pairs();
   void find_bonds();
   bool needs_types_only(class Pair *) const;
+  bool has_energy(const HVI::EnergyCarrier &) const;
   double cutsq(const PairSource &, int, int) const;
 };
 

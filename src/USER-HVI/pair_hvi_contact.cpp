@@ -41,7 +41,7 @@ static constexpr char WHOSE[] = "Pair hvi/contact";
 
 PairHVIContact::PairHVIContact(LAMMPS *lmp) :
     Pair(lmp), prefactor(1.0), relative(0), uniform(0), epsilon(nullptr), sigma(nullptr),
-    law(nullptr), looked(false)
+    widest(nullptr), law(nullptr), looked(false)
 {
   writedata = 1;
   respa_enable = 0;
@@ -61,6 +61,7 @@ PairHVIContact::~PairHVIContact()
     memory->destroy(cutsq);
     memory->destroy(epsilon);
     memory->destroy(sigma);
+    memory->destroy(widest);
     memory->destroy(law);
   }
 }
@@ -317,10 +318,12 @@ void PairHVIContact::allocate()
   memory->create(cutsq, np1, np1, "pair:cutsq");
   memory->create(epsilon, np1, np1, "pair:epsilon");
   memory->create(sigma, np1, np1, "pair:sigma");
+  memory->create(widest, np1, np1, "pair:widest");
   memory->create(law, np1, np1, "pair:law");
   std::fill_n(setflag[0], np1 * np1, 0);
   std::fill_n(epsilon[0], np1 * np1, 0.0);
   std::fill_n(sigma[0], np1 * np1, 0.0);
+  std::fill_n(widest[0], np1 * np1, 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -378,7 +381,7 @@ void PairHVIContact::coeff(int narg, char **arg)
   for (int i = ilo; i <= ihi; i++)
     for (int j = MAX(jlo, i); j <= jhi; j++) {
       epsilon[i][j] = epsilon_one;
-      sigma[i][j] = sigma_one;
+      sigma[i][j] = widest[i][j] = sigma_one;
       setflag[i][j] = 1;
       count++;
     }
@@ -414,6 +417,7 @@ double PairHVIContact::init_one(int i, int j)
   if (setflag[i][j] == 0) {
     epsilon[i][j] = mix_energy(epsilon[i][i], epsilon[j][j], sigma[i][i], sigma[j][j]);
     sigma[i][j] = mix_distance(sigma[i][i], sigma[j][j]);
+    widest[i][j] = mix_distance(widest[i][i], widest[j][j]);
   }
 
   epsilon[j][i] = epsilon[i][j];
@@ -426,11 +430,11 @@ double PairHVIContact::init_one(int i, int j)
   } else if (law[i][j].depth != common.depth || law[i][j].cutsq != common.cutsq)
     uniform = 0;
 
-  return HVI::Contact::r_eq(sigma[i][j]);
+  return HVI::Contact::r_eq(MAX(sigma[i][j], widest[i][j]));    // that fix adapt may come back to
 }
 
 /* ----------------------------------------------------------------------
-   fix adapt: lists and ghosts are those of the coefficients at the start of the run
+   fix adapt: lists and ghosts are those of pair_coeff
 ------------------------------------------------------------------------- */
 
 void PairHVIContact::reinit()
@@ -440,9 +444,9 @@ void PairHVIContact::reinit()
     for (int j = i; j <= atom->ntypes; j++)
       if (law[i][j].cutsq > cutsq[i][j] * (1.0 + 1.0e-12))
         error->all(FLERR,
-                   "Pair style hvi/contact: contacts of types {} and {} reach farther than at the "
-                   "start of the run, as sigma has grown: give pair_coeff the largest sigma, and "
-                   "let fix adapt make it smaller",
+                   "Pair style hvi/contact: contacts of types {} and {} reach farther than those "
+                   "of pair_coeff, as sigma has grown: give pair_coeff the largest sigma, and let "
+                   "fix adapt make it smaller",
                    i, j);
 }
 
@@ -475,6 +479,7 @@ void PairHVIContact::read_restart(FILE *fp)
     section.get(setflag[i], np1);
     section.get(epsilon[i], np1);
     section.get(sigma[i], np1);
+    std::copy_n(sigma[i], np1, widest[i]);
   }
 }
 

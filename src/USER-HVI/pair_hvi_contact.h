@@ -53,6 +53,7 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::Ener
   int uniform;                 // 1 if all pairs of types share one law,
   HVI::Contact common = {};    // and this is it
   double **epsilon, **sigma;
+  double **widest;    // sigma of pair_coeff
   HVI::Contact **law;
   bool looked;    // for pairs that are deep in each other
 

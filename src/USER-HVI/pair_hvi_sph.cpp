@@ -442,9 +442,6 @@ void PairHVISPH::set_material(int ilo, int ihi, int jlo, int jhi,
   if ((volume > 0.0 || spacing > 0.0) && !(made->eos->rho0() > 0.0))
     error->all(FLERR, "Pair_coeff hvi/sph {}: {} has no density at rest",
                volume > 0.0 ? "volume" : "spacing", made->name);
-  if (volume > 0.0 && atom->rmass)
-    error->all(FLERR,
-               "Pair_coeff hvi/sph volume sets masses of types, but particles have their own");
   if (h == 0.0) h = H_OF_SPACING * spacing;
   const bool keeps_mass = volume == 0.0;    // that the type has from a data file, say
   if (keeps_mass && spacing > 0.0) volume = MathSpecial::powint(spacing, set.laws.dim);
@@ -813,12 +810,6 @@ void PairHVISPH::check_extent()
                  "Pair hvi/sph dim {}: the box is only {} long along {}, particles would interact "
                  "with their images beyond the reach of {}",
                  dim, domain->prd[k], "xyz"[k], cutmax);
-    else if (set.mirror.has(k))
-      error->all(
-          FLERR,
-          "Pair hvi/sph dim {}: particles do not extend along {}, across which there is a mirror: "
-          "they would interact with their images",
-          dim, "xyz"[k]);
   }
   if (extended > dim)
     error->all(FLERR, "Pair hvi/sph dim {}: particles extend along {} directions", dim, extended);
@@ -827,6 +818,13 @@ void PairHVISPH::check_extent()
       along[k] = true;
       extended++;
     }
+  for (int k = 0; k < domain->dimension; k++)
+    if (set.mirror.has(k) && !along[k])
+      error->all(
+          FLERR,
+          "Pair hvi/sph dim {}: particles do not extend along {}, across which there is a mirror: "
+          "they would interact with their images",
+          dim, "xyz"[k]);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -139,6 +139,8 @@ def test_records_older_than_a_setting(case):
     assert len(old.for_case(case()).shields) == 3
     with pytest.raises(HVIError, match="debris is yes, not no"):
         old.for_case(case(CASE.replace("speed_km_s: 6", "speed_km_s: 6\nsettings: {debris: yes}")))
+    old.head["settings"] = {"debris": "yes"}  # what the study gave is known
+    assert len(old.for_case(case(CASE.replace("speed_km_s: 6", "speed_km_s: 6\nsettings: {debris: yes}"))).shields) == 3
 
 
 @pytest.mark.parametrize("old, new", [("speed_km_s: 6", "speed_km_s: 7"), ("gap_mm: 60", "gap_mm: 60, spacings_mm: [1, 0.7]"), ("speed_km_s: 6", "speed_km_s: 6\nsettings: {film: 1}")])

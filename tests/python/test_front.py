@@ -99,7 +99,7 @@ def test_equations_know_the_density_of_today(folder):
 
 
 @pytest.mark.parametrize("spacings, message", [("[0.3, 0.5]", None), ("[0.5, 0.3]", "wall 2: spacings_mm: 0.3, 0.5 mm grow where those of the case, 0.4, 0.2 mm, become finer"),
-                                               ("[0.3, 0.3]", "wall 2: spacings_mm: of the last wall the largest must be 1.2 times the smallest at least")])
+                                               ("[0.3, 0.3]", "wall 2: spacings_mm: the largest must be 1.2 times the smallest at least")])
 def test_spacings_of_a_wall_become_finer(folder, spacings, message):
     """so that the verdict of two spacings is one"""
     (folder / "emi.yaml").write_text(CASE.replace("gap_mm: 60", f"gap_mm: 60\n    spacings_mm: {spacings}"))
@@ -114,7 +114,13 @@ def test_a_folder_keeps_its_run(folder, capsys):
     assert cli.main(["shield", "emi.yaml", "--write", "w"]) == 0
     (folder / "emi.yaml").write_text(change("speed_km_s: 7.1", "speed_km_s: 5"))
     capsys.readouterr()
-    assert cli.main(["shield", "emi.yaml", "--write", "w"]) == 1 and "w/dx-0.4_shift-0.0 has a run of another case" in capsys.readouterr().err
+    before = (folder / "w/dx-0.2_shift-0.0/case.yaml").read_text()
+    assert cli.main(["shield", "emi.yaml", "--write", "w"]) == 1
+    assert "w/dx-0.4_shift-0.0 has a run, and in.shield there is not that of this case" in capsys.readouterr().err
+    assert (folder / "w/dx-0.2_shift-0.0/case.yaml").read_text() == before  # all or nothing
+    of = folder / "w/dx-0.4_shift-0.0/case.yaml"
+    of.write_text(re.sub("gap_mm: .*", "gap_mm: 61", of.read_text()))
+    assert cli.main(["judge", str(of.parent)]) == 1 and "wall2_front_mm is 60.8 in plan.yaml, and 61.8 by case.yaml" in capsys.readouterr().err
 
 
 def test_a_thick_last_wall_has_a_next_spacing(folder):
@@ -123,7 +129,10 @@ def test_a_thick_last_wall_has_a_next_spacing(folder):
     case = cases.read("emi.yaml")
     said = {member: ("undecided", [], []) for member in decision.members(case)}
     jobs = {member: types.SimpleNamespace(result=lambda: {"core_s": 1.0}) for member in said}
-    assert decision.finer(case, said, jobs)["spacings_mm"][1] == pytest.approx(0.2 / 1.2, rel=1e-3)
+    found = decision.finer(case, said, jobs)["spacings_mm"]
+    assert found == [0.2, 0.1667]
+    (folder / "again.yaml").write_text((folder / "emi.yaml").read_text().replace("[0.2, 0.4]", str(found)))
+    assert cases.read("again.yaml").spacings_mm == tuple(found)  # what is proposed is taken
     thin = dataclasses.replace(case, walls=(case.walls[0], dataclasses.replace(case.walls[1], thickness_mm=1.2)))
     assert decision.finer(thin, said, jobs)["spacings_mm"] == [0.2, 0.15]
     assert decision.finer(dataclasses.replace(thin, settings={"layers": (3, 3)}), said, jobs) is None

@@ -280,6 +280,21 @@ def test_files_that_the_input_names(folder):
     assert files() == {"../../plate.data": engine.digest(b"c")}
     (folder / "in.tiny").write_text((folder / "in.tiny").read_text().replace("mine.hvi", "Cu-OFHC.hvi"))
     assert set(files()) == {"../../plate.data", "Cu-OFHC.hvi"}
+    (folder / "tabled.hvi").write_text("eos table bilinear some.table  # sesame\nstrength perfect\n")
+    (folder / "some.table").write_text("1")
+    (folder / "in.tiny").write_text(INPUT + "variable plate index x.data\nvariable material index other.hvi\nread_data '${plate}'\npair_coeff * * file ${material}\n")
+    (folder / "s.yaml").write_text(yaml.safe_dump({**STUDY, "variables": {"plate": "../../plate.data", "material": str(folder / "tabled.hvi")}}))
+    assert set(files()) == {"../../plate.data", str(folder / "tabled.hvi"), "some.table"}
+    (folder / "s.yaml").write_text(yaml.safe_dump({**STUDY, "variables": {"mode": "../../plate.data"}, "grid": {"speed": [1.0]}}))
+    assert files() is None  # what is not read may be written
+
+
+def test_variables_without_a_value(folder):
+    (folder / "s.yaml").write_text("input: in.tiny\nvariables:\ngrid: {speed: [1]}\n")
+    assert study_of.Study(folder / "s.yaml").fixed == {}
+    (folder / "s.yaml").write_text("input: in.tiny\nvariables: {n: }\ngrid: {speed: [1]}\n")
+    with pytest.raises(hvi.HVIError, match="line 2: a variable without a value"):
+        study_of.Study(folder / "s.yaml")
 
 
 def test_wrong_options(sweep):

@@ -206,4 +206,6 @@ def test_lines_of_data_files(lmp, tmp_path):
     """numbers have all their digits and an exponent at the front of a wave: LAMMPS must be able to read the lines"""
     text = blocks(gap=0).replace("-3 3 -3 3", "-6 6 -6 6")
     lmp(text + APART.format(-1e-3) + "run 12\nwrite_data wave.data\n")
-    assert max(map(len, open("wave.data"))) < 256
+    lines = open("wave.data").read().splitlines()
+    sections = [line.split("# id")[1].split() for line in lines if "# id" in line]
+    assert len(sections) == 5 and max(map(len, sections)) * 25 + 12 < 256 and max(map(len, lines)) < 256

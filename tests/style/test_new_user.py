@@ -185,7 +185,7 @@ def test_how_a_data_file_is_read_is_said(lmp, tmp_path, nranks):
     fixes = "fix move all hvi/sph\nfix solid all hvi/johnson-cook"
     r = lmp(scene(third=WITHOUT, steps=20) + "write_data end.data\n", cwd=tmp_path, nranks=nranks)
     clauses = re.findall(r"^  section \S+: for read_data, (fix \S+ NULL \S+)$", r.log, re.M)
-    assert len(clauses) == 4
+    assert len(clauses) == 5
     text = f"""units si
 atom_style sph
 atom_modify map array

@@ -446,9 +446,14 @@ TEST(SolidModel, Starts)
   EXPECT_EQ(rubble.shear, 0.0);
   EXPECT_EQ(rubble.before.p_min, 0.0);
 
-  // a liquid's tension is not limited
+  // a liquid's tension is not limited, but rubble stays rubble; neither has a stress left
   SolidModel::liquefy(rubble);
-  EXPECT_EQ(rubble.before.p_min, -NO_LIMIT);
+  EXPECT_EQ(rubble.before.p_min, 0.0);
+  s.shear = G;
+  SolidModel::liquefy(s);
+  EXPECT_EQ(s.before.p_min, -NO_LIMIT);
+  EXPECT_EQ(s.before.shear, 0.0);
+  EXPECT_EQ(von_mises(s.S), 0.0);
 }
 
 /* ----------------------------------------------------------------------

@@ -214,11 +214,11 @@ def test_three_percent_may_be_on_their_way(shield, tstop, least, most):
     assert len(said) == (coming > 0.03 * r["wall2_energy_ratio"])
 
 
-@pytest.mark.parametrize("last, verdict", [(4.8, "holds"), (1.6, "undecided")])
-def test_layers_of_the_wall_that_decides(shield, last, verdict):
+@pytest.mark.parametrize("last, layers, verdict", [(4.8, 7, "holds"), (1.4, 2, "undecided")])
+def test_layers_of_the_wall_that_decides(shield, last, layers, verdict):
     """that of another is no more than a note"""
-    r = shield(wall(0.8), wall(last, gap=6, radius=10, spacings_mm=[0.7]), **SOFT, D=2.4, dx=0.6, v=4, tstop=11, layers=[1, round(last / 0.8)])
-    assert r["verdict"] == verdict and r["decided_by"] == "wall2" and (r["wall1_layers"], r["wall2_layers"]) == (1, round(last / 0.8))
+    r = shield(wall(0.8), wall(last, gap=6, radius=10, spacings_mm=[0.7]), **SOFT, D=2.4, dx=0.6, v=4, tstop=14, layers=[1, layers])
+    assert r["verdict"] == verdict and r["decided_by"] == "wall2" and (r["wall1_layers"], r["wall2_layers"]) == (1, layers)
     assert [text[:6] for text in r["notes"]] == ["wall 1"] and "does not decide, has 1 layer(s) of particles" in r["notes"][0]
     assert [text[:6] for text in r["reasons"] if "layer" in text] == ["wall 2"] * (verdict == "undecided")
 

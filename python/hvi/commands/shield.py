@@ -125,6 +125,8 @@ def write(case, folder, given=None):
         with contextlib.suppress(HVIError):  # runs may be for another machine
             run = [*lammps.environment(), *run[:3], str(lammps.find(given)), *run[4:]]
     for member in members(case):
+        chain.check_free(chain.shield_of(case, *member), folder / member_name(case, member))
+    for member in members(case):
         where = folder / member_name(case, member)
         chain.write_run(case, *member, where)
         print(f"cd {shlex.quote(str(where))} && {shlex.join(run)} && {shlex.join([*typed(), 'judge', '.'])}")

@@ -2,7 +2,7 @@
 """Many runs of a LAMMPS input: each in its own folder, some at a time, those that are done left alone.
 
 A run is done if its folder has a complete result.yaml and its job.yaml says that input, files that it includes, variables
-and material files were the same. One that was interrupted goes on from its restart files where a second input does that. Ctrl-C ends
+and the files that these read were the same. One that was interrupted goes on from its restart files where a second input does that. Ctrl-C ends
 what runs; what another process is still at (after kill -9 of the first) is waited for.
 """
 
@@ -113,10 +113,17 @@ class Input:
     def checksum(self):
         return digest("\0".join(self.texts[name] for name in sorted(self.texts)).encode())
 
-    def reads(self):
-        """names of the files that the texts themselves name for reading: materials, data"""
+    def reads(self, variables):
+        """names of the files that commands read with these variables, or else their defaults: materials, data, molecules"""
         joined = re.sub(r"&[ \t]*\n", " ", re.sub(r"#.*", "", "\n".join(self.texts.values())))
-        return re.findall(r"[\w./+-]+\.hvi\b", joined) + re.findall(r"^\s*read_data\s+([\w./+-]+)", joined, re.M)
+        known = {name: value.strip("\"'") for name, value in re.findall(r"^\s*variable\s+(\w+)\s+(?:index|string|getenv)\s+(\S+)", joined, re.M)}
+        known.update((name, words(value)[0]) for name, value in variables.items())
+
+        def filled(word):
+            return re.sub(r"\$\{(\w+)\}|\$(\w)", lambda match: str(known.get(match[1] or match[2], "$")), word.strip("\"'"))
+
+        named = re.findall(r"^\s*(?:read_data|read_restart|molecule\s+\S+)\s+(\S+)", joined, re.M) + re.findall(r"^\s*pair_coeff\s.*?\bfile\s+(\S+)", joined, re.M)
+        return [word for word in map(filled, named) if "$" not in word and "*" not in word]
 
     def check(self, variables, where):
         """LAMMPS takes any name after -var; one that the input does not know would change nothing"""
@@ -181,14 +188,24 @@ class Job:
         self.batch = ""  # of Slurm's jobs, that it was submitted in; "": runs without Slurm
 
     def _files(self):
-        """checksums of the files that variables and the input name: materials, plates"""
-        named = [word for value in self.variables.values() for word in words(value)] + self.input.reads()
+        """checksums of the files that variables name, and that the inputs read: materials with their tables, plates"""
         found = {}
-        for word in dict.fromkeys(word for word in named if re.search(r"\.\w*[a-z]\w*$", word)):
-            for path in (*(folder / word for folder in potentials()), pathlib.Path(os.path.normpath(self.folder / word))):  # an absolute path stays what it is
-                if path.is_file() and self.folder.resolve() not in path.resolve().parents:  # what is in the folder was written by the run
-                    found[word] = digest(path.read_bytes())
-                    break
+
+        def note(word, places):
+            of = (pathlib.Path(os.path.normpath(place / word)) for place in places)  # an absolute path stays what it is; folders of runs may not be there yet
+            path = next(filter(os.path.isfile, of), None)
+            if path is None or self.folder.resolve() in path.resolve().parents:  # what is in the folder was written by the run
+                return
+            found[word] = digest(path.read_bytes())
+            for table in re.findall(r"^[ \t]*eos[ \t]+table\b[^\n#]*?([^\s#]+)[ \t]*(?:#.*)?$", path.read_text(errors="replace"), re.M) if path.suffix == ".hvi" else ():
+                note(table, (path.parent, *potentials()))
+
+        for word in (word for value in self.variables.values() for word in words(value)):
+            if re.search(r"\.\w*[a-z]\w*$", word):
+                note(word, potentials())
+        for source in filter(None, (self.input, self.goes_on)):
+            for word in source.reads(self.variables):
+                note(word, (*potentials(), self.folder))
         return found
 
     def key(self):

@@ -38,11 +38,12 @@ def refuse_changed(root, path):
 
     def look(node):
         for key, value in node.value if isinstance(node.value, list) and node.tag.endswith(":map") else ():
-            if key.value in ("variables", "grid"):
+            if key.value in ("variables", "grid") and not isinstance(value.value, str):
                 for one in scalars(value):
                     kind = one.tag.rpartition(":")[2]
                     if one.style is None and kind != "str" and not (kind in ("int", "float") and re.fullmatch(PLAIN, one.value)):
-                        raise HVIError(f"{path}, line {one.start_mark.line + 1}: {one.value or 'nothing'} would reach LAMMPS as another word: write it in quotes, '{one.value}'")
+                        raise HVIError(f"{path}, line {one.start_mark.line + 1}: " + (
+                            f"{one.value} would reach LAMMPS as another word: write it in quotes, '{one.value}'" if one.value else "a variable without a value"))
             elif key.value == "full":
                 look(value)
 

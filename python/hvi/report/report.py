@@ -178,7 +178,7 @@ class Report:
     def materials(self):
         parts, rows = [], []
         for name in dict.fromkeys(self.run.materials):
-            path = next((p for p in (pathlib.Path(name), self.run.folder / name, library.path_of(name)) if p and p.is_file()), None)
+            path = next((p for p in (library.of_case(name), self.run.folder / pathlib.Path(name).name) if p.is_file()), None)
             used = ", ".join(pictures.body_name(k) for k, material in enumerate(self.run.materials) if material == name)
             if path is None:
                 rows.append((stem(name), used, "the file is not there any more"))

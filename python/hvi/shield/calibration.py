@@ -36,9 +36,10 @@ def model_of(case):
     return {**{name: case.setting(name) for name in MODEL}, "fill": case.projectile.fill}
 
 
-def complete(model):
-    """of a file of records that is older than some of the names: these were their defaults"""
-    return {**{name: SETTINGS[name].default for name in MODEL}, "fill": FILLS[0], **model}
+def complete(head):
+    """the model of a file of records, which may be older than some of the names"""
+    given = {name: value for name, value in head["settings"].items() if name in MODEL}
+    return {**{name: SETTINGS[name].default for name in MODEL}, "fill": head["spacing"].get("fill", FILLS[0]), **given, **head["model"]}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -244,7 +245,7 @@ class Records:
                 found.append(f"{library.stem(name)} is in none of them")
             elif not path.is_file() or engine.digest(path.read_bytes()) != known:
                 found.append(f"the file of {library.stem(name)} is not that of the records")
-        known = complete(self.head["model"])
+        known = complete(self.head)
         found += [f"{'projectile' if name == 'fill' else 'settings'}: {name} is {value}, not {known[name]}" for name, value in model_of(case).items() if value != known[name]]
         for name, value in scope(lengths(case)).items() if not found else ():
             values = [scope(vars(run))[name] for run in self.runs]

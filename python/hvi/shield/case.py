@@ -21,7 +21,8 @@ from .projectile import material
 from .reader import REQUIRED, Key, Reader, choice, fields, lammps_words, number, several, word
 
 SLOWEST, FASTEST = 0.1, 100  # km/s
-RATIO = 1.2  # of spacings that may be said to differ
+RATIO = 1.2  # of spacings that may be said to differ,
+ROUNDED = 0.999  # with the digits that messages give them
 LAYERS = 3  # needed in the wall that decides
 ACROSS = 4  # particles across a projectile
 MOST = 1000  # walls
@@ -184,7 +185,7 @@ class Case:
     def check(self, wrong):
         """What values say of each other, for a run"""
         self.check_shot(wrong)
-        if len(self.spacings_mm) > 1 and max(self.spacings_mm) < RATIO * min(self.spacings_mm):
+        if len(self.spacings_mm) > 1 and max(self.spacings_mm) < ROUNDED * RATIO * min(self.spacings_mm):
             wrong("spacings_mm", f"the largest must be {RATIO:g} times the smallest at least: almost the same twice says nothing of how much it matters")
         faces, size = self.faces(), 2 * self.projectile.radius_mm
         for k, wall in enumerate(self.walls, 1):
@@ -221,13 +222,13 @@ class Case:
                 wrong(key, f"{path} and {known[path.name]} have one name, and a run has a folder for all its files: rename one")
 
     def check_refined(self, wrong):
-        """spacings of a wall go with those of the case, those of the last one by as much as these must"""
+        """spacings of a wall go with those of the case, by as much as these must: any may decide"""
         for k, wall in enumerate(self.walls, 1):
             own = wall.spacings_mm or ()
             if any(fine > coarse for coarse, fine in zip(own, own[1:])):
                 wrong(f"wall {k}: spacings_mm", f"{', '.join(f'{dx:g}' for dx in own)} mm grow where those of the case, {', '.join(f'{dx:g}' for dx in self.spacings_mm)} mm, become finer")
-            if k == len(self.walls) and len(own) > 1 and own[0] < RATIO * own[-1]:
-                wrong(f"wall {k}: spacings_mm", f"of the last wall the largest must be {RATIO:g} times the smallest at least, as of the case: else nothing says how much it matters")
+            if len(own) > 1 and own[0] < ROUNDED * RATIO * own[-1]:
+                wrong(f"wall {k}: spacings_mm", f"the largest must be {RATIO:g} times the smallest at least, as of the case: else nothing says how much it matters")
 
     def check_projectile(self, wrong):
         body = self.projectile

@@ -14,7 +14,6 @@ import warnings
 
 import numpy as np
 
-from .. import texts
 from ..errors import HVIError, HVIWarning
 from ..io import packed
 from ..jobs import engine
@@ -45,7 +44,7 @@ class Written:
     def checksum(self):
         return engine.digest("\0".join(self.texts.values()).encode())
 
-    def reads(self):
+    def reads(self, _):
         return []  # materials are among the texts, and of variables
 
 
@@ -217,9 +216,11 @@ def plan_of(shield):
             "settings": {name: float(f"{value:.9g}") if isinstance(value, float) else list(value) if isinstance(value, tuple) else value for name, value in of_run.items() if value is not None}}
 
 
-def write_result(shield, folder):
+def write_result(shield, folder, by_hand=False):
     """result.yaml, verdict first; frames before the next wall is struck as cloudK.dump"""
     found = record.measure(shield, folder)
+    if by_hand and abs(found["energy_start_J"] / shield.energy - 1) > OF_THE_CASE:
+        raise HVIError(f"{folder}: the run began with {found['energy_start_J']:.4g} J, and the projectile of {script.CASE} has {shield.energy:.4g} J: it is of another case")
     said = verdict.of_run(shield, found)
     engine.write_yaml(pathlib.Path(folder) / "result.yaml", record.rounded({**said, **found}))
     clouds(found, pathlib.Path(folder))
@@ -241,17 +242,21 @@ def clouds(found, folder):
 def write_run(case, which, shift, folder):
     """a folder that LAMMPS alone can run: inputs, materials, meshes; the case of this run, for the verdict"""
     shield = shield_of(case, which, shift)
-    folder = pathlib.Path(folder)
-    if has_run(folder) and any(texts.read(folder / name) != text for name, text in shield.texts().items() if (folder / name).is_file()):
-        raise HVIError(f"{folder} has a run of another case, or of another state of it: remove the folder, or take another one")
+    check_free(shield, pathlib.Path(folder))
     shield.write(folder)
     write_plan(shield, folder)
     return shield
 
 
-def has_run(folder):
-    """whether LAMMPS has written what the verdict is made of"""
-    return any((folder / name).is_file() for name in ("walls.dat", "pieces.dat", "history.dat", "result.yaml"))
+def check_free(shield, folder):
+    """HVIError if the folder has a run, and not of this case: its numbers would be judged by the other"""
+    if not any((folder / name).is_file() for name in ("walls.dat", "pieces.dat", "history.dat", "result.yaml")):
+        return
+    body = shield.case.projectile
+    wanted = {**{name: text.encode() for name, text in shield.texts().items()}, **({pathlib.Path(path).name: pathlib.Path(path).read_bytes() for path in [shield.case.file(shield.which)]} if body.files else {})}
+    for name, data in wanted.items():
+        if not (folder / name).is_file() or (folder / name).read_bytes() != data:
+            raise HVIError(f"{folder} has a run, and {name} there is not that of this case: remove the folder, or take another one")
 
 
 def judge(folder):
@@ -261,8 +266,9 @@ def judge(folder):
         raise HVIError(f"{folder} has no {script.CASE}: it is no folder of python3 -m hvi shield --write")
     case = cases.read(folder / script.CASE)
     shield = shield_of(case, 0, case.shifts[0])
-    found = record.measure(shield, folder)
-    if abs(found["energy_start_J"] / shield.energy - 1) > OF_THE_CASE:
-        raise HVIError(f"{folder}: the run began with {found['energy_start_J']:.4g} J, and the projectile of {script.CASE} has {shield.energy:.4g} J: it is of another case")
-    write_result(shield, folder)
+    plan, now = engine.read_yaml(folder / "plan.yaml") or {}, plan_of(shield)
+    for key in (key for key in now if key == "dx_mm" or key.endswith(("_front_mm", "_thickness_mm"))):
+        if key in plan and abs(plan[key] - now[key]) > 1e-4 * (1 + abs(now[key])):
+            raise HVIError(f"{folder}: {key} is {plan[key]:g} in plan.yaml, and {now[key]:g} by {script.CASE}: it is of another case")
+    write_result(shield, folder, by_hand=True)
     return engine.read_yaml(folder / "result.yaml")

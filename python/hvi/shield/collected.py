@@ -85,7 +85,7 @@ def collect(study, runs, published=None, before=None):
 def join(head, before, runs):
     """the runs of earlier records, with the head of all; HVIError: they are of another rule, or one of them was run again"""
     def rule(of):
-        return {**of["spacing"], "across": None}, of["settings"], calibration.complete(of["model"])
+        return {**of["spacing"], "across": None}, of["settings"], calibration.complete(of)
 
     if rule(before.head) != rule(head):
         raise HVIError("--add: those records have other spacings, settings or another model than the study")

@@ -143,7 +143,7 @@ RULES = (
          lambda m: ({"spacings_mm": None}, "take spacings that are alike")),
     Rule("coarser", UNLESS, lambda m: m.last and m.coarser > COARSER, "a single wall struck by a fragment holds from 6 to 15 percent too early with particles 1.4 times as coarse, from 10 to 20 percent and more with twice (examples/crater)",
          lambda m: f"the particles of wall {m.d} are {m.coarser:.2g} times as far apart as those of what strikes it: it holds what a finer one does not",
-         lambda m: ({"settings": {"layers": None}}, "take more layers, or let spacings_mm say how many") if m.coarser > m.sieve else
+         lambda m: ({"settings": {"layers": None}}, "take more layers, or let spacings_mm say how many") if m.coarser > 1.001 * m.sieve else
          ({f"wall {m.d}: spacings_mm": None}, "take spacings for it as fine as those of the projectile" + ("; with core_mm they cost little" if m.case.walls[m.d - 1].method == "sph" else ""))),
     Rule("few", UNLESS, lambda m: m.few, f"with fewer than {FEW} particles apart, other shifts of the lattice say anything",
          lambda m: f"no more than {m.parts} particles are apart behind wall {m.d}, and {FEW} are needed", lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
