@@ -117,11 +117,10 @@ double ComputeHVIAtom::value_of(Value value, int i) const
 
   const double m = atom->rmass ? atom->rmass[i] : atom->mass[itype];
   double rho = atom->rho[i], esph = atom->esph[i];
-  if (mesh) mesh->is_shown(i, rho, esph);
+  const bool held = mesh && mesh->is_shown(i, rho, esph);
   const double e = esph / m;
   if (value == ENERGY) return e;
   if (value == TEMPERATURE) {
-    const bool held = mesh && mesh->is_shown(i, rho, esph);
     const double T = material->eos->temperature(strength && !held ? strength->density(i) : rho, e);
     return std::isnan(T) ? 0.0 : T;
   }

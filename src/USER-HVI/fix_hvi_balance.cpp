@@ -62,6 +62,7 @@ FixHVIBalance::FixHVIBalance(LAMMPS *lmp, int narg, char **arg) :
   }
   if (axis != 2 && domain->dimension == 2)
     error->all(FLERR, "Fix hvi/balance: columns of two dimensions are along z");
+
   // as in fix balance
 
   box_change = BOX_CHANGE_DOMAIN;

@@ -160,18 +160,19 @@ def test_a_body_comes_to_its_image(lmp, tmp_path, nranks, newton):
     assert set(rows(tmp_path / "half.dump")[1]) == {1}
 
 
-def test_a_body_that_a_plane_cuts(lmp, tmp_path):
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
+def test_a_body_that_a_plane_cuts(lmp, tmp_path, nranks, newton):
     """is one with its image, until it is pulled away: then it bounces there, too; so after a restart"""
-    text = blocks(gap=0).replace("create_atoms 1 region lower\n", "").replace("dissipation riemann", "dissipation riemann mirror z 0 lo").replace("s s s", "s s f").replace("-14 14", "0 14")
+    text = blocks(newton, gap=0).replace("create_atoms 1 region lower\n", "").replace("dissipation riemann", "dissipation riemann mirror z 0 lo").replace("s s s", "s s f").replace("-14 14", "0 14")
     text += "unfix step\ntimestep 4e-8\nthermo 10\n"
-    r = lmp(text + "velocity all set 0 0 20 units box\nrun 40\n")
+    r = lmp(text + "velocity all set 0 0 20 units box\nrun 40\n", nranks=nranks)
     assert r.thermo["v_up"].min() < 19  # it is held
     move = "displace_atoms all move 0 0 {} units box\n"
     parted = text + "run 1\n" + move.format(5 * DX) + "run 104\nwrite_restart apart.restart\n"
     back = move.format(-5 * DX) + "velocity all set 0 0 20 units box\nrun 40\n"
-    assert lmp(parted + back).runs[-1]["v_up"] == pytest.approx(20.0, rel=1e-9)
-    again = "units si\natom_modify map yes\nread_restart apart.restart\n" + text[text.index("pair_style"):]
-    assert lmp(again + "run 0\n" + back).runs[-1]["v_up"] == pytest.approx(20.0, rel=1e-9)
+    assert lmp(parted + back, nranks=nranks).runs[-1]["v_up"] == pytest.approx(20.0, rel=1e-9)
+    again = f"units si\nnewton {newton}\natom_modify map yes\nread_restart apart.restart\n" + text[text.index("pair_style"):]
+    assert lmp(again + "run 0\n" + back, nranks=4 - nranks).runs[-1]["v_up"] == pytest.approx(20.0, rel=1e-9)
 
 
 @pytest.mark.parametrize("kernel", ["cubic", "wendland2"])
