@@ -4,8 +4,10 @@ what must be whole for its reader is written beside its name first."""
 
 import contextlib
 import csv
+import glob
 import os
 import pathlib
+import time
 import uuid
 
 from .errors import HVIError, reading
@@ -13,6 +15,7 @@ from .errors import HVIError, reading
 LARGEST = 100_000_000  # bytes of a text file,
 YAML = 250_000  # of one in YAML, whose reader takes a second for so many,
 NODES = 50_000  # and values in it, those that aliases repeat counted each time
+ABANDONED = 3600  # seconds since a half-written file was last written to
 
 
 def data_of(path, most=LARGEST):
@@ -39,6 +42,10 @@ def read(path, most=LARGEST):
 @contextlib.contextmanager
 def whole(path):
     """A stream for a text file that others see whole or not at all, also where the machine stops; of processes that write it at once, the last one's stays"""
+    for left in pathlib.Path(path).parent.glob(f"{glob.escape(pathlib.Path(path).name)}.*.new"):  # by a call that was killed
+        with contextlib.suppress(OSError):
+            if time.time() - left.stat().st_mtime > ABANDONED:
+                left.unlink()
     new = pathlib.Path(path).with_name(f"{pathlib.Path(path).name}.{uuid.uuid4().hex}.new")
     try:
         with open(new, "w", newline="", encoding="utf-8") as stream:

@@ -205,6 +205,17 @@ def test_a_result_written_by_two_at_once(tmp_path):
         engine.write_yaml(tmp_path / "none/verdict.yaml", {})
 
 
+def test_half_a_file_of_a_call_that_was_killed(tmp_path):
+    """goes with the next result of its name; those that may still be written to, and of other names, stay"""
+    old, fresh, other = (tmp_path / f"{name}.new" for name in ("verdict.yaml.0a", "verdict.yaml.0b", "limit.yaml.0a"))
+    for half in (old, fresh, other):
+        half.write_text("verd")
+    for half in (old, other):
+        os.utime(half, (time.time() - 2 * texts.ABANDONED,) * 2)
+    engine.write_yaml(tmp_path / "verdict.yaml", {"verdict": "holds"})
+    assert sorted(tmp_path.iterdir()) == sorted([tmp_path / "verdict.yaml", fresh, other])
+
+
 def test_next_finer(folder, capsys):
     """an undecided verdict says which spacing would be next, and what it costs; one that is decided does not"""
     (folder / "emi.yaml").write_text(change("diameter_mm: 5", "diameter_mm: 4.3"))

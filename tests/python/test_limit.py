@@ -29,7 +29,14 @@ def test_limit(folder, capsys):
     assert len(fine) <= 2 * 5  # they begin about what the coarse ones have found
     before = begun(folder)
     assert front("limit", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1") == 0
-    assert begun(folder) == before and answer(folder) == found
+    assert begun(folder) == before and answer(folder) == found and found["notes"] == [] and "note:" not in out
+
+
+def test_limit_of_walls_that_are_the_same_with_all_spacings(folder, capsys):
+    (folder / "emi.yaml").write_text(change("spacings_mm: [0.2, 0.4]", "spacings_mm: [0.2, 0.4]\nsettings: {layers: [6, 12]}"))
+    assert front("limit", "--on", "D", "--from", "2", "--to", "8", "--step", "0.5", "--jobs", "3") == 0
+    (note,) = answer(folder)["notes"]
+    assert note.startswith("settings: layers are the same") and f"\nnote: {note}\n" in capsys.readouterr().out
 
 
 def test_limit_with_an_undecided_region(folder, capsys, monkeypatch):

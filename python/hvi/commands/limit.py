@@ -65,4 +65,4 @@ def said(answer):
     return [f"holds {answer['holds']} {unit}, fails {answer['fails']}, between them undecided: limit on {answer['on']}, its middle {answer['limit']:g} {unit}",
             f"band: the last refinement moved it by {spacing:+g} {unit}" if spacing is not None else "band: one spacing only, nothing says how much it matters",
             f"      shifts of the lattice by up to {shifts:g} {unit}" if shifts is not None else "      one shift of the lattice only",
-            f"      steps of {answer['step']:g} {unit}", *calibration.said_of_limit(answer["calibration"], unit), *cost]
+            f"      steps of {answer['step']:g} {unit}", *(f"note: {text}" for text in answer["notes"]), *calibration.said_of_limit(answer["calibration"], unit), *cost]

@@ -71,11 +71,15 @@ def decide(case, said):
     if reasons or per[0] == {"undecided"}:
         return "undecided", reasons + told, []
     (verdict,) = per[0]
-    notes = [f"{text} ({member_name(case, finest)})" for text in said[finest][2]]
-    if "layers" in case.settings and len(case.spacings_mm) > 1:
-        notes.append("settings: layers are the same with all spacings: how much they matter is not known")
+    notes = [f"{text} ({member_name(case, finest)})" for text in said[finest][2]] + note_of_layers(case)
     return verdict, [f"{'both' if len(said) == 2 else f'all {len(said)}'} runs say so: spacings of {', '.join(f'{dx:g}' for dx in case.spacings_mm)} mm, "
                      f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told], notes
+
+
+def note_of_layers(case):
+    """[note] where walls do not become finer with the spacing; else []"""
+    same = "layers" in case.settings and len(case.spacings_mm) > 1
+    return ["settings: layers are the same with all spacings: how much they matter is not known"] if same else []
 
 
 def note_of_pieces(case, jobs):
