@@ -22,15 +22,15 @@ walls:
 - {{thickness_mm: 3, material: Al6061-T6.hvi, gap_mm: 50.8, spacings_mm: [1]}}  # coarse: what becomes of it is not looked at
 spacings_mm: [{spacing:.6g}]
 shifts: [{shift}]
-settings: {{film: -1}}
+settings: {{film: -1, quarter: '{quarter}'}}
 """
 
 
-def largest(lmp, speed, across, fill, shift):
+def largest(lmp, speed, across, fill, shift, quarter):
     """the largest piece behind wall 1"""
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
-        (folder / "pieces.yaml").write_text(CASE.format(diameter=DIAMETER, fill=fill, speed=speed, spacing=DIAMETER / across, shift=shift))
+        (folder / "pieces.yaml").write_text(CASE.format(diameter=DIAMETER, fill=fill, speed=speed, spacing=DIAMETER / across, shift=shift, quarter=quarter))
         hvi = [sys.executable, "-m", "hvi"]
         subprocess.run([*hvi, "shield", folder / "pieces.yaml", "--write", folder / "run"], check=True, stdout=subprocess.DEVNULL)
         (run,) = (folder / "run").glob("*/")
@@ -46,8 +46,9 @@ def main():
     parser.add_argument("--across", type=int, default=10, help="particles across the sphere")
     parser.add_argument("--shifts", type=float, nargs="+", default=[0.125, 0.375], help="of its lattice, in spacings")
     parser.add_argument("--fill", choices=("lattice", "glass"), default="lattice", help="of the sphere; of a glass a shift is its number")
+    parser.add_argument("--quarter", choices=("auto", "no"), default="auto", help="no: the whole shield, without mirror planes")
     args = parser.parse_args()
-    found = [largest(args.lmp, args.speed, args.across, args.fill, shift) for shift in args.shifts]
+    found = [largest(args.lmp, args.speed, args.across, args.fill, shift, args.quarter) for shift in args.shifts]
     print(f"mean {sum(found) / len(found):.3g} least {min(found):.3g} most {max(found):.3g}; " + ", ".join(f"{a:.3g} with {s:g}" for a, s in zip(found, args.shifts)))
 
 

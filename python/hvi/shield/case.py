@@ -45,7 +45,7 @@ WALL = {
 
 SETTINGS = {
     "quarter": Key(choice("auto", "yes", "no"), "auto", "model x > 0, y > 0 only; auto: if nothing speaks against it"),
-    "tstop": Key(number(least=0, sane=(0, 1e6)), 0, "us: the latest end; 0: three times tstop of plan.yaml, see Howto_shield"),
+    "tstop": Key(number(least=0, sane=(0, 1e6)), 0, "us: the latest end, and when a wall that fails ends the run; 0: by geometry, see Howto_front"),
     "kernel": Key(lammps_words, "cubic", "of pair_style hvi/sph"),
     "eta": Key(number(above=0, sane=(0.1, 10)), 1.2, "smoothing length in spacings"),
     "pair": Key(lammps_words, "dissipation riemann", "further words of pair_style hvi/sph"),
