@@ -202,6 +202,19 @@ void ComputeHVIAtom::compute_peratom()
 
 void ComputeHVIAtom::count_bonds()
 {
+  if (!update->whichflag && force->newton_bond) {    // as in compute hvi/fragment/atom
+    nbonds.clear();
+    missing = 0;
+    checking = true;
+    comm->reverse_comm(this);
+    checking = false;
+    int any;
+    MPI_Allreduce(&missing, &any, 1, MPI_INT, MPI_MAX, world);
+    if (any)
+      error->all(FLERR,
+                 "Compute hvi/atom nbonds: a command since the last run has moved, made or taken "
+                 "away particles, and ghosts are not there: use run 0 first");
+  }
   nbonds.assign(atom->nlocal + atom->nghost, 0.0);
   for (int i = 0; i < atom->nlocal; i++)
     for (int m = 0; m < atom->num_bond[i]; m++) {
@@ -219,12 +232,22 @@ void ComputeHVIAtom::count_bonds()
 
 int ComputeHVIAtom::pack_reverse_comm(int n, int first, double *buf)
 {
+  if (checking) {
+    if (n && first + n > atom->nlocal + atom->nghost) missing = 1;
+    std::fill_n(buf, n, 0.0);
+    return n;
+  }
   std::copy_n(nbonds.begin() + first, n, buf);
   return n;
 }
 
 void ComputeHVIAtom::unpack_reverse_comm(int n, int *list, double *buf)
 {
+  if (checking) {
+    for (int i = 0; i < n; i++)
+      if (list[i] >= atom->nlocal + atom->nghost) missing = 1;
+    return;
+  }
   for (int i = 0; i < n; i++) nbonds[list[i]] += buf[i];
 }
 

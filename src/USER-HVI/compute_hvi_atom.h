@@ -64,6 +64,8 @@ class ComputeHVIAtom : public Compute {
   int nmax;
   double **table;
   std::vector<double> nbonds;    // of owned and ghost particles
+  bool checking = false;         // reverse communication says whether ghosts are there
+  int missing = 0;
 
   // found anew for each evaluation: fixes may have gone since the last run
 

@@ -45,8 +45,8 @@ static constexpr double LARGE_DRIFT = 0.01;    // of the energy in a run: is war
 /* ---------------------------------------------------------------------- */
 
 ComputeHVIEnergy::ComputeHVIEnergy(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), ledger(nullptr), clampbit(0), run_start(HUGE_VAL),
-    last(0.0), before(0.0), warned(false)
+    Compute(lmp, narg, arg), ledger(nullptr), clampbit(0), run_start(HUGE_VAL), last(0.0),
+    before(0.0), warned(false)
 {
   if (igroup != 0)
     error->all(FLERR, "Compute hvi/energy is the ledger of the whole system: group must be all");
@@ -91,6 +91,12 @@ void ComputeHVIEnergy::init()
   int bits = 0;
   for (auto &icompute : modify->get_compute_by_style("^hvi/energy$"))
     bits |= dynamic_cast<ComputeHVIEnergy *>(icompute)->clampbit;
+  for (int k = 0; k < group->ngroup; k++)
+    if (group->names[k] && group->dynamic[k] && (clampbit & group->bitmask[k]))
+      error->all(FLERR,
+                 "Compute hvi/energy clamps: group {} is dynamic, and what enters or leaves it "
+                 "would be booked as work of clamps",
+                 group->names[k]);
   ledger->clamp(bits);
 
   if (atom->molecular != Atom::ATOMIC && (force->angle || force->dihedral || force->improper))

@@ -16,6 +16,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "hvi_mesh.h"
 #include "memory.h"
 #include "region.h"
 #include "update.h"
@@ -205,6 +206,7 @@ void ComputeHVIFragment::make_rows()
 
   const int nlocal = atom->nlocal;
   const double *const *const v = atom->v;
+  const HVI::Mesh *const mesh = cutoff > 0.0 ? HVI::find_mesh(lmp) : nullptr;    // not by bonds
   rows.clear();
   slot.assign(nlocal, -1);
   std::vector<Share> shares;
@@ -235,6 +237,7 @@ void ComputeHVIFragment::make_rows()
       one.momentum[k] = m * v[i][k];
       if (id[i] > 0 && mirror.has(k) && 2.0 * mirror.depth(k, x) < own) one.reached |= 1 << k;
     }
+    if (mesh && id[i] > 0) one.reached |= mesh->on_mirror_planes(i);
     one.mvsq = m * (v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2]);
     row.add(one);
   });

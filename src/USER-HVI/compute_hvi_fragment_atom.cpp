@@ -208,6 +208,7 @@ void ComputeHVIFragmentAtom::find_fragments(Region *region)
       if (strength ? strength->failed(i) : !(d[i] < 1.0)) id[i] = -id[i];
   }
 
+  check_ghosts();
   HVI::Mesh *const mesh = mode == BONDS ? nullptr : HVI::find_mesh(lmp);
   const int nall = nlocal + atom->nghost;
   std::vector<int64_t> vertex = id;
@@ -312,9 +313,35 @@ bool ComputeHVIFragmentAtom::excluded(int i, int j) const
 
 /* ---------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   Between runs commands such as delete_atoms and balance take ghosts away, and leave LAMMPS's lists of what is sent
+------------------------------------------------------------------------- */
+
+void ComputeHVIFragmentAtom::check_ghosts()
+{
+  if (update->whichflag) return;
+  checking = true;
+  missing = 0;
+  comm->forward_comm(this);
+  checking = false;
+  int any;
+  MPI_Allreduce(&missing, &any, 1, MPI_INT, MPI_MAX, world);
+  if (any)
+    error->all(FLERR,
+               "Compute {}: a command since the last run has moved, made or taken away particles, "
+               "and ghosts are not there: use run 0 first",
+               style);
+}
+
 int ComputeHVIFragmentAtom::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
                                               int * /*pbc*/)
 {
+  if (checking) {
+    for (int i = 0; i < n; i++)
+      if (list[i] >= atom->nlocal + atom->nghost) missing = 1;
+    std::fill_n(buf, NODE_SIZE * n, 0.0);
+    return NODE_SIZE * n;
+  }
   for (int i = 0; i < n; i++) memcpy(&buf[NODE_SIZE * i], &node[list[i]], sizeof(node[0]));
   return NODE_SIZE * n;
 }
@@ -323,6 +350,10 @@ int ComputeHVIFragmentAtom::pack_forward_comm(int n, int *list, double *buf, int
 
 void ComputeHVIFragmentAtom::unpack_forward_comm(int n, int first, double *buf)
 {
+  if (checking) {
+    if (n && first + n > atom->nlocal + atom->nghost) missing = 1;
+    return;
+  }
   memcpy(&node[first], buf, n * sizeof(node[0]));
 }
 

@@ -72,8 +72,11 @@ class ComputeHVIFragmentAtom : public ComputeHVIMatter {
   int nmax;
   double *fragment;
   HVI::Components::Node *node;    // what forward communication carries
+  bool checking = false;          // it carries nothing, but says whether ghosts are there
+  int missing = 0;
 
   const double *find_damage() const;
+  void check_ghosts();
   void join_bonds();
   void join_close(const HVI::Mesh *);
   bool excluded(int, int) const;

@@ -109,8 +109,9 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
                  k + 1, walls[k].front, k, walls[k - 1].rear);
     for (size_t j = 0; j < k; j++)
       for (int t = 1; t <= atom->ntypes; t++)
-        if (walls[k].owns(t) && walls[j].owns(t))
-          error->all(FLERR, "Compute hvi/wall: walls {} and {} share a type", j + 1, k + 1);
+        if ((walls[k].owns(t) && walls[j].owns(t)) ||
+            (walls[k].has_node(t) && walls[j].has_node(t)))
+          error->all(FLERR, "Compute hvi/wall: walls {} and {} share a type of particles or nodes", j + 1, k + 1);
   }
   size_array_rows = walls.size();
   memory->create(array, size_array_rows, NCOLUMNS, "hvi/wall:array");
@@ -386,6 +387,7 @@ void ComputeHVIWall::sum_up()
   std::vector<double> sum(nwalls * NCOLUMNS, 0.0), most(nwalls * NCOLUMNS, 0.0);
   std::vector<int> wall_of(atom->ntypes + 1, -1);
   moved.assign(nwalls, 0);
+  std::vector<int> has_nodes(nwalls, 0);
   for (int k = 0; k < nwalls; k++) {
     for (int t = 1; t <= atom->ntypes; t++)
       if (walls[k].owns(t)) wall_of[t] = k;
@@ -402,6 +404,7 @@ void ComputeHVIWall::sum_up()
     if (mesh && mesh->is_node(itype)) {
       for (int k = 0; k < nwalls; k++)
         if (walls[k].has_node(itype)) {
+          has_nodes[k] = 1;
           if (energy > 0.0) moved[k] = 1;
           sum[k * NCOLUMNS + PUSH] += atom->f[i][axis];
           sum[k * NCOLUMNS + MOMENTUM] += m * v[axis];
@@ -472,6 +475,13 @@ void ComputeHVIWall::sum_up()
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), sum.size(), MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, most.data(), most.size(), MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(MPI_IN_PLACE, moved.data(), nwalls, MPI_INT, MPI_MAX, world);
+  if (mesh) MPI_Allreduce(MPI_IN_PLACE, has_nodes.data(), nwalls, MPI_INT, MPI_MAX, world);
+  for (int k = 0; k < nwalls; k++)
+    if (sum[k * NCOLUMNS + HELD_MASS] > 0.0 && !has_nodes[k])
+      error->all(FLERR,
+                 "Compute hvi/wall: wall {} has elements, and group {} none of its nodes, which "
+                 "have their mass and momentum: give the wall its nodes, and a group with them",
+                 k + 1, group->names[igroup]);
   for (int k = 0; k < nwalls; k++) {
     array[k][OUTER_STRAIN] = most[k * NCOLUMNS + OUTER_STRAIN];
     for (int c = 0; c < CLOUD_MASS; c++)

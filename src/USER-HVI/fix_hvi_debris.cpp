@@ -86,6 +86,10 @@ void FixHVIDebris::init()
     error->all(FLERR,
                "Fix hvi/debris needs masses of particles, for pieces have less: fix ID all "
                "property/atom rmass ghost yes, and set type ... mass ...");
+  if (domain->triclinic)
+    error->all(FLERR,
+               "Fix hvi/debris needs a box that is not triclinic: it puts pieces beside "
+               "each other in it");
   ledger = FixHVILedger::instance(lmp);
   forget_rows();
   check_restored();

@@ -244,11 +244,10 @@ void FixHVIDt::restart(char *buf)
 {
   double list[4];
   HVI::RestartSection(lmp, "Fix hvi/dt", RESTART_FORMAT, buf).get(list, 4);
-  update->dt = list[0];
-  update->dt_default = 0;
+  update->dt_default = 0;    // the step itself is that of the file, or of a command timestep since
   limiter = static_cast<int>(list[1]);
   laststep = static_cast<bigint>(list[2]);
   first = list[3];
-  restored = update->dt;
+  restored = list[0];
   chosen = 1;
 }

@@ -22,6 +22,7 @@
 #include "force.h"
 #include "group.h"
 #include "hvi_cite.h"
+#include "hvi_compat.h"
 #include "hvi_restart.h"
 #include "memory.h"
 #include "modify.h"
@@ -227,6 +228,7 @@ void FixHVIFEM::setup(int /*vflag*/)
   find_probes();
   show_particles();
   if (every > 0) list_elements();
+  resumed = goes_on;
   goes_on = false;    // from now on forces are made anew
   check_drag();
   coupling.check_fixes();
@@ -239,11 +241,34 @@ void FixHVIFEM::setup(int /*vflag*/)
 void FixHVIFEM::post_integrate()
 {
   at_end = false;
+  if (resumed) take_changed_forces();
   gather_middle();
   for (std::size_t e = 0; e < elements.size(); e++)
     mechanics.first_half(elements[e], nodes_of(e), update->dt);
   if (converts) release();
   coupling.place();
+}
+
+/* ----------------------------------------------------------------------
+   The first step of a run that goes on: fixes that have come or gone since give nodes other forces than those of the last run's
+   end, which have left their kick in the energy
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::take_changed_forces()
+{
+  resumed = false;
+  gather_nodes(dt_last * dt_last, true);
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    const double kick = kick_of(e);
+    if (kick != elements[e].kick) elements[e].e += kick - elements[e].kick;
+  }
+}
+
+double FixHVIFEM::kick_of(std::size_t e) const
+{
+  double kick = 0.0;
+  for (const HVI::Node *const node : nodes_of(e)) kick += node->kick / CORNERS;
+  return kick;
 }
 
 /* ----------------------------------------------------------------------
@@ -439,8 +464,9 @@ void FixHVIFEM::end_of_step()
 {
   const bool due = update->ntimestep == output->next || update->ntimestep == update->laststep ||
       update->eflag_global == update->ntimestep;
-  if (due) show_particles();
-  if (every > 0 && (due || update->ntimestep % every == 0)) list_elements();
+  const bool listed = every > 0 && (due || update->ntimestep % every == 0);
+  if (due || listed) show_particles();
+  if (listed) list_elements();
 }
 
 // a run may end before its last step
@@ -462,8 +488,8 @@ void FixHVIFEM::show_particles()
     one.fingerprint = fingerprint(e);
     one.step = dt_last;
     std::copy_n(steps[e].L, 9, one.L);
-    one.kick = 0.0;
-    for (const HVI::Node *const node : nodes_of(e)) one.kick += node->kick / CORNERS;
+    if (!goes_on)
+      one.kick = kick_of(e);    // else that of the last run's end: fixes may yet change forces
   }
   coupling.show_end();
   coupling.show_all();
@@ -544,7 +570,14 @@ void FixHVIFEM::start_elements()
     should[i] += mass.all;
   });
   of_embedded.scatter(embedded_mass, [&](int i, const Mass &mass) {
-    if (mass.given > 0.0) rmass[i] = mass.given;
+    if (mass.given > 0.0) {
+      rmass[i] = mass.given;
+      if (atom->esph[i] != 0.0)
+        error->one(FLERR,
+                   "Fix hvi/fem: particle {} has an internal energy of {}, and its element is new: "
+                   "elements begin without, and embedded particles have theirs",
+                   atom->tag[i], atom->esph[i]);
+    }
     should[i] = mass.all;
   });
   bigint without = 0, everywhere;
@@ -632,6 +665,8 @@ void FixHVIFEM::check_state()
   MPI_Allreduce(&step, &dt_last, 1, MPI_DOUBLE, MPI_MAX, world);
   if (goes_on) return;
   for (Element &one : elements) {
+    one.e -= one.kick;    // that of the last run's end; its first step gives another
+    one.kick = 0.0;
     one.ahead = one.e;
     one.pair_power = one.q = 0.0;
     std::fill_n(one.force[0], 3 * CORNERS, 0.0);
@@ -741,6 +776,27 @@ void FixHVIFEM::join(HVI::Components &components, const std::vector<std::int64_t
   for (std::size_t k = 0; k < held.size(); k++)
     if (held[k] > 0) holds[embedded[k].element] = 1;
 
+  // one with nodes on a mirror plane holds together with its image
+
+  const HVI::MirrorPlanes &mirror = coupling.store->fields.settings.mirror;
+  on_planes.assign(atom->nlocal, 0);
+  if (mirror.planes)
+    of_embedded.scatter(
+        [&](int k) {
+          const std::size_t e = embedded[k].element;
+          double planes = 0.0;    // rows are of doubles
+          for (int d = 0; d < 3 && holds[e]; d++)
+            for (int a = 0; a < CORNERS; a++)
+              if (mirror.has(d) && nodes[number(e, a)].x[d] == mirror.at[d]) {
+                planes += 1 << d;
+                break;
+              }
+          return planes;
+        },
+        [this](int i, double planes) {
+          on_planes[i] = (int) planes;
+        });
+
   const auto hang = [&](const Element &one, std::int64_t tag, int slot) {
     const int i = of_nodes.local(tag);
     components.join(of_nodes.local(one.node[0]), i >= 0 && i < atom->nlocal ? i : first + slot);
@@ -833,7 +889,9 @@ void FixHVIFEM::find_probes()
       double c[3], square = 0.0;
       places(e, x);
       center(x, c);
-      for (int k = 0; k < 3; k++) square += (c[k] - probe.x[k]) * (c[k] - probe.x[k]);
+      for (int k = 0; k < 3; k++) c[k] -= probe.x[k];
+      HVI::minimum_image(domain, c[0], c[1], c[2]);
+      for (int k = 0; k < 3; k++) square += c[k] * c[k];
       if (square >= here.distance) continue;
       here.distance = square;
       id_here = elements[e].id;
@@ -900,7 +958,7 @@ void FixHVIFEM::list_elements()
     HVI::Corners x;
     places(e, x);
     const std::array<double, 8> s = stress(one.solid, steps[e].p);
-    const double last[] = {one.solid.eps, one.solid.damage, one.e, (double) one.n};
+    const double last[] = {one.solid.eps, one.solid.damage, one.e - one.kick, (double) one.n};
     double *row = array_local[e];
     *row++ = one.id;
     *row++ = one.type;

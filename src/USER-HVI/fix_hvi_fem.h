@@ -73,6 +73,7 @@ class FixHVIFEM :
   int copies() const override { return of_nodes.size() + of_embedded.size(); }
   void join(HVI::Components &, const std::vector<std::int64_t> &, int, bool) override;
   void copy(HVI::Components::Node *, int) override;
+  int on_mirror_planes(int i) const override { return on_planes[i]; }
   void tighten(HVI::TimeStepBounds &) override;
   bool at_hand() const override { return true; }
 
@@ -89,9 +90,11 @@ class FixHVIFEM :
   double shortest = HVI::NO_BOUND;    // stable step of elements of this rank
   double smallest = 0.0;    // edge of a cube as large as the smallest element at the start of a run
   bool goes_on = false;     // at the start of a run: all is as the last one has left it
+  bool resumed = false;     // until the first step of such a run
   bool at_end = false;      // of a step of a run: elements and their nodes are known
   bigint shown = -1;        // step that output sees particles and energies of
   std::vector<std::array<double, 3>> node_forces;
+  std::vector<int> on_planes;    // of owned particles, bits
 
   // of this rank, from the start on: failures by reason; heat and hourglass energy of what are particles now;
   // elements without particles that have failed, when asked for
@@ -123,6 +126,8 @@ class FixHVIFEM :
   void check_drag();
 
   void gather_middle();
+  void take_changed_forces();
+  double kick_of(std::size_t) const;
   void release();
   void advance_batch(HVI::ElementBatch &, bool due) const;
   void bring_forces();

@@ -14,10 +14,12 @@
 
 #include "atom.h"
 #include "atom_vec.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "hvi_anew.h"
 #include "hvi_compat.h"
+#include "hvi_deliver.h"
 #include "hvi_restart.h"
 #include "tokenizer.h"
 #include "update.h"
@@ -48,8 +50,26 @@ void FixHVIFEMMesh::init()
         "Fix hvi/fem: {} of {} elements have a first node that is not there: the section Elements "
         "must come after Atoms, with IDs of nodes as there",
         expected - all, expected);
+  if (total < 0) check_ids();
   if (total < 0) total = all;
   expected = -1;
+}
+
+// each is looked at by the rank whose turn it is
+
+void FixHVIFEMMesh::check_ids() const
+{
+  std::vector<std::int64_t> ids;
+  std::vector<int> ranks;
+  for (int i = 0; i < atom->nlocal; i++)
+    each_of(i, [&](const Element &one) {
+      ids.push_back(one.id);
+      ranks.push_back((int) (one.id % comm->nprocs));
+    });
+  ids = HVI::deliver(world, ids, ranks);
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end()) error->one(FLERR, "Fix hvi/fem: two elements have the ID {}", *twice);
 }
 
 // those that have gone with their nodes when data files were read are not alive here
@@ -135,9 +155,6 @@ void FixHVIFEMMesh::link()
   std::sort(elements.begin(), elements.end(), [](const Element &one, const Element &two) {
     return one.id < two.id;
   });
-  for (std::size_t e = 1; e < elements.size(); e++)
-    if (elements[e].id == elements[e - 1].id)
-      error->one(FLERR, "Fix hvi/fem: two elements have the ID {}", elements[e].id);
   next.assign(elements.size(), -1);
   read_head.clear();
   std::fill_n(head.begin(), atom->nlocal, -1);

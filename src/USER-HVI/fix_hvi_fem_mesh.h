@@ -95,6 +95,7 @@ class FixHVIFEMMesh : public Fix {
       if (elements[e].alive()) visit(elements[e]);
   }
   bigint count() const;    // on all ranks
+  void check_ids() const;
 
   // particles that migrate, restart files and data files
 

@@ -98,6 +98,15 @@ void FixHVILedger::init()
                  "Compute hvi/energy with clamps must be defined before fix {} ({}): it books the "
                  "forces that clamps take up",
                  modify->fix[i]->id, modify->fix[i]->style);
+  bool before = true;
+  for (const Fix *const other : modify->get_fix_list()) {
+    if (other == this) before = false;
+    if (!before && utils::strmatch(other->style, "^wall/reflect"))
+      error->all(FLERR,
+                 "Compute hvi/energy with clamps must be defined after fix {} ({}): it sees how "
+                 "far particles have moved before the wall puts them back",
+                 other->id, other->style);
+  }
 }
 
 /* ----------------------------------------------------------------------

@@ -316,7 +316,12 @@ void FixHVILists::post_integrate()
       next = update->ntimestep;
     }
   }
-  if (neighbor->delay != NEVER || update->ntimestep < next) return;
+  if (neighbor->delay != NEVER) return;
+
+  // commands between runs look for particles in the box
+
+  if (update->ntimestep == update->laststep && strays()) next_reneighbor = update->ntimestep;
+  if (update->ntimestep < next) return;
   measure();
   const bigint last = looked;
   looked = update->ntimestep;
@@ -334,6 +339,23 @@ void FixHVILists::post_integrate()
     next = update->ntimestep + (ahead ? LOOK_AHEAD : 1);
 
   if (renew || leaving) next_reneighbor = update->ntimestep;
+}
+
+// whether any particle of all ranks is outside of periodic faces
+
+bool FixHVILists::strays() const
+{
+  const double *const lo = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
+  const double *const hi = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
+  int here = 0, any;
+  for (int i = 0; i < atom->nlocal && !here; i++) {
+    double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
+    if (domain->triclinic) domain->x2lamda(atom->x[i], x);
+    for (int k = 0; k < 3; k++)
+      if (domain->periodicity[k] && !(x[k] >= lo[k] && x[k] < hi[k])) here = 1;
+  }
+  MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
+  return any;
 }
 
 /* ----------------------------------------------------------------------

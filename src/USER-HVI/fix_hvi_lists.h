@@ -88,6 +88,7 @@ class FixHVILists : public Fix {
   double least_bins(bool shrinks) const;
   void give_back_sorting();
   void measure();
+  bool strays() const;
   void set_bins(double least, double least_sort);
   bool exceeded(double time);
 };

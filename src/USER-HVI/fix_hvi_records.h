@@ -13,6 +13,7 @@
 #include "comm.h"
 #include "error.h"
 #include "fix.h"
+#include "fix_hvi_store.h"
 #include "hvi_anew.h"
 #include "hvi_data_rows.h"
 #include "hvi_restart.h"
@@ -85,8 +86,8 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
   int unpack_exchange(int, double *) override;
   int pack_restart(int, double *) override;
   void unpack_restart(int, int) override;
-  int maxsize_restart() override { return places.size() + 2; }    // its size, and a checksum
-  int size_restart(int) override { return places.size() + 2; }
+  int maxsize_restart() override { return places.size() + 3; }    // its size, ID, and a checksum
+  int size_restart(int) override { return places.size() + 3; }
   void write_restart(FILE *) override;
   void restart(char *buf) override
   {
@@ -127,7 +128,7 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
   void check_restored();    // in init()
 
  private:
-  static constexpr int RESTART_FORMAT = 2;    // bodies know planes
+  static constexpr int RESTART_FORMAT = 3;    // with the ID of the particle
 
   const Record fresh;
   const Field *const fields;
@@ -169,7 +170,8 @@ FixHVIRecords<Owner, Record>::FixHVIRecords(LAMMPS *lmp, int narg, char **arg, c
   maxexchange = places.size();
   create_attribute = 1;
   wd_section = sections.size();
-  may_be_lost = modify->nfix_restart_peratom > 0;
+  const FixHVIStore *const store = FixHVIStore::find(lmp);
+  may_be_lost = modify->nfix_restart_peratom > 0 || (store && store->is_restored);
 }
 
 template <class Owner, class Record> void FixHVIRecords<Owner, Record>::begin()
@@ -214,8 +216,9 @@ template <class Owner, class Record> void FixHVIRecords<Owner, Record>::check_re
   if (may_be_lost && !found && comm->me == 0)
     error->warning(
         FLERR,
-        "Fix {} {}: the restart file has nothing of a fix of this ID and style, so what it "
-        "keeps of particles begins anew: if an earlier run had one, give it the ID that it had",
+        "Fix {} {}: the restart file has nothing of a fix of this ID and style, or a command since "
+        "(balance) has made LAMMPS forget it, so what it keeps of particles begins anew: if an "
+        "earlier run had one, give it the ID that it had, before such commands",
         id, style);
   may_be_lost = false;
 }
@@ -255,7 +258,8 @@ int FixHVIRecords<Owner, Record>::pack_restart(int i, double *buf)
 {
   const Record record = stored(i);
   int m = 0;
-  buf[m++] = places.size() + 2;
+  buf[m++] = places.size() + 3;
+  buf[m++] = (double) atom->tag[i];
   for (const size_t place : places) memcpy(&buf[m++], (char *) &record + place, sizeof(double));
   buf[m] = HVI::checksum(buf, m);
   return m + 1;
@@ -265,12 +269,12 @@ template <class Owner, class Record>
 void FixHVIRecords<Owner, Record>::unpack_restart(int nlocal, int nth)
 {
   double *const stored = HVI::stored_at(atom, nlocal, nth);
-  const size_t n = places.size() + 1;
+  const size_t n = places.size() + 2;
   if (!stored || stored[0] != n + 1)
     error->one(FLERR,
                "Fix {} {}: the restart file is of another version, with {} numbers per particle "
                "in place of {}",
-               id, style, stored ? stored[0] - 2 : 0, places.size());
+               id, style, stored ? stored[0] - 3 : 0, places.size());
   if (stored + n >= atom->extra[nlocal] + atom->nextra_store ||
       stored[n] != HVI::checksum(stored, n))
     error->one(
@@ -278,7 +282,13 @@ void FixHVIRecords<Owner, Record>::unpack_restart(int nlocal, int nth)
         "Fix {} {}: numbers of particle {} in the restart file are damaged, their checksum is "
         "wrong: take another one",
         id, style, atom->tag[nlocal]);
-  unpack_exchange(nlocal, &stored[1]);
+  if (stored[1] != (double) atom->tag[nlocal])
+    error->one(FLERR,
+               "Fix {} {}: a command since read_restart (balance, delete_atoms) has put particles "
+               "in another order than the numbers that the file has for this fix: give it after "
+               "the fix",
+               id, style);
+  unpack_exchange(nlocal, &stored[2]);
 }
 
 /* ---------------------------------------------------------------------- */

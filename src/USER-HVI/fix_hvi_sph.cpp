@@ -16,6 +16,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_deform.h"
 #include "fix_hvi_johnson_cook.h"
 #include "fix_hvi_ledger.h"
 #include "fix_hvi_store.h"
@@ -212,6 +213,15 @@ void FixHVISPH::init()
     error->all(FLERR, "More than one fix hvi/sph: it keeps the state of all SPH particles");
   if (domain->deform_vremap)
     error->all(FLERR, "Fix hvi/sph does not support fix deform with remap v");
+  for (Fix *const other : modify->get_fix_list()) {
+    if (!(other->box_change & (BOX_CHANGE_SIZE | BOX_CHANGE_SHAPE))) continue;
+    const auto *const deform = dynamic_cast<FixDeform *>(other);
+    if (!deform || deform->remapflag != Domain::NO_REMAP)
+      error->all(FLERR,
+                 "Fix hvi/sph does not support fix {} {}: it moves particles with the box, without "
+                 "a velocity, so they would not feel it; fix deform may have remap none",
+                 other->id, other->style);
+  }
   if (update->dt < 0.0)
     error->all(FLERR, "Fix hvi/sph: the time step must not be negative: {}", update->dt);
 
@@ -232,10 +242,26 @@ void FixHVISPH::init()
   reset_dt();
   checked = 0;
   weight_power.assign(atom->ntypes + 1, 1.0);
+  std::vector<double> at_rest(atom->ntypes + 1, 0.0);    // density
   for (int i = 1; i <= atom->ntypes; i++) {
     const HVI::Material *const material = store->materials.of(i);
-    if (material && material->eos->rho0() > 0.0) weight_power[i] = 2.0 / 3.0;
+    if (material) at_rest[i] = material->eos->rho0();
+    if (at_rest[i] > 0.0) weight_power[i] = 2.0 / 3.0;
+    const double before = i < (int) last_at_rest.size() ? last_at_rest[i] : 0.0;
+    if (comm->me == 0 && before > 0.0 && store->materials.entry(i).volume > 0.0 &&
+        std::fabs(at_rest[i] - before) > 0.2 * before)
+      error->warning(FLERR,
+                     "Fix hvi/sph: type {} had a material of density {} at rest in the last run "
+                     "and now has one of {}, and masses by it, but its particles keep their "
+                     "densities: use set type {} sph/rho",
+                     i, before, at_rest[i], i);
   }
+  if (store->has_moved && last_at_rest.empty() && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix hvi/sph is given anew: what the one before kept of particles is lost, so "
+                   "those that touch become one body, and smoothing lengths, rates and frozen "
+                   "particles begin anew");
+  last_at_rest = at_rest;
 
   for (const Fix *const other : modify->get_fix_list()) {
     if (!other->time_integrate || utils::strmatch(other->style, "^hvi/")) continue;
@@ -396,6 +422,8 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
 
 void FixHVISPH::setup(int /*vflag*/)
 {
+  store->has_moved = true;
+  store->is_restored = false;
   if (!checked) {
     check_left_out();
     check_step();
@@ -808,7 +836,10 @@ void FixHVISPH::post_integrate()
       HVI::minimum_image(domain, way[0], way[1], way[2]);
     }
     const bool goes = way[0] != 0.0 || way[1] != 0.0 || way[2] != 0.0;
-    for (int k = 0; k < 3; k++) atom->vest[i][k] = goes ? way[k] / dtv : atom->v[i][k];
+    // in solids what no fix moves stands still, whatever velocity a piston has left it
+
+    for (int k = 0; k < 3; k++)
+      atom->vest[i][k] = goes ? way[k] / dtv : set.solid ? 0.0 : atom->v[i][k];
   }
 }
 

@@ -200,6 +200,7 @@ class FixHVISPH :
   double missed_work(int) const;
   double missed_kick(int) const;
   uint64_t fingerprint(int) const;
+  std::vector<double> last_at_rest;    // by type: density at rest of its material in the last run
   const double *felt_velocity(int) const;
   bool goes_on(int i) const { return extra[i].mark == fingerprint(i); }
   std::string settings() const override;

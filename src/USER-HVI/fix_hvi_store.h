@@ -40,6 +40,8 @@ class FixHVIStore : public Fix {
   int embedded =
       0;    // bit of the group of particles in elements, whose mass and energy are those of nodes and elements
   bool is_reported = false;    // there was a table of HVISphReport
+  bool has_moved = false;      // a fix hvi/sph has begun a run
+  bool is_restored = false;    // by read_restart, and no run has begun since
 
   static FixHVIStore *find(class LAMMPS *);        // of this simulation, nullptr: none
   static FixHVIStore *instance(class LAMMPS *);    // makes it if need be; not in init() of fixes

@@ -358,7 +358,7 @@ void HVIFEMCoupling::show_end()
   mesh.of_embedded.scatter(
       [this](int k) {
         const HVI::Element &one = mesh.element_of(k);
-        return End{mesh.motion(k), {one.rho, one.e * one.mass / one.particles(), 0}};
+        return End{mesh.motion(k), {one.rho, (one.e - one.kick) * one.mass / one.particles(), 0}};
       },
       [this](int i, const End &now) {
         std::copy_n(now.v, 3, atom->v[i]);

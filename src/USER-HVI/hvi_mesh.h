@@ -52,6 +52,10 @@ class Mesh {
                     bool failed_alone) = 0;
   virtual void copy(Components::Node *, int first) = 0;    // to these copies from their owners
 
+  // after join(): bits of the mirror planes by which an owned particle hangs together with its image, as its element does
+
+  virtual int on_mirror_planes(int i) const = 0;
+
   // above those of all particles: a component is named by one of these, if it has any
 
   static std::int64_t node_id(std::int64_t tag) { return INT64_MAX - tag; }

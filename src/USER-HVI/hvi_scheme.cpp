@@ -17,6 +17,7 @@
 #include "fix_hvi_lists.h"
 #include "fix_hvi_sph.h"
 #include "force.h"
+#include "hvi_excluded.h"
 #include "math_special.h"
 #include "neigh_list.h"
 #include "neighbor.h"
@@ -498,7 +499,17 @@ void HVIScheme::find_images()
                    atom->tag[i], "xyz"[k], update -> ntimestep);
 
   const int nall = atom->nlocal + atom->nghost;
-  images.find(set.mirror, atom->x, atom->type, pairs.is_ours, atom->nlocal, nall, reachsq);
+  std::vector<char>
+      alone;    // neigh_modify exclude: images are of the types and groups of their owners
+  if (neighbor->exclude) {
+    alone.resize(atom->nlocal);
+    for (int i = 0; i < atom->nlocal; i++) {
+      const HVI::ExcludedBy one = {atom->type[i], atom->mask[i],
+                                   atom->molecule ? atom->molecule[i] : 0};
+      alone[i] = HVI::excluded(*neighbor, *group, one, one);
+    }
+  }
+  images.find(set.mirror, atom->x, atom->type, pairs.is_ours, atom->nlocal, nall, reachsq, alone);
   for (int a = nall; a < images.end(); a++)
     if (images.is_own(a)) has_neighbor[images.owner(a)] = 1;
 }

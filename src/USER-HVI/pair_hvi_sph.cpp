@@ -933,6 +933,7 @@ void PairHVISPH::read_restart(FILE *fp)
     section.get(visc_b[i], np1);
     section.get(tension[i], np1);
   }
+  store->is_restored = true;
 }
 
 /* ---------------------------------------------------------------------- */

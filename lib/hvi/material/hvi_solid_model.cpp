@@ -106,6 +106,10 @@ std::unique_ptr<SolidModel> SolidModel::make(const Material &material, const Sol
 
   problem = model->take_spall(material);
   if (!problem.empty()) return nullptr;
+  if (!(model->rho0 > 0.0) && (strength != &none || model->with_spall)) {
+    problem = "has an equation of state without a density at rest (rho0), which solids need";
+    return nullptr;
+  }
 
   const Eos &eos = *material.eos;
   model->T0 = eos.temperature(eos.rho0(), 0.0);

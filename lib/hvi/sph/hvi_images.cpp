@@ -16,7 +16,8 @@
 namespace HVI {
 
 void Images::find(const MirrorPlanes &mirror, const double *const *x, const int *type,
-                  const std::vector<char> &is_ours, int nlocal_in, int nall, double reachsq)
+                  const std::vector<char> &is_ours, int nlocal_in, int nall, double reachsq,
+                  const std::vector<char> &alone)
 {
   nlocal = nlocal_in;
   first = nall;
@@ -32,7 +33,7 @@ void Images::find(const MirrorPlanes &mirror, const double *const *x, const int 
       if (!(depth < reachsq) || !is_ours[type[i]]) continue;
       of[op][i] = end();
       images.push_back({i, op, false});
-      if (i >= nlocal || !(4.0 * depth < reachsq)) continue;
+      if (i >= nlocal || !(4.0 * depth < reachsq) || (!alone.empty() && alone[i])) continue;
       self[op][i] = end();
       images.push_back({i, op, true});
     }

@@ -25,10 +25,12 @@ class Images {
  public:
   double force[3] = {0, 0, 0};    // of the planes on the particles
 
-  // before records are filled: is_ours by type, reach of what is in lists
+  // before records are filled: is_ours by type, reach of what is in lists; alone, empty or of owned particles: does not act on
+  // its own image
 
   void find(const MirrorPlanes &, const double *const *x, const int *type,
-            const std::vector<char> &is_ours, int nlocal, int nall, double reachsq);
+            const std::vector<char> &is_ours, int nlocal, int nall, double reachsq,
+            const std::vector<char> &alone = {});
   int end() const { return first + images.size(); }    // of the records
 
   // those of the particles are there; and after the loop, what happened to images

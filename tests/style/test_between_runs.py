@@ -1,0 +1,195 @@
+"""What commands between runs, restarts and other fixes once made wrong without a word, in solids, liquids, discrete elements and their books."""
+
+import re
+
+import numpy as np
+import pytest
+import solid_scenes
+from dumps import read_dump
+
+MATERIAL = solid_scenes.MATERIAL.format(sigma_p=3.0)
+HEAD = """units lj
+boundary p p {z}
+atom_style sph
+lattice sc 1.0
+region box block 0 {a} 0 {a} 0 40
+create_box 2 box
+region upper block 0 {a} 0 {a} {upper}
+region lower block {lower}
+create_atoms 1 region upper
+create_atoms 2 region lower
+pair_style hvi/sph cubic
+pair_coeff * * file m.hvi spacing 1.0
+group upper type 1
+group lower type 2
+"""
+MOVE = "fix sph all hvi/sph\nfix jc all hvi/johnson-cook spall none damage no\n"
+STATE = "compute S all hvi/atom eps vm\ndump d all custom 1 {0} id c_S[1] c_S[2]\ndump_modify d sort id format float %.12g\n"
+
+
+@pytest.fixture
+def blocks(tmp_path):
+    """blocks(upper, lower, ...) -> input up to pair_coeff, of two blocks of one material"""
+    (tmp_path / "m.hvi").write_text(MATERIAL)
+    return lambda upper="10 16", lower="0 4 0 4 4 8", a=4, z="f": HEAD.format(upper=upper, lower=lower, a=a, z=z)
+
+
+# ---------------------------------------------------------------------- restarts
+@pytest.mark.parametrize("nranks, command", [(1, "delete_atoms group lower compress no"), (2, "balance 1.0 shift z 20 1.0")])
+def test_order_of_particles_since_read_restart(lmp, blocks, nranks, command):
+    """records of the file go to particles by their place on a rank: a command that changes it, before the fix, is told"""
+    lmp(blocks(lower="1 3 1 3 5 9") + MOVE + "velocity lower set 0 0 2.0\ntimestep 0.02\nrun 100\n" + STATE.format("one") + "write_restart half\nrun 0\n")
+    one, eps = read_dump("one", sort=True), {}
+    assert (one["c_S[1]"] > 0.1).sum() > 20
+    for order, text in (("after", MOVE + command), ("before", command + "\n" + MOVE)):
+        text = "processors 1 1 *\nread_restart half\ngroup lower type 2\n" + text + "\n" + STATE.format(order) + "run 0\n"
+        r = lmp(text, nranks=nranks, expect_fail=None)
+        if r.returncode or order == "before":
+            break
+        eps[order] = read_dump(order, sort=True)
+        kept = np.isin(one["id"], eps[order]["id"])
+        np.testing.assert_array_equal(one["c_S[1]"][kept], eps[order]["c_S[1]"])
+    said = r.error if r.returncode else " ".join(r.warnings)
+    assert eps and ("another order than the numbers that the file has" in said or "has made LAMMPS forget it" in said)
+
+
+@pytest.mark.parametrize("order", ["before", "after"])
+def test_timestep_since_read_restart(lmp, blocks, order):
+    """holds, wherever fix hvi/dt stands"""
+    lmp(blocks() + MOVE + "fix step all hvi/dt 0.2\nrun 5\nwrite_restart half\n")
+    words = {"before": "timestep 1e-3\n{}", "after": "{}timestep 1e-3\n"}[order].format("fix step all hvi/dt 0.2\n")
+    steps = lmp("read_restart half\n" + MOVE + words + "thermo_style custom step dt\nthermo 1\nrun 2\n").thermo["Dt"]
+    assert steps[0] == pytest.approx(1e-3) and steps.max() < 2e-3
+
+
+# ---------------------------------------------------------------------- what moves particles
+@pytest.mark.parametrize("fix", ["deform 1 x final 0 4.4 remap x", "press/berendsen iso 0 0 1.0"])
+def test_a_box_that_takes_particles_along(lmp, blocks, fix):
+    assert "it moves particles with the box" in lmp(blocks(z="p") + MOVE + f"timestep 0.02\nfix box all {fix}\nrun 1\n", expect_fail=True).error
+
+
+def test_a_box_that_grows_around_particles(lmp, blocks):
+    r = lmp(blocks(z="p") + MOVE + "timestep 0.02\nfix box all deform 1 z final 0 44 remap none\nthermo_style custom step vol\nrun 10\n")
+    assert r.thermo["Volume"][-1] == pytest.approx(1.1 * r.thermo["Volume"][0])
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("words", ["lists relative", "lists displacement"])
+def test_where_particles_are_between_runs(lmp, blocks, words, nranks):
+    """in the periodic box, also those of a cloud in flight, whose lists are good for long"""
+    text = blocks(upper="28 36", lower="0 1 0 1 30 31", z="p").replace("create_atoms 2", "# create_atoms 2")
+    r = lmp(text.replace("pair_coeff * *", "pair_coeff 1 1").replace("create_box 2", "create_box 1").replace("group lower", "# group lower") + f"fix sph all hvi/sph {words}\nfix jc all hvi/johnson-cook spall none damage no\n"
+            "velocity all set 0 0 1.0\ntimestep 0.05\nrun 260\nregion low block INF INF INF INF 0 10\nvariable n equal count(all,low)\nprint \"there: $(v_n)\"\n", nranks=nranks)
+    assert int(re.search(r"^there: (\d+)", r.log, re.M)[1]) == 16 * 9
+
+
+def test_a_piston_that_is_let_go(lmp, blocks):
+    """stands still, so pushes no more, whatever velocity fix move has left it"""
+    text = blocks(upper="10 16", lower="0 6 0 6 6 9", a=6) + "fix sph upper hvi/sph walls lower\nfix jc all hvi/johnson-cook spall none damage no\nfix mv lower move linear NULL NULL 0.2\n" \
+        "timestep 0.02\ncompute v upper reduce ave vz\nthermo_style custom step c_v\nrun 100\nunfix mv\n"
+    kept, halted = (lmp(text + stop + "run 400\n").thermo["c_v"][-1] for stop in ("", "velocity lower set 0 0 0\n"))
+    assert halted > 0.2 and kept == pytest.approx(halted, rel=0.03)
+
+
+# ---------------------------------------------------------------------- fixes and materials given again
+@pytest.mark.parametrize("again", [False, True])
+def test_fix_given_anew(lmp, blocks, again):
+    """has lost what it kept of particles, and says so"""
+    r = lmp(blocks() + MOVE + "timestep 0.02\nrun 2\n" + ("unfix sph\nfix sph all hvi/sph\n" if again else "") + "run 2\n")
+    assert any("Fix hvi/sph is given anew" in text for text in r.warnings) == again
+
+
+@pytest.mark.parametrize("rho0", [1.0, 3.0])
+def test_material_given_anew(lmp, blocks, tmp_path, rho0):
+    """masses go by it, densities do not"""
+    text = blocks() + MOVE + "timestep 0.02\nrun 0\n"
+    (tmp_path / "other.hvi").write_text(MATERIAL.replace("rho0 1.0", f"rho0 {rho0}"))
+    r = lmp(text + "pair_coeff 1 1 file other.hvi spacing 1.0\nrun 0\n")
+    assert any("type 1 had a material of density 1 at rest in the last run" in text for text in r.warnings) == (rho0 == 3.0)
+
+
+def test_solid_without_a_density_at_rest(lmp, blocks, tmp_path):
+    """has no limits that are made of it"""
+    text = blocks()
+    (tmp_path / "m.hvi").write_text(re.sub(r"eos gruneisen.*?(?=strength)", "eos idealgas\n  gamma 1.4\n", MATERIAL, count=1, flags=re.S))
+    assert "without a density at rest (rho0)" in lmp(text.replace("spacing 1.0", "h 1.2") + "mass * 1.0\nset group all sph/rho 1.0\n" + MOVE + "run 0\n", expect_fail=True).error
+
+
+# ---------------------------------------------------------------------- neighbors and books
+@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("exclude, force", [("", True), ("neigh_modify exclude type 1 1\n", False), ("neigh_modify exclude group all all\n", False), ("neigh_modify exclude type 1 2\n", True)])
+def test_excluded_images(lmp, exclude, force, nranks):
+    """a particle beside a mirror plane and its image do what two particles do"""
+    text = "units lj\nboundary f p p\natom_style sph\nregion box block -20 20 0 20 0 20\ncreate_box 2 box\ncreate_atoms 1 single 0.4 10 10\n{}pair_style hvi/sph cubic {}\npair_coeff * * eos tait 1.0 4.0 7 h 1.2\nmass * 1.0\n" \
+        "set group all sph/rho 1.1\nneighbor 0.5 bin\n" + exclude + "fix sph all hvi/sph\ncompute f all reduce max fx\nthermo_style custom step c_f\nthermo_modify format float %.15g\nrun 0\n"
+    whole, half = (lmp(text.format(*words), nranks=nranks).thermo["c_f"][0] for words in (("create_atoms 1 single -0.4 10 10\n", ""), ("", "mirror x 0 lo")))
+    assert half == pytest.approx(whole, rel=1e-12) and (whole > 0.1) == force
+
+
+GRAINS = """units lj
+boundary p p f
+atom_style bond
+lattice sc 1.0
+region box block 0 4 0 4 0 20
+region b block 0 4 0 4 2 8
+create_box 1 box
+create_atoms 1 region b
+mass 1 1.0
+pair_style hvi/contact
+pair_coeff * * 1.0 0.890898718
+velocity all set 0 0 -0.5
+timestep 0.005
+"""
+
+
+def test_clamps_and_a_wall_that_reflects(lmp):
+    """the wall first: its work is booked; the other order is an error"""
+    wall, book, run = "fix nve all nve\nfix w all wall/reflect zlo 1.0\n", "compute book all hvi/energy clamps all\n", "thermo_style custom step c_book[7] c_book[9]\nthermo 100\nrun 1000\n"
+    r = lmp(GRAINS + wall + book + run)
+    assert np.ptp(r.thermo["c_book[7]"]) > 1e-3 and r.thermo["c_book[9]"] == pytest.approx(1.0, abs=1e-3)
+    assert "with clamps must be defined after fix w" in lmp(GRAINS + book + wall + run, expect_fail=True).error
+
+
+def test_clamps_of_a_dynamic_group(lmp):
+    text = GRAINS + "region zone block -9 99 -9 99 12 20\ngroup zone dynamic all region zone every 1\ncompute book all hvi/energy clamps zone\nfix nve all nve\nrun 1\n"
+    assert "group zone is dynamic" in lmp(text, expect_fail=True).error
+
+
+# ---------------------------------------------------------------------- ghosts
+BAR = """units lj
+atom_style {style}
+atom_modify map array
+region box block 0 10 0 4 0 4
+create_box 2 box{more}
+lattice sc 1.0
+region bar block 0 10 0.9 2.1 0.9 2.1
+create_atoms 1 region bar
+region far block 4.9 5.1 2.9 3.1 2.9 3.1
+create_atoms 2 region far
+mass * 1.0
+pair_style zero 1.5
+pair_coeff * *
+"""
+
+
+@pytest.mark.parametrize("nranks", [1, 2, 3])
+@pytest.mark.parametrize("command", ["delete_atoms group dust compress no", "displace_atoms dust move 0.1 0 0", "balance 1.0 shift x 5 1.0"])
+def test_pieces_after_a_command_that_takes_ghosts_away(lmp, command, nranks):
+    """without a run in between: an error, no crash and no wrong pieces; with one they are right"""
+    text = BAR.format(style="atomic", more="") + "compute pa all hvi/fragment/atom distance 1.2\nrun 0\ngroup dust type 2\n" + command + "\n{}write_dump all custom now id type c_pa modify sort id\n"
+    r = lmp(text.format(""), nranks=nranks, expect_fail=None)
+    if r.returncode:
+        assert "ghosts are not there: use run 0 first" in r.error
+    lmp(text.format("run 0\n"), nranks=nranks)
+    now = read_dump("now", sort=True)
+    assert len(set(now["c_pa"][now["type"] == 1])) == 1
+    assert r.returncode or nranks == 1 and command.startswith("balance")
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_bonds_after_a_command_that_takes_ghosts_away(lmp, nranks):
+    text = BAR.format(style="bond", more=" bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 12") + "special_bonds lj/coul 0 1 1\nbond_style zero\nbond_coeff * 1.0\ncreate_bonds many all all 1 0.9 1.1\n" \
+        "compute n all hvi/atom nbonds\nrun 0\ngroup dust type 2\ndelete_atoms group dust compress no\n{}write_dump all custom now id c_n\n"
+    assert "ghosts are not there: use run 0 first" in lmp(text.format(""), nranks=nranks, expect_fail=True).error
+    lmp(text.format("run 0\n"), nranks=nranks)
+    assert read_dump("now")["c_n"].sum() == 2 * (4 * 10 + 4 * 10)  # four periodic rows, ten squares
