@@ -2,8 +2,10 @@
 """python3 -m hvi: the command line. hvi/commands/NAME.py has the options of a command, examples of it and what it does."""
 
 import argparse
+import decimal
 import importlib
 import os
+import re
 import sys
 import unicodedata
 import warnings
@@ -17,6 +19,7 @@ velocity maps, side views."""
 
 MOST = 2000  # characters of a message
 OLDEST = (3, 9)  # Python, as pyproject.toml has it
+NEGATIVE = re.compile(r"-(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?")
 
 COMMANDS = {
     "shield": "does the wall hold? A case at several spacings and shifts of the lattice, one verdict; exit status 0 holds, 3 fails, 4 undecided",
@@ -66,17 +69,13 @@ def options(name=None):
 
 
 def join_negative(arguments):
-    """--plane -1e-3 as --plane=-1e-3, --sbatch --mem=4G as --sbatch=--mem=4G: argparse takes the value for an option"""
+    """-1e-3 as -0.001, --sbatch --mem=4G as --sbatch=--mem=4G: argparse takes the value for an option"""
     joined = []
     for word in arguments:
-        try:
-            negative = word.startswith("-") and float(word) <= 0.0
-        except ValueError:
-            negative = False
-        if negative and joined and joined[-1].startswith("--") and "=" not in joined[-1] or word.startswith("-") and joined[-1:] == ["--sbatch"]:
+        if word.startswith("-") and joined[-1:] == ["--sbatch"]:
             joined[-1] += "=" + word
         else:
-            joined.append(word)
+            joined.append(format(decimal.Decimal(word), "f") if NEGATIVE.fullmatch(word) else word)
     return joined
 
 

@@ -23,6 +23,7 @@ class Crater:
 
     r, floor: (n,) the profile, mean over azimuths of how far the target's surface is along the axis; NaN where there is none
     face: that of the target, at its rim; depth: of the surface on the axis below it; diameter: in it, NaN if there is no crater in it; volume: below it
+    toward: the outward side of the face along the axis, -1 or 1
     """
 
     r: np.ndarray
@@ -31,6 +32,7 @@ class Crater:
     depth: float
     diameter: float
     volume: float
+    toward: int
 
 
 def _kernel(q):
@@ -71,9 +73,9 @@ def measure(source, spacing, types, axis="z", center=(0.0, 0.0), toward=-1):
     """
     frame = whole(source)
     along = axis_number(axis)
-    chosen = np.isin(frame["type"], types)
-    if not chosen.any():
-        raise HVIError(f"{frame.where}: no particles of type {', '.join(map(str, types))}")
+    chosen = frame.of_types(types)
+    if chosen.sum() < 2:
+        raise HVIError(f"{frame.where}: no two particles of type {', '.join(map(str, types))}")
     x = frame.x[chosen]
     others = [k for k in range(3) if k != along]
     x = np.column_stack([x[:, others] - np.asarray(center), toward * x[:, along]])  # outward is up
@@ -101,4 +103,4 @@ def measure(source, spacing, types, axis="z", center=(0.0, 0.0), toward=-1):
         diameter = 2 * edge
         radii, depths = np.append(r[:k], edge), np.append(below[:k], 0.0)
         volume = float(np.sum(math.pi * np.diff(radii**2) * 0.5 * (depths[1:] + depths[:-1])))
-    return Crater(r, floor, face, float(below[0]), float(diameter), volume)
+    return Crater(r, toward * floor, toward * face, float(below[0]), float(diameter), volume, toward)

@@ -65,7 +65,7 @@ class Fragments:
         return pandas.DataFrame(self.table).set_index("id")
 
 
-def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, where=None, failed=None, sizes=None):
+def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, where=None, failed=None, sizes=None, of_whole=None):
     """Fragments of a frame, by one of three rules; only particles that count connect others.
 
     source: a Frame, or a Universe or AtomGroup of hvi.open()
@@ -74,6 +74,7 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
     distance: particles closer than this hang together, also across periodic boundaries
     axis, plane: only particles beyond the plane (coordinate > plane), the debris cloud
     where: mask of particles that count, (n,) of bool, instead of axis and plane
+    of_whole: the same of frame.whole(), images included
     failed: with distance: particles that stay alone, as with damage yes, so that fragments are the sound pieces: a mask, (n,) of bool, or
         names of columns, see has_failed(); else fragments are what has come apart
     sizes: with distance, of a frame without mirror planes: lengths of the particles, (n,); the distance is in units of the mean of two, as
@@ -87,7 +88,9 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
     closer to its image than that hangs together with it. For a column that was found with damage yes say who has failed, too.
     """
     frame = as_frame(source)
-    if sizes is not None and (distance is None or frame.planes or where is not None or axis is not None or plane is not None):
+    if sum(choice is not None for choice in (where, of_whole, axis if plane is None else plane)) > 1:
+        raise HVIError("give a mask or an axis and a plane, not both")
+    if sizes is not None and (distance is None or frame.planes or where is not None or of_whole is not None or axis is not None or plane is not None):
         raise HVIError("sizes go with a distance, and with all particles of a frame without mirror planes: take frame.whole() or select() first")
     if column is None and bonds is None and distance is None:
         bonds = getattr(getattr(getattr(source, "universe", None), "trajectory", None), "bonds", None)
@@ -98,15 +101,18 @@ def find(source, column=None, bonds=None, distance=None, axis=None, plane=None, 
         failed = has_failed(frame, failed)
     failed = np.zeros(len(frame), dtype=bool) if failed is None else failed
     if where is not None:
-        if axis is not None or plane is not None:
-            raise HVIError("give a mask or an axis and a plane, not both")
         frame, failed = frame.select(where), failed[where]
     if column is not None:
         counts = frame[column] != 0
+        if of_whole is not None:
+            of_whole = of_whole[np.tile(counts, 1 << len(frame.planes))]
         frame, failed = frame.select(counts), failed[counts]
     whole = cloud = frame.whole()
     keep = slice(None)
-    if axis is not None or plane is not None:
+    if of_whole is not None:
+        keep = of_whole
+        cloud = whole.select(keep)
+    elif axis is not None or plane is not None:
         keep = beyond(whole, axis, plane)
         cloud = whole.select(keep)
     if column is not None:

@@ -242,7 +242,7 @@ def measure(source, axis, center, plane, *, thickness=None, dr=None, fill=0.5, r
     cut, natoms = {p.axis: p.at for p in frame.planes if p.axis != along}, len(frame)
     share = 0.5 ** len(cut)
     if types is not None:
-        frame = frame.select(np.isin(frame["type"], types))
+        frame = frame.select(frame.of_types(types))
     if distance is not None:
         frame = fragments.largest(frame, distance)
     size = np.abs(frame.x).max(initial=0.0)

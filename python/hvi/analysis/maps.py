@@ -75,7 +75,7 @@ def field(source, axis, plane=None, bins=(200, 100)):
 class Impacts:
     """momentum (along the axis) and energy per area, (n, n) of the edges x (n + 1,) in both directions; summary: dict of totals
 
-    frame: the particles on their way, k of the whole; kinetic: energy of each, (k,)
+    frame: the particles on their way, k of the whole; kinetic: energy of each, (k,); coming: which of the whole these are, a mask
     """
 
     momentum: np.ndarray
@@ -84,6 +84,7 @@ class Impacts:
     summary: dict
     frame: object
     kinetic: np.ndarray
+    coming: np.ndarray
 
 
 def impacts(source, axis, plane, bins=80, after=None, reach=None):
@@ -116,7 +117,7 @@ def impacts(source, axis, plane, bins=80, after=None, reach=None):
         "particles": len(m), "mass": m.sum(), "momentum": p.sum(), "kinetic_energy": e.sum(), "first_arrival_in": flight.min(),
         "radius_of_half_the_energy": r[order][np.searchsorted(share, 0.5)],
         "largest_momentum_per_area": both[0].max(), "largest_energy_per_area": both[1].max()},
-        frame, e)
+        frame, e, coming)
 
 
 def _ratio(a, b):

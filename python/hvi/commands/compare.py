@@ -78,7 +78,10 @@ def of_runs(args):
     if kinds[0]:
         if args.plane is None:
             raise HVIError("to compare two dumps give --plane, and --axis if it is not z")
-        both = [measures(args, path, k) for k, path in enumerate(runs)]
+        frames = [dumps.read(args, path, args.data and args.data[k])[args.frame] for k, path in enumerate(runs)]
+        if frames[0].units != frames[1].units:
+            raise HVIError(f"{runs[0]} is in units {frames[0].units}, {runs[1]} in {frames[1].units}: their numbers cannot be compared")
+        both = [measures(args, frame, k) for k, frame in enumerate(frames)]
     else:
         both = [compare.read_result(path) for path in runs]
     if args.keys:
@@ -102,9 +105,8 @@ def of_runs(args):
     return 0
 
 
-def measures(args, path, which):
-    """Cloud and, if there is a rule for them, fragments of the cloud in one of two dumps"""
-    frame = dumps.read(args, path, args.data and args.data[which])[args.frame]
+def measures(args, frame, which):
+    """Cloud and, if there is a rule for them, fragments of the cloud in a frame of one of two dumps"""
     result = {"step": frame.step}
     if frame.time is not None:
         result["time"] = frame.time

@@ -2,6 +2,7 @@
 """python3 -m hvi crater: the crater in a thick target."""
 
 from .. import tables
+from ..errors import HVIError
 from . import dumps
 from .shared import add_output, draw, positive, real, show
 
@@ -26,7 +27,7 @@ def main(args):
     from ..analysis import crater
 
     def look(frame):
-        types = args.type or sorted(set(frame["type"].astype(int)))
+        types = args.type or sorted(set(frame["type"].tolist()))
         return crater.measure(frame, args.spacing, types, args.axis, args.center, 1 if args.from_above else -1)
 
     def values(found):
@@ -34,6 +35,8 @@ def main(args):
 
     frames = dumps.read(args)
     if args.all:
+        if args.figure:
+            raise HVIError("--all makes a table; for a figure choose one frame with --frame")
         return dumps.all_frames(args, frames, "crater", lambda frame: values(look(frame)), {"depth": "distance", "diameter": "distance", "face": "distance"})
     frame = frames[args.frame]
     found = look(frame)

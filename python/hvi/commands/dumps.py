@@ -32,6 +32,18 @@ def by_type(text, what="MASS", like="1=2.5e-7"):
     return kind, value
 
 
+def kind(text):
+    """number or label of a type"""
+    return int(text) if text.lstrip("-").isdigit() else text
+
+
+class Quarter(argparse.Action):
+    """two more planes, whatever other options say"""
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        setattr(namespace, self.dest, [*(getattr(namespace, self.dest) or ()), "x=0", "y=0"])
+
+
 def add_files(parser):
     parser.add_argument("files", nargs="+", metavar="FILE", help="dump file, or several of one run (plain or .gz)")
 
@@ -41,7 +53,7 @@ def add_frame(parser):
 
 
 def add_types(parser, text):
-    parser.add_argument("--type", type=whole, nargs="+", metavar="TYPE", help=f"only particles of these types{text} (default: all)")
+    parser.add_argument("--type", type=kind, nargs="+", metavar="TYPE", help=f"only particles of these types{text} (default: all)")
 
 
 def add_reading(parser, several=False):
@@ -52,7 +64,7 @@ def add_reading(parser, several=False):
     group.add_argument("--mirror", action="append", metavar="D=C[,SIDE]",
                        help="mirror plane of a half or quarter model, like x=0 or y=1e-3,hi (all is above it: lo, default; below "
                        "it: hi); repeat; or none (default: what the dump or the data file says)")
-    group.add_argument("--quarter", action="store_const", const=["x=0", "y=0"], dest="mirror", help="--mirror x=0 --mirror y=0")
+    group.add_argument("--quarter", action=Quarter, nargs=0, dest="mirror", help="--mirror x=0 --mirror y=0")
     group.add_argument("--dt", type=positive, metavar="T", help="time per step, for dumps without time")
     group.add_argument("--interval", type=positive, metavar="T", help="time between frames (dump_modify every/time)")
 
@@ -153,7 +165,8 @@ def all_frames(args, frames, what, row_of, quantities):
         for frame in frames:
             rows.append({"frame": frame.number, "step": frame.step, "time": np.nan if frame.time is None else frame.time, **row_of(frame)})
             bar.update()
-    names, rows = list(rows[0]), [tuple(row.values()) for row in rows]
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    rows = [tuple(row.get(name, np.nan) for name in names) for row in rows]
     print(tables.text(names, rows, {"time": "time", **quantities}, frame.units))
     if args.out:
         tables.write_csv(args.out, names, rows)

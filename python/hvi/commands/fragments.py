@@ -38,7 +38,7 @@ def add_arguments(parser):
 
 def found_in(args, frame, rule):
     """(Fragments, summary with that of the debris below the spacing, that Debris or None, why there is none)"""
-    found, summary = pieces.both(frame if args.type is None else frame.select(np.isin(frame["type"], args.type)), **rule)
+    found, summary = pieces.both(frame if args.type is None else frame.select(frame.of_types(args.type)), **rule)
     debris, missing = dumps.debris(args, found.frame)
     return found, {**summary, **(debris.summary if debris else {})}, debris, missing
 
@@ -79,16 +79,16 @@ def every(args, dump, rule):
     """One row per frame: when, and the summary"""
     if args.fit or args.figure:
         raise HVIError("--all makes a table; for a fit or a figure choose one frame with --frame")
-    missing = None
+    reasons = []
 
     def row(frame):
-        nonlocal missing
         _, summary, _, missing = found_in(args, frame, rule)
+        reasons.extend([missing] if missing and missing not in reasons else [])
         return summary
 
     masses = ("mass", "single_particles_mass", *(f"{kind}_mass" for kind in below.KINDS))
     dumps.all_frames(args, dump, "fragments", row, {"subparticle_size": "distance", **dict.fromkeys(masses, "mass")})
-    dumps.show_debris({}, missing)
+    dumps.show_debris({}, "; ".join(reasons))
 
 
 def fitted(args, masses, unit, images):

@@ -41,7 +41,7 @@ def main(args):
         return holes.measure(frame, args.axis, args.center, args.plane, thickness=args.thickness, dr=args.dr, fill=args.fill,
                              reference=args.reference, sectors=args.sectors, types=args.type, distance=args.distance)
 
-    frames = dumps.read(args) if dumps.is_dump(args.files[0]) else [of_data(args)]
+    frames = dumps.read(args) if dumps.is_dump(args.files[0]) else of_data(args)
     if args.all:
         if args.figure:
             raise HVIError("--all makes a table; for a figure choose one frame with --frame")
@@ -59,9 +59,11 @@ def main(args):
 
 
 def of_data(args):
-    """The Frame of a data file"""
+    """The one Frame of a data file, in a list"""
     if len(args.files) > 1 or args.data or args.dt or args.interval:
         raise HVIError(f"{args.files[0]} is no dump: one data file, without --data, --dt and --interval, or dumps")
     frame = DataFile(args.files[0]).frame(dict(args.mass or ()), args.units, mirror.of_words(args.mirror))
     dumps.say_model(frame.planes)
-    return frame
+    if args.frame not in (0, -1):
+        raise HVIError(f"{args.files[0]} is a data file, which has one frame, 0: there is no frame {args.frame}")
+    return [frame]

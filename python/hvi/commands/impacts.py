@@ -33,8 +33,8 @@ def main(args):
     print(dumps.moment(frame))
     show(found.summary)
     if dumps.has_rule(args):
-        rule = {**dumps.rule(args), "axis": None, "plane": None}  # the plane is that of the wall
-        show({name: value for name, value in pieces.both(found.frame, **rule)[1].items() if name not in ("mass", "particles")})
+        rule = {**dumps.rule(args), "axis": None, "plane": None, "of_whole": found.coming}  # the plane is that of the wall
+        show({name: value for name, value in pieces.both(frame, **rule)[1].items() if name not in ("mass", "particles")})
     if debris:
         show({**debris.summary, **{f"{kind}_kinetic_energy": share for kind, share in zip(below.KINDS, debris.shares(found.kinetic))}})
     dumps.show_debris({}, missing)

@@ -16,8 +16,8 @@ def add_arguments(parser):
 def main(args):
     dump = Dump(args.files, progress=progress.bar)
     first = dump.headers[0]
-    print(f"{len(dump)} frames, {first.n} {(first.label or '').lower()} in the first, units {first.units or 'not said'}")
+    print(f"{len(dump)} frames, {first.n} {(first.label or '').lower()} in the first, units {dump.said_units() or 'not said'}")
     print(f"columns: {' '.join(dump.columns)}")
-    print(f"model: {mirror.text(dump.mirror(0))}")
+    print(f"model: {mirror.text(next((said for said in map(dump.mirror, range(len(dump))) if said is not None), None))}")
     rows = [(k, h.step, "-" if h.time is None else h.time, h.n) for k, h in enumerate(dump.headers)]
     print(tables.text(("frame", "step", "time", "rows"), rows))

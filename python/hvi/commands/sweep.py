@@ -3,6 +3,7 @@
 
 import pathlib
 
+from ..errors import HVIError
 from ..jobs import engine, runs
 from ..jobs.sweep import Study
 from . import running
@@ -18,9 +19,8 @@ def add_arguments(parser):
     running.add_runs(parser)
 
 
-def one(path, args):
+def one(study, args):
     """one study; returns True if all its jobs are done"""
-    study = Study(pathlib.Path(path), args.full)
     runner = runs.Runner(args, study.ranks, study.timeout)
     folder = args.runs.resolve()
     jobs = study.jobs(folder)
@@ -43,4 +43,9 @@ def one(path, args):
 
 
 def main(args):
-    return 0 if all([one(path, args) for path in args.study]) else 1
+    studies = [Study(pathlib.Path(path), args.full) for path in args.study]
+    for k, study in enumerate(studies):
+        for other in studies[:k]:
+            if study.name == other.name:
+                raise HVIError(f"{other.path} and {study.path} would both have the runs {args.runs / study.name}: rename one, or give them calls with --runs of their own")
+    return 0 if all([one(study, args) for study in studies]) else 1

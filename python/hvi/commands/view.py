@@ -47,6 +47,8 @@ def main(args):
 
 
 def figure(args):
+    if args.output:
+        raise HVIError("--output is for the page, --figure draws a picture in its place: give one of them")
     if pathlib.Path(args.files[0]).is_dir():
         raise HVIError(f"{args.files[0]} is a folder: --figure draws a frame of a dump; without --figure a folder becomes a page")
     frame = dumps.read(args)[args.frame]

@@ -279,7 +279,7 @@ def crater(frame, found):
     """Profile of a crater; found: an analysis.crater.Crater of the frame"""
     factor, unit = unit_systems.scale("distance", found.r, frame.units)
     figure, ((ax,),) = new_figure(3.2)
-    r, below = found.r / factor, (found.floor - found.face) / factor
+    r, below = found.r / factor, found.toward * (found.floor - found.face) / factor
     ax.plot(np.concatenate([-r[::-1], r]), np.concatenate([below[::-1], below]), color=BODIES[0], lw=STYLE["line"])
     ax.axhline(0.0, color="0.6", lw=0.5 * STYLE["line"])
     ax.set_aspect("equal")

@@ -2,10 +2,11 @@
 """Which particles are bonded, at the moment of a frame."""
 
 import os
+import warnings
 
 import numpy as np
 
-from ..errors import HVIError
+from ..errors import HVIError, HVIWarning
 from ..progress import silent
 from .data import DataFile
 from .dump import Dump
@@ -53,6 +54,8 @@ class BondData:
             raise HVIError(f"the bonds in {self.data.path} are those of step {self.data.step}, not of step {step}: "
                            "dump the bonds with dump local")
         if self._pairs is None:
+            if self.data.step is None and step:
+                warnings.warn(HVIWarning(f"{self.data.path} does not say of which time step its bonds are: they are taken for those of step {step}"), stacklevel=2)
             self._pairs = self.data.bonds
         return self._pairs
 

@@ -68,6 +68,15 @@ class Frame:
         table = pandas.DataFrame(self.columns)
         return table.set_index("id") if "id" in table else table
 
+    def of_types(self, types):
+        """Mask of the particles of some types, numbers or labels, (n,) of bool. HVIError if a label is none of the frame, or a number where types have labels."""
+        column, asked = self["type"], list(types)
+        if column.dtype.kind == "U" or not all(isinstance(t, (int, np.integer)) for t in asked):
+            column, asked = column.astype(str), [str(t) for t in asked]
+            if unknown := sorted(set(asked) - set(column.tolist())) if len(column) else []:
+                raise HVIError(f"{self.where}: no particle has the type {', '.join(unknown)}; there are: {', '.join(sorted(set(column.tolist())))}")
+        return np.isin(column, asked)
+
     def select(self, mask):
         """The same frame with only the particles where mask (n,) is true."""
         return self._with({name: column[mask] for name, column in self.columns.items()}, self.box, self.planes)
@@ -225,7 +234,7 @@ def as_frame(source):
         frame = universe.trajectory.raw
     except AttributeError:
         raise HVIError(f"neither a frame nor a Universe of hvi.open(): {type(source).__name__}") from None
-    if source is universe or len(source.atoms) == len(universe.atoms):
+    if source is universe or len(source.atoms.unique) == len(universe.atoms):
         return frame
     return frame.select(np.isin(frame.ids, source.atoms.ids))
 

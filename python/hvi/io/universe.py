@@ -82,7 +82,8 @@ def _topology(dump, data, atoms):
         frame = dump[number]
         add(frame.ids, frame["type"] if types is not None else None, frame["mass"] if masses is not None else None)
     if data is not None:
-        add(*data.atoms, np.full(len(data.atoms[0]), np.nan))
+        ids_there, types_there = data.atoms
+        add(ids_there, types_there, np.array([data.masses.get(t, np.nan) for t in types_there]))
     order = np.argsort(ids)
     attributes = [Atomids(ids[order]), Resids(np.ones(1, dtype=int)), Resnums(np.ones(1, dtype=int)),
                   Segids(np.array(["SYSTEM"], dtype=object))]
@@ -154,7 +155,9 @@ class HVIReader(ReaderBase):
         ts.positions = _spread(raw.x, rows, self.n_atoms)
         for letter, name in (("v", "velocities"), ("f", "forces")):
             columns = [letter + k for k in "xyz"]
-            if all(c in raw for c in columns):
+            if not all(c in raw for c in columns):
+                setattr(ts, f"has_{name}", False)  # those of the frame before are not its own
+            else:
                 setattr(ts, name, _spread(np.stack([raw[c] for c in columns], axis=1), rows, self.n_atoms))
         ts.data = {name: _spread(column, rows, self.n_atoms) for name, column in raw.columns.items()}
         ts.data["id"] = self.ids

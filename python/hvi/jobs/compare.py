@@ -36,8 +36,12 @@ def read_result(path):
             if key in given:
                 raise HVIError(f"{path}, line {number}: {key} is there twice, first in line {given[key]}")
             given[key], parent = number, None if value else key
+        if inside:
+            key = f"{parent}.{key}"
+            if key in result:
+                raise HVIError(f"{path}, line {number}: {key} is there twice: mappings in mappings are not compared")
         if value:
-            result[f"{parent}.{key}" if inside else key] = _value(value)
+            result[key] = _value(value)
     if not result:
         raise HVIError(f"{path} has no values")
     return result
