@@ -19,7 +19,7 @@ velocity maps, side views."""
 
 MOST = 2000  # characters of a message
 OLDEST = (3, 9)  # Python, as pyproject.toml has it
-NEGATIVE = re.compile(r"-(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?")
+NEGATIVE = re.compile(r"-(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,2})?")
 
 COMMANDS = {
     "shield": "does the wall hold? A case at several spacings and shifts of the lattice, one verdict; exit status 0 holds, 3 fails, 4 undecided",

@@ -7,6 +7,7 @@ import csv
 import glob
 import os
 import pathlib
+import re
 import time
 import uuid
 
@@ -44,7 +45,7 @@ def whole(path):
     """A stream for a text file that others see whole or not at all, also where the machine stops; of processes that write it at once, the last one's stays"""
     for left in pathlib.Path(path).parent.glob(f"{glob.escape(pathlib.Path(path).name)}.*.new"):  # by a call that was killed
         with contextlib.suppress(OSError):
-            if time.time() - left.stat().st_mtime > ABANDONED:
+            if re.fullmatch(r"[0-9a-f]{32}", left.name[len(pathlib.Path(path).name) + 1:-4]) and time.time() - left.stat().st_mtime > ABANDONED:
                 left.unlink()
     new = pathlib.Path(path).with_name(f"{pathlib.Path(path).name}.{uuid.uuid4().hex}.new")
     try:

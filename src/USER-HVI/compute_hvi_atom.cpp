@@ -202,14 +202,13 @@ void ComputeHVIAtom::compute_peratom()
 
 void ComputeHVIAtom::count_bonds()
 {
-  if (!update->whichflag && force->newton_bond) {    // as in compute hvi/fragment/atom
-    nbonds.clear();
-    missing = 0;
+  if (force->newton_bond) {    // as in compute hvi/fragment/atom
     checking = true;
+    sent = 0;
     comm->reverse_comm(this);
     checking = false;
-    int any;
-    MPI_Allreduce(&missing, &any, 1, MPI_INT, MPI_MAX, world);
+    int here = sent != atom->nghost, any;
+    MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
     if (any)
       error->all(FLERR,
                  "Compute hvi/atom nbonds: a command since the last run has moved, made or taken "
@@ -233,7 +232,7 @@ void ComputeHVIAtom::count_bonds()
 int ComputeHVIAtom::pack_reverse_comm(int n, int first, double *buf)
 {
   if (checking) {
-    if (n && first + n > atom->nlocal + atom->nghost) missing = 1;
+    sent += n;
     std::fill_n(buf, n, 0.0);
     return n;
   }
@@ -243,11 +242,7 @@ int ComputeHVIAtom::pack_reverse_comm(int n, int first, double *buf)
 
 void ComputeHVIAtom::unpack_reverse_comm(int n, int *list, double *buf)
 {
-  if (checking) {
-    for (int i = 0; i < n; i++)
-      if (list[i] >= atom->nlocal + atom->nghost) missing = 1;
-    return;
-  }
+  if (checking) return;
   for (int i = 0; i < n; i++) nbonds[list[i]] += buf[i];
 }
 

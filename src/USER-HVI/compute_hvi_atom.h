@@ -65,7 +65,7 @@ class ComputeHVIAtom : public Compute {
   double **table;
   std::vector<double> nbonds;    // of owned and ghost particles
   bool checking = false;         // reverse communication says whether ghosts are there
-  int missing = 0;
+  int sent = 0;
 
   // found anew for each evaluation: fixes may have gone since the last run
 

@@ -314,18 +314,18 @@ bool ComputeHVIFragmentAtom::excluded(int i, int j) const
 /* ---------------------------------------------------------------------- */
 
 /* ----------------------------------------------------------------------
-   Between runs commands such as delete_atoms and balance take ghosts away, and leave LAMMPS's lists of what is sent
+   Commands between runs, or in them by run every, may take ghosts away (delete_atoms, balance) or what is known of them
+   (comm_style), and leave LAMMPS's lists of what is sent
 ------------------------------------------------------------------------- */
 
 void ComputeHVIFragmentAtom::check_ghosts()
 {
-  if (update->whichflag) return;
   checking = true;
-  missing = 0;
+  received = 0;
   comm->forward_comm(this);
   checking = false;
-  int any;
-  MPI_Allreduce(&missing, &any, 1, MPI_INT, MPI_MAX, world);
+  int here = received != atom->nghost, any;
+  MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
   if (any)
     error->all(FLERR,
                "Compute {}: a command since the last run has moved, made or taken away particles, "
@@ -337,8 +337,6 @@ int ComputeHVIFragmentAtom::pack_forward_comm(int n, int *list, double *buf, int
                                               int * /*pbc*/)
 {
   if (checking) {
-    for (int i = 0; i < n; i++)
-      if (list[i] >= atom->nlocal + atom->nghost) missing = 1;
     std::fill_n(buf, NODE_SIZE * n, 0.0);
     return NODE_SIZE * n;
   }
@@ -351,7 +349,7 @@ int ComputeHVIFragmentAtom::pack_forward_comm(int n, int *list, double *buf, int
 void ComputeHVIFragmentAtom::unpack_forward_comm(int n, int first, double *buf)
 {
   if (checking) {
-    if (n && first + n > atom->nlocal + atom->nghost) missing = 1;
+    received += n;
     return;
   }
   memcpy(&node[first], buf, n * sizeof(node[0]));

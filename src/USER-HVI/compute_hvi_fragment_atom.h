@@ -73,7 +73,7 @@ class ComputeHVIFragmentAtom : public ComputeHVIMatter {
   double *fragment;
   HVI::Components::Node *node;    // what forward communication carries
   bool checking = false;          // it carries nothing, but says whether ghosts are there
-  int missing = 0;
+  int received = 0;
 
   const double *find_damage() const;
   void check_ghosts();

@@ -78,7 +78,7 @@ FixHVILedger::~FixHVILedger()
 
 int FixHVILedger::setmask()
 {
-  return POST_INTEGRATE | PRE_EXCHANGE | POST_FORCE | END_OF_STEP;
+  return POST_INTEGRATE | PRE_EXCHANGE | PRE_FORCE | POST_FORCE | END_OF_STEP;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -99,13 +99,10 @@ void FixHVILedger::init()
                  "forces that clamps take up",
                  modify->fix[i]->id, modify->fix[i]->style);
   bool before = true;
+  later = false;
   for (const Fix *const other : modify->get_fix_list()) {
     if (other == this) before = false;
-    if (!before && utils::strmatch(other->style, "^wall/reflect"))
-      error->all(FLERR,
-                 "Compute hvi/energy with clamps must be defined after fix {} ({}): it sees how "
-                 "far particles have moved before the wall puts them back",
-                 other->id, other->style);
+    if (!before && utils::strmatch(other->style, "^wall/reflect")) later = true;
   }
 }
 
@@ -238,6 +235,7 @@ void FixHVILedger::setup_pre_exchange()
 
 void FixHVILedger::pre_exchange()
 {
+  see_moves();
   let_go(update->dt);
 }
 

@@ -52,7 +52,12 @@ class FixHVILedger : public Fix {
   int setmask() override;
   void init() override;
   void setup(int) override;
-  void post_integrate() override { held.post_integrate(); }
+  void post_integrate() override
+  {
+    moved = true;
+    if (!later) see_moves();
+  }
+  void pre_force(int) override { see_moves(); }
   void setup_pre_exchange() override;
   void pre_exchange() override;
   void post_force(int) override;
@@ -99,6 +104,14 @@ class FixHVILedger : public Fix {
   const double *first(const double *now);    // the first totals ever seen, also across restarts
 
  private:
+  bool later = false;    // walls that put particles back have their turn after this fix
+  bool moved = false;    // in this step, and clamps have not seen it yet
+  void see_moves()
+  {
+    if (moved) held.post_integrate();
+    moved = false;
+  }
+
   double entry[NENTRY];    // this rank's share
   int start_set;
   double start[NSTART];

@@ -171,7 +171,7 @@ FixHVIRecords<Owner, Record>::FixHVIRecords(LAMMPS *lmp, int narg, char **arg, c
   create_attribute = 1;
   wd_section = sections.size();
   const FixHVIStore *const store = FixHVIStore::find(lmp);
-  may_be_lost = modify->nfix_restart_peratom > 0 || (store && store->is_restored);
+  may_be_lost = modify->nfix_restart_peratom > 0 || (store && store->has_forgotten);
 }
 
 template <class Owner, class Record> void FixHVIRecords<Owner, Record>::begin()
@@ -216,9 +216,9 @@ template <class Owner, class Record> void FixHVIRecords<Owner, Record>::check_re
   if (may_be_lost && !found && comm->me == 0)
     error->warning(
         FLERR,
-        "Fix {} {}: the restart file has nothing of a fix of this ID and style, or a command since "
-        "(balance) has made LAMMPS forget it, so what it keeps of particles begins anew: if an "
-        "earlier run had one, give it the ID that it had, before such commands",
+        "Fix {} {}: the restart file has nothing of a fix of this ID and style, so what it "
+        "keeps of particles begins anew: if an earlier run had one, give it the ID that it had, "
+        "before commands like balance, which make LAMMPS forget what the file has",
         id, style);
   may_be_lost = false;
 }

@@ -242,26 +242,19 @@ void FixHVISPH::init()
   reset_dt();
   checked = 0;
   weight_power.assign(atom->ntypes + 1, 1.0);
-  std::vector<double> at_rest(atom->ntypes + 1, 0.0);    // density
   for (int i = 1; i <= atom->ntypes; i++) {
     const HVI::Material *const material = store->materials.of(i);
-    if (material) at_rest[i] = material->eos->rho0();
-    if (at_rest[i] > 0.0) weight_power[i] = 2.0 / 3.0;
-    const double before = i < (int) last_at_rest.size() ? last_at_rest[i] : 0.0;
-    if (comm->me == 0 && before > 0.0 && store->materials.entry(i).volume > 0.0 &&
-        std::fabs(at_rest[i] - before) > 0.2 * before)
-      error->warning(FLERR,
-                     "Fix hvi/sph: type {} had a material of density {} at rest in the last run "
-                     "and now has one of {}, and masses by it, but its particles keep their "
-                     "densities: use set type {} sph/rho",
-                     i, before, at_rest[i], i);
+    if (material && material->eos->rho0() > 0.0) weight_power[i] = 2.0 / 3.0;
   }
+  moved_by_others = 0;
+  for (const Fix *const other : modify->get_fix_list())
+    if (other->time_integrate && !utils::strmatch(other->style, "^hvi/"))
+      moved_by_others |= other->groupbit;
   if (store->has_moved && last_at_rest.empty() && comm->me == 0)
     error->warning(FLERR,
                    "Fix hvi/sph is given anew: what the one before kept of particles is lost, so "
                    "those that touch become one body, and smoothing lengths, rates and frozen "
                    "particles begin anew");
-  last_at_rest = at_rest;
 
   for (const Fix *const other : modify->get_fix_list()) {
     if (!other->time_integrate || utils::strmatch(other->style, "^hvi/")) continue;
@@ -318,6 +311,14 @@ bool FixHVISPH::moves(int i) const
 bool FixHVISPH::integrates(int i) const
 {
   return moves(i) && has_material(i);
+}
+
+// In solids what no fix moves stands still, whatever velocity a piston has left it
+
+bool FixHVISPH::stands(int i) const
+{
+  return store->fields.settings.solid && has_material(i) &&
+      !(atom->mask[i] & (groupbit | store->embedded | moved_by_others));
 }
 
 // what others move must be remembered, too, where forces go by the velocity of the middle of a step
@@ -390,6 +391,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
         set.solid != (e.new_rho != 0.0);
     if (anew && (integrates(i) || follow))
       for (int k = 0; k < 3; k++) atom->vest[i][k] = atom->v[i][k];
+    if (stands(i)) std::fill_n(atom->vest[i], 3, 0.0);
     if (strength) strength->start(i, anew);
     if (anew) {
       e.new_rho = set.solid ? atom->rho[i] : 0.0;
@@ -423,7 +425,8 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
 void FixHVISPH::setup(int /*vflag*/)
 {
   store->has_moved = true;
-  store->is_restored = false;
+  check_materials();
+  store->has_forgotten = false;
   if (!checked) {
     check_left_out();
     check_step();
@@ -466,6 +469,37 @@ static void extrapolate(double &rho, double half, double &more)
   const double change = half + more, end = changed(rho, change);
   if (change < -0.5 * rho) more = end - changed(rho, half);
   rho = end;
+}
+
+/* ----------------------------------------------------------------------
+   a type that has got another material since the last run: masses are by it, densities may not be
+------------------------------------------------------------------------- */
+
+void FixHVISPH::check_materials()
+{
+  const int ntypes = atom->ntypes;
+  std::vector<double> at_rest(ntypes + 1, 0.0), off(ntypes + 1, 0.0);
+  for (int itype = 1; itype <= ntypes; itype++)
+    if (const HVI::Material *const material = store->materials.of(itype))
+      at_rest[itype] = material->eos->rho0();
+  const auto changed = [&](int itype) {
+    return itype < (int) last_at_rest.size() && last_at_rest[itype] > 0.0 && at_rest[itype] > 0.0 &&
+        at_rest[itype] != last_at_rest[itype];
+  };
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int itype = atom->type[i];
+    if (changed(itype) && std::fabs(atom->rho[i] - at_rest[itype]) > 0.2 * at_rest[itype])
+      off[itype] += 1.0;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, off.data(), ntypes + 1, MPI_DOUBLE, MPI_SUM, world);
+  for (int itype = 1; itype <= ntypes; itype++)
+    if (off[itype] > 0.0 && comm->me == 0)
+      error->warning(FLERR,
+                     "Fix hvi/sph: type {} had a material of density {} at rest in the last run "
+                     "and now has one of {}, and {} of its particles have densities more than 20 % "
+                     "off that: use set type {} sph/rho",
+                     itype, last_at_rest[itype], at_rest[itype], off[itype], itype);
+  last_at_rest = at_rest;
 }
 
 /* ----------------------------------------------------------------------
@@ -762,7 +796,7 @@ void FixHVISPH::count_frozen() const
 const double *FixHVISPH::work_velocity(int i) const
 {
   const bool has_own = integrates(i) || (atom->mask[i] & store->embedded);
-  return has_own ? extra[i].v_work : atom->v[i];
+  return has_own ? extra[i].v_work : stands(i) ? atom->vest[i] : atom->v[i];
 }
 
 void FixHVISPH::set_work_velocity(int i, const double *v)
@@ -836,10 +870,8 @@ void FixHVISPH::post_integrate()
       HVI::minimum_image(domain, way[0], way[1], way[2]);
     }
     const bool goes = way[0] != 0.0 || way[1] != 0.0 || way[2] != 0.0;
-    // in solids what no fix moves stands still, whatever velocity a piston has left it
-
     for (int k = 0; k < 3; k++)
-      atom->vest[i][k] = goes ? way[k] / dtv : set.solid ? 0.0 : atom->v[i][k];
+      atom->vest[i][k] = goes ? way[k] / dtv : stands(i) ? 0.0 : atom->v[i][k];
   }
 }
 

@@ -201,6 +201,9 @@ class FixHVISPH :
   double missed_kick(int) const;
   uint64_t fingerprint(int) const;
   std::vector<double> last_at_rest;    // by type: density at rest of its material in the last run
+  int moved_by_others = 0;             // bits of groups that other fixes integrate
+  bool stands(int) const;
+  void check_materials();
   const double *felt_velocity(int) const;
   bool goes_on(int i) const { return extra[i].mark == fingerprint(i); }
   std::string settings() const override;

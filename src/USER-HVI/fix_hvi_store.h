@@ -41,7 +41,8 @@ class FixHVIStore : public Fix {
       0;    // bit of the group of particles in elements, whose mass and energy are those of nodes and elements
   bool is_reported = false;    // there was a table of HVISphReport
   bool has_moved = false;      // a fix hvi/sph has begun a run
-  bool is_restored = false;    // by read_restart, and no run has begun since
+  bool has_forgotten =
+      false;    // LAMMPS, what a restart file has for fixes: before a run each command that sets up does so
 
   static FixHVIStore *find(class LAMMPS *);        // of this simulation, nullptr: none
   static FixHVIStore *instance(class LAMMPS *);    // makes it if need be; not in init() of fixes

@@ -67,7 +67,7 @@ void HVIClamps::post_integrate()
   if (!clampbit) return;
   dt = update->dt;
   for (int i = 0; i < atom->nlocal; i++)
-    for (int k = 0; k < 3; k++) dx[i][k] = atom->x[i][k] - xold[i][k];
+    for (int k = 0; k < 3 && !is_newcomer(i); k++) dx[i][k] = atom->x[i][k] - xold[i][k];
   book_half();
 }
 
@@ -91,11 +91,18 @@ void HVIClamps::end_of_step()
   if (atom->nlocal) memcpy(&xold[0][0], &atom->x[0][0], 3 * sizeof(double) * atom->nlocal);
 }
 
+// that came in this step and is not admitted yet
+
+bool HVIClamps::is_newcomer(int i) const
+{
+  return newcomers && dx[i][0] == NEWCOMER;
+}
+
 void HVIClamps::book_half()
 {
   const double kick = 0.5 * dt * force->ftm2v;
   for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & clampbit) {
+    if ((atom->mask[i] & clampbit) && !is_newcomer(i)) {
       book[WORK] -= 0.5 * dot3(finternal[i], dx[i]);
       for (int k = 0; k < 3; k++) book[IMPULSE + k] -= kick * finternal[i][k];
     }

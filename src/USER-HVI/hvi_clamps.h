@@ -36,8 +36,8 @@ class HVIClamps : protected Pointers {
   void watch(int groupbits);
   int bits() const { return clampbit; }
 
-  void begin();    // of a run
-  void post_integrate();
+  void begin();                  // of a run
+  void post_integrate();         // of all fixes
   void see_forces(double dt);    // complete, and untouched by other fixes
   void end_of_step();
 
@@ -64,6 +64,7 @@ class HVIClamps : protected Pointers {
   State state;            // at the end of the last step
 
   void book_half();
+  bool is_newcomer(int i) const;
   void count_in(int, State &) const;
   State measure() const;
 };

@@ -495,6 +495,8 @@ void PairHVISPH::init_style()
                "Pair style hvi/sph needs units in which force = mass * acceleration: "
                "si, cgs, micro, nano or lj");
   HVI::check_types(lmp);
+  if (store && modify->nfix_restart_peratom > 0) store->has_forgotten = true;
+  if (store && modify->nfix_restart_peratom > 0) store->has_forgotten = true;
 
   store = FixHVIStore::instance(lmp);
   FixHVILedger::instance(lmp);    // fix hvi/sph cannot make it: a fix must not add fixes
@@ -933,7 +935,6 @@ void PairHVISPH::read_restart(FILE *fp)
     section.get(visc_b[i], np1);
     section.get(tension[i], np1);
   }
-  store->is_restored = true;
 }
 
 /* ---------------------------------------------------------------------- */

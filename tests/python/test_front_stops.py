@@ -207,13 +207,13 @@ def test_a_result_written_by_two_at_once(tmp_path):
 
 def test_half_a_file_of_a_call_that_was_killed(tmp_path):
     """goes with the next result of its name; those that may still be written to, and of other names, stay"""
-    old, fresh, other = (tmp_path / f"{name}.new" for name in ("verdict.yaml.0a", "verdict.yaml.0b", "limit.yaml.0a"))
-    for half in (old, fresh, other):
+    old, fresh, other, foreign = (tmp_path / f"{name}.new" for name in ("verdict.yaml." + 32 * "0", "verdict.yaml." + 32 * "1", "limit.yaml." + 32 * "0", "verdict.yaml.mine"))
+    for half in (old, fresh, other, foreign):
         half.write_text("verd")
-    for half in (old, other):
+    for half in (old, other, foreign):
         os.utime(half, (time.time() - 2 * texts.ABANDONED,) * 2)
     engine.write_yaml(tmp_path / "verdict.yaml", {"verdict": "holds"})
-    assert sorted(tmp_path.iterdir()) == sorted([tmp_path / "verdict.yaml", fresh, other])
+    assert sorted(tmp_path.iterdir()) == sorted([tmp_path / "verdict.yaml", fresh, other, foreign])
 
 
 def test_next_finer(folder, capsys):

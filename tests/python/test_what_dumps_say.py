@@ -9,6 +9,7 @@ import yaml
 from crater_targets import bowl, target
 from hvi import cli
 from hvi.analysis import crater
+from hvi.commands import sweep
 from hvi.errors import HVIError, HVIWarning
 
 BOX = "ff ff ff\n-1 1\n-1 1\n-1 1\n"
@@ -57,11 +58,17 @@ def test_fragments_of_types(tmp_path, capsys):
     rows = [(1, "Al", 1.0, 0, 0, 0, 0, 0, 1), (2, "Al", 1.0, 0.1, 0, 0, 0, 0, 1), (3, "Fe", 1.0, 0.2, 0, 0, 0, 0, 1)]
     dump = write(tmp_path / "l.dump", [(0, rows)], "id type mass x y z vx vy vz")
     assert said(capsys, "fragments", dump, "--distance", "0.15", "--mirror", "none", "--type", "Al")["mass"] == "2"
-    assert "no particle has the type 1; there are: Al, Fe" in said(capsys, "fragments", dump, "--distance", "0.15", "--mirror", "none", "--type", "1", status=1)
+    for words in (["1"], ["Cu", "7"]):
+        assert f"no particle has the type {', '.join(words)}; there are: Al, Fe" in said(capsys, "fragments", dump, "--distance", "0.15", "--mirror", "none", "--type", *words, status=1)
+    later = write(tmp_path / "m.dump", [(0, rows[:2]), (1, rows)], "id type mass x y z vx vy vz")
+    assert cli.main(["fragments", later, "--distance", "0.15", "--mirror", "none", "--type", "Fe", "--all", "--out", "fe.csv"]) in (0, None)
+    assert [row["particles"] for row in csv.DictReader(open("fe.csv"))] == ["0", "1"]
+    frame = hvi.Dump(dump, mirror="none")[0]
+    assert frame.of_types("Al").sum() == 2 and frame.of_types(["Fe", "Al"]).all() and hvi.Frame({"id": np.arange(2), "type": np.array([1, 2])}).of_types(2).tolist() == [False, True]
 
 
 def test_frames_with_other_columns(tmp_path, capsys):
-    """all columns of all frames, empty where a frame has none"""
+    """all columns of all frames, nan where a frame has none"""
     full, bare = [(1, 1, 1.0, 0, 0, 0, 0, 0, 1, 0, 1, 1e-3)], [(1, 1, 1.0, 0, 0, 0, 0, 0, 1, 0, 1)]
     one = write(tmp_path / "one.dump", [(0, full)], "id type mass x y z vx vy vz damage spalled fragsize")
     two = write(tmp_path / "two.dump", [(1, bare)], "id type mass x y z vx vy vz damage spalled")
@@ -71,7 +78,8 @@ def test_frames_with_other_columns(tmp_path, capsys):
             write(tmp_path / "one.dump", [(1, full)], "id type mass x y z vx vy vz damage spalled fragsize")
         assert cli.main(["fragments", *files, "--distance", "0.5", "--density", "1=1", "--all", "--sound", "--mirror", "none", "--out", "all.csv"]) in (0, None)
         rows = list(csv.reader(open("all.csv")))
-        assert "subparticle_mass" in rows[0] and {len(row) for row in rows} == {len(rows[0])} and "not known: the dump has no column fragsize" in capsys.readouterr().out
+        mass = dict(zip(rows[0], rows[2 if "zero" in files[0] else 1]))["subparticle_mass"], dict(zip(rows[0], rows[1 if "zero" in files[0] else 2]))["subparticle_mass"]
+        assert float(mass[0]) > 0 and mass[1] == "nan" and {len(row) for row in rows} == {len(rows[0])} and "no column fragsize (compute hvi/atom fragsize), in frames" in capsys.readouterr().out
 
 
 # ---------------------------------------------------------------------- units and times
@@ -79,6 +87,8 @@ def test_units_of_a_dump_that_begins_empty(tmp_path, capsys):
     rows = [(k, 1, 27.0, 0.1 * k, 0, 0.5, 0, 0, 3.0, 1.0) for k in (1, 2)]
     dump = write(tmp_path / "e.dump", [(0, []), (10, rows)], "id type mass x y z vx vy vz time_metal")
     assert hvi.Dump(dump).units == "metal" and cli.main(["info", dump]) in (0, None) and "units metal" in capsys.readouterr().out
+    with pytest.raises(HVIError, match="is in units si, frames before it in metal"):
+        hvi.Dump([dump, write(tmp_path / "si.dump", [(20, rows)], "id type mass x y z vx vy vz time_si")])
     assert "is in units metal, not micro" in said(capsys, "cloud", dump, "--axis", "z", "--plane", "0", "--units", "micro", status=1)
 
 
@@ -93,6 +103,10 @@ def test_times_by_the_interval(tmp_path, capsys):
     with pytest.warns(HVIWarning, match="left out"):
         dump = hvi.Dump("cut.dump", interval=1e-3)
     assert [dump.time(k) for k in range(3)] == [0.0, 1e-3, 3e-3]
+    (tmp_path / "again.dump").write_text(cut.replace("ITEM: TIMESTEP\n30\n", text[third:text.index("ITEM: TIMESTEP\n30\n")] + "ITEM: TIMESTEP\n30\n"))  # a run that was killed and resumed
+    with pytest.warns(HVIWarning, match="left out"):
+        dump = hvi.Dump("again.dump", interval=1e-3)
+    assert [dump.time(k) for k in range(4)] == pytest.approx([0.0, 1e-3, 2e-3, 3e-3])
     later = write(tmp_path / "later.dump", [(40, rows[0])], columns)
     with pytest.raises(HVIError, match="the first frame is of step 40, not 0"):
         hvi.Dump(later, interval=1e-3)
@@ -109,9 +123,10 @@ def test_bonds_of_an_unknown_step(tmp_path):
     data = "LAMMPS data file by hand\n\n2 atoms\n1 bonds\n1 atom types\n1 bond types\n-1 1 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n\nMasses\n\n1 1.0\n\nAtoms # bond\n\n1 1 1 0 0 0\n2 1 1 0.5 0 0\n\nBonds\n\n1 1 1 2\n"
     (tmp_path / "b.data").write_text(data)
     dump = hvi.Dump(write(tmp_path / "b.dump", [(0, [(1, 1, 0, 0, 0, 0, 0, 1), (2, 1, 0.5, 0, 0, 0, 0, 1)]), (1000, [(1, 1, 0, 0, 0, 0, 0, 1), (2, 1, 0.9, 0, 0, 0, 0, 1)])], "id type x y z vx vy vz"), masses={1: 1.0}, mirror="none")
-    assert hvi.find(dump[0], bonds="b.data").summary["fragments"] == 1
+    bonds = hvi.io.bonds.source("b.data")
+    assert hvi.find(dump[0], bonds=bonds).summary["fragments"] == 1
     with pytest.warns(HVIWarning, match="does not say of which time step its bonds are"):
-        hvi.find(dump[1], bonds="b.data")
+        hvi.find(dump[1], bonds=bonds)
 
 
 # ---------------------------------------------------------------------- craters, holes, options
@@ -143,6 +158,8 @@ def test_options_that_contradict_or_add_up(tmp_path, capsys):
     rows = [(k, 1, 1.0, 0.1 * k, 0.1, 0.1, 0, 0, 1.0) for k in (1, 2)]
     dump = write(tmp_path / "o.dump", [(0, rows)], "id type mass x y z vx vy vz")
     assert "give one of them" in said(capsys, "view", dump, "--figure", "a.png", "--output", "a.html", "--mirror", "none", status=1)
+    assert "contradict each other" in said(capsys, "cloud", dump, "--axis", "z", "--plane", "-1", "--mirror", "none", "--quarter", status=1)
+    assert cli.parse(["info", dump]).files == [dump] and cli.parse(["cloud", dump, "--axis", "z", "--plane", "0", "--mirror", "x=0", "--quarter"]).mirror == ["x=0", "y=0"]
     for words in (["--mirror", "z=0", "--quarter"], ["--quarter", "--mirror", "z=0"]):
         assert cli.main(["cloud", dump, "--axis", "z", "--plane", "-1", *words]) in (0, None)
         assert len(hvi.Dump(dump, mirror=cli.parse(["cloud", dump, "--axis", "z", "--plane", "-1", *words]).mirror)[0].whole()) == 16
@@ -154,7 +171,7 @@ def test_options_that_contradict_or_add_up(tmp_path, capsys):
 def test_mappings_in_mappings_are_not_compared(tmp_path, capsys):
     for name, hole in (("a", 1), ("b", 9)):
         (tmp_path / f"{name}.yaml").write_text(yaml.safe_dump({"margins": {"wall1": {"hole": hole}, "wall2": {"hole": 5}}}))
-    assert "margins.hole is there twice" in said(capsys, "compare", "a.yaml", "b.yaml", "--rtol", "0.01", status=1)
+    assert "mappings in mappings are not compared" in said(capsys, "compare", "a.yaml", "b.yaml", "--rtol", "0.01", status=1)
 
 
 def test_studies_of_one_name(tmp_path, capsys):
@@ -162,7 +179,13 @@ def test_studies_of_one_name(tmp_path, capsys):
         (tmp_path / folder).mkdir()
         (tmp_path / folder / "in.t").write_text("variable a index 1\n")
         (tmp_path / folder / "p.yaml").write_text("input: in.t\ngrid: {a: [1, 2]}\n")
-    assert "would both have the runs" in said(capsys, "sweep", "A/p.yaml", "B/p.yaml", "--ranks", "1", status=1)
+    assert "has the runs of A/p.yaml: rename B/p.yaml" in said(capsys, "sweep", "A/p.yaml", "B/p.yaml", "--ranks", "1", status=1)
+    sweep.own(sweep.Study(tmp_path / "A/p.yaml"), tmp_path / "runs/p", [], False)
+    sweep.own(sweep.Study(tmp_path / "A/p.yaml"), tmp_path / "runs/p", [], False)
+    with pytest.raises(HVIError, match="has the runs of .*A/p.yaml"):
+        sweep.own(sweep.Study(tmp_path / "B/p.yaml"), tmp_path / "runs/p", [], False)
+    (tmp_path / "A/p.yaml").rename(tmp_path / "A/q.yaml")
+    sweep.own(sweep.Study(tmp_path / "B/p.yaml"), tmp_path / "runs/p", [], False)
 
 
 # ---------------------------------------------------------------------- MDAnalysis
@@ -172,7 +195,7 @@ def test_universe(tmp_path):
     u = hvi.open([one, two], masses={1: 1.0}, mirror="none")
     assert u.atoms.velocities[0, 0] == 7.0
     u.trajectory[1]
-    assert not u.trajectory.ts.has_velocities
+    assert np.isnan(u.atoms.velocities).all()
     u.trajectory[0]
     assert u.atoms.velocities[0, 0] == 7.0
     assert len(hvi.io.frame.as_frame(u.atoms[:2] + u.atoms[1:2])) == 2

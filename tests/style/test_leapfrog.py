@@ -379,4 +379,4 @@ def test_restart_file_of_another_version(lmp, tmp_path, pair):
     again = "read_restart {}\nneighbor 0.3 bin\n" + EVERY_STEP + "fix sph all hvi/sph\n" + JC.format("") + "run 1\n"
     lmp(again.format("half"))
     r = lmp(again.format("old"), expect_fail=True)
-    assert f"Fix sph hvi/sph: the restart file is of another version, with {has - 2} numbers per particle in place of {has - 1}" in r.error, r.error
+    assert f"Fix sph hvi/sph: the restart file is of another version, with {has - 3} numbers per particle in place of {has - 2}" in r.error, r.error

@@ -78,10 +78,10 @@ def of_runs(args):
     if kinds[0]:
         if args.plane is None:
             raise HVIError("to compare two dumps give --plane, and --axis if it is not z")
-        frames = [dumps.read(args, path, args.data and args.data[k])[args.frame] for k, path in enumerate(runs)]
-        if frames[0].units != frames[1].units:
-            raise HVIError(f"{runs[0]} is in units {frames[0].units}, {runs[1]} in {frames[1].units}: their numbers cannot be compared")
-        both = [measures(args, frame, k) for k, frame in enumerate(frames)]
+        found = [dumps.read(args, path, args.data and args.data[k]) for k, path in enumerate(runs)]
+        if found[0].units != found[1].units:
+            raise HVIError(f"{runs[0]} is in units {found[0].units}, {runs[1]} in {found[1].units}: their numbers cannot be compared")
+        both = [measures(args, dump[args.frame], k) for k, dump in enumerate(found)]  # a frame at a time
     else:
         both = [compare.read_result(path) for path in runs]
     if args.keys:

@@ -102,6 +102,8 @@ def report(case, on, over, limits, folder, jobs):
     for line in rows:
         if line["why_not"]:
             print(f"no limit at {line[over.name]:g} {over.unit}: {line['why_not']}")
+    for note in dict.fromkeys(note for limit in limits.values() for note in limit.answer().get("notes", [])):
+        print(f"note: {note}")
     if isinstance(known, str):
         print(f"equations: {known}")
     print(f"low to high: up to there all runs hold, from there all fail; cost: {len(jobs)} runs, {sum(job.result().get('core_s', 0) for job in jobs):g} core-seconds")

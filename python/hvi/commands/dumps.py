@@ -38,10 +38,10 @@ def kind(text):
 
 
 class Quarter(argparse.Action):
-    """two more planes, whatever other options say"""
+    """two planes more, if they are not there yet"""
 
     def __call__(self, parser, namespace, values, option_string=None):
-        setattr(namespace, self.dest, [*(getattr(namespace, self.dest) or ()), "x=0", "y=0"])
+        setattr(namespace, self.dest, list(dict.fromkeys([*(getattr(namespace, self.dest) or ()), "x=0", "y=0"])))
 
 
 def add_files(parser):

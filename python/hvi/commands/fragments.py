@@ -38,7 +38,12 @@ def add_arguments(parser):
 
 def found_in(args, frame, rule):
     """(Fragments, summary with that of the debris below the spacing, that Debris or None, why there is none)"""
-    found, summary = pieces.both(frame if args.type is None else frame.select(frame.of_types(args.type)), **rule)
+    if args.type is not None:
+        mine = frame.of_types(args.type)
+        if not mine.any() and not args.all:
+            raise HVIError(f"{frame.where}: no particle has the type {', '.join(map(str, args.type))}; there are: {', '.join(map(str, np.unique(frame['type'])))}")
+        frame = frame.select(mine)
+    found, summary = pieces.both(frame, **rule)
     debris, missing = dumps.debris(args, found.frame)
     return found, {**summary, **(debris.summary if debris else {})}, debris, missing
 
@@ -79,16 +84,17 @@ def every(args, dump, rule):
     """One row per frame: when, and the summary"""
     if args.fit or args.figure:
         raise HVIError("--all makes a table; for a fit or a figure choose one frame with --frame")
-    reasons = []
+    reasons = {}  # why there is no debris below the spacing: frames
 
     def row(frame):
         _, summary, _, missing = found_in(args, frame, rule)
-        reasons.extend([missing] if missing and missing not in reasons else [])
+        if missing:
+            reasons.setdefault(missing, []).append(frame.number)
         return summary
 
     masses = ("mass", "single_particles_mass", *(f"{kind}_mass" for kind in below.KINDS))
     dumps.all_frames(args, dump, "fragments", row, {"subparticle_size": "distance", **dict.fromkeys(masses, "mass")})
-    dumps.show_debris({}, "; ".join(reasons))
+    dumps.show_debris({}, "; ".join(reason if len(of) == len(dump) else f"{reason}, in frames {', '.join(map(str, of))}" for reason, of in reasons.items()))
 
 
 def fitted(args, masses, unit, images):

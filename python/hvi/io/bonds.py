@@ -46,16 +46,17 @@ class BondData:
 
     def __init__(self, data):
         self.data = data if isinstance(data, DataFile) else DataFile(data)
-        self._pairs = None
+        self._pairs, self._told = None, False
 
     def at(self, step):
         """Pairs of atom IDs, (m, 2); HVIError if the file was written at another time step."""
         if self.data.step is not None and self.data.step != step:
             raise HVIError(f"the bonds in {self.data.path} are those of step {self.data.step}, not of step {step}: "
                            "dump the bonds with dump local")
+        if self.data.step is None and step and not self._told:
+            warnings.warn(HVIWarning(f"{self.data.path} does not say of which time step its bonds are: they are taken for those of step {step}"), stacklevel=2)
+            self._told = True
         if self._pairs is None:
-            if self.data.step is None and step:
-                warnings.warn(HVIWarning(f"{self.data.path} does not say of which time step its bonds are: they are taken for those of step {step}"), stacklevel=2)
             self._pairs = self.data.bonds
         return self._pairs
 

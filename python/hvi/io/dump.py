@@ -90,7 +90,7 @@ class Dump:
         files = [scan(path, progress) for path in self.paths]
         files.sort(key=lambda headers: next((h.step for h in headers if h.step is not None), -1))
         found = [h for headers in files for h in headers]
-        self.headers, self._places = [h for h in found if not h.problem], [k for k, h in enumerate(found) if not h.problem]
+        self.headers = [h for h in found if not h.problem]
         self.problems = [f"{h.where}: {h.problem}" for h in found if h.problem]
         if not self.headers:
             raise HVIError("no complete frame: " + self.problems[0])
@@ -102,13 +102,18 @@ class Dump:
             raise HVIError(f"{self.paths[0]}: frame {back} goes back to step {self.steps[back]} (a resumed run?): its time does "
                            "not follow from the interval between frames")
         if interval is not None and self.steps[0] and any(h.time is None for h in self.headers):
-            raise HVIError(f"{self.paths[0]}: the first frame is of step {self.steps[0]}, not 0: its time does not follow from the interval between frames")
+            raise HVIError(f"{self.paths[0]}: the first frame is of step {self.steps[0]}, not 0: its time does not follow from the interval between frames (dump_modify time yes writes it)")
+        steps = sorted({h.step for h in found if h.step is not None})  # a frame that was cut off may be there again
+        self._place = {step: place for place, step in enumerate(steps)}
         self._packed, self._last = None, None
         self._fill_in(data, masses, units, mirrors.of_words(mirror))
 
     def _fill_in(self, data, masses, units, planes):
         data = DataFile(data) if isinstance(data, (str, os.PathLike)) else data
         self._said, self._else = planes, data.mirror if data else None
+        for header in self.headers:
+            if header.units and header.units != self.said_units():
+                raise HVIError(f"{header.where} is in units {header.units}, frames before it in {self.said_units()}")
         said = self.said_units() or (data.units if data else None)
         if units and said and units != said:
             raise HVIError(f"{self.paths[0]} is in units {said}, not {units}")
@@ -137,7 +142,7 @@ class Dump:
         if header.time is not None:
             return header.time
         if self.interval is not None:
-            return self._places[number] * self.interval  # those that were cut off count
+            return self._place[header.step] * self.interval  # those that were cut off count
         return header.step * self.dt if self.dt is not None else None
 
     def __len__(self):

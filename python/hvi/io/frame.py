@@ -69,12 +69,10 @@ class Frame:
         return table.set_index("id") if "id" in table else table
 
     def of_types(self, types):
-        """Mask of the particles of some types, numbers or labels, (n,) of bool. HVIError if a label is none of the frame, or a number where types have labels."""
-        column, asked = self["type"], list(types)
-        if column.dtype.kind == "U" or not all(isinstance(t, (int, np.integer)) for t in asked):
-            column, asked = column.astype(str), [str(t) for t in asked]
-            if unknown := sorted(set(asked) - set(column.tolist())) if len(column) else []:
-                raise HVIError(f"{self.where}: no particle has the type {', '.join(unknown)}; there are: {', '.join(sorted(set(column.tolist())))}")
+        """Mask of the particles of one or some types, numbers or labels, (n,) of bool"""
+        column, asked = self["type"], np.atleast_1d(types)
+        if column.dtype.kind == "U" or asked.dtype.kind == "U":
+            column, asked = column.astype(str), asked.astype(str)
         return np.isin(column, asked)
 
     def select(self, mask):

@@ -74,12 +74,14 @@ def of_words(words):
         return None
     words = [words] if isinstance(words, (str, Plane)) else list(words)
     planes = []
+    if "none" in words and len(words) > 1:
+        raise HVIError("mirror none and mirror planes contradict each other")
     for word in words:
         found = re.fullmatch(r"([xyz])=([^,]+)(?:,(lo|hi))?", word) if isinstance(word, str) else None
         try:
             if isinstance(word, Plane):
                 planes.append(word)
-            elif word != "none" or len(words) > 1:
+            elif word != "none":
                 planes.append(Plane("xyz".index(found[1]), float(found[2]), found[3] or "lo"))
         except (TypeError, ValueError):
             raise HVIError(f"a mirror plane is said like x=0 or y=1e-3,hi, or none, not {word}") from None

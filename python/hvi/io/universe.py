@@ -155,10 +155,10 @@ class HVIReader(ReaderBase):
         ts.positions = _spread(raw.x, rows, self.n_atoms)
         for letter, name in (("v", "velocities"), ("f", "forces")):
             columns = [letter + k for k in "xyz"]
-            if not all(c in raw for c in columns):
-                setattr(ts, f"has_{name}", False)  # those of the frame before are not its own
-            else:
+            if all(c in raw for c in columns):
                 setattr(ts, name, _spread(np.stack([raw[c] for c in columns], axis=1), rows, self.n_atoms))
+            elif getattr(ts, f"has_{name}"):
+                setattr(ts, name, np.full((self.n_atoms, 3), np.nan))  # those of the frame before are not its own
         ts.data = {name: _spread(column, rows, self.n_atoms) for name, column in raw.columns.items()}
         ts.data["id"] = self.ids
         ts.data["present"] = _spread(np.ones(len(raw), dtype=bool), rows, self.n_atoms)

@@ -38,8 +38,8 @@ def read_result(path):
             given[key], parent = number, None if value else key
         if inside:
             key = f"{parent}.{key}"
-            if key in result:
-                raise HVIError(f"{path}, line {number}: {key} is there twice: mappings in mappings are not compared")
+            if key in result or not value:
+                raise HVIError(f"{path}, line {number}: {key} has no value of its own: mappings in mappings are not compared")
         if value:
             result[key] = _value(value)
     if not result:

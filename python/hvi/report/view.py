@@ -228,7 +228,7 @@ def of_run(run, bar, look=Look(cut="y >"), dump=None, more=()):
 
 def of_dump(dump, bar, look=Look(), diameter=None, more=()):
     """The View of a Dump: parts are types; diameter: of the particles, in the units of the dump, default that of spheres of the volume of a cube of their spacing"""
-    first, frame, kinds = dump[0], dump[look.frame], {}
+    first, frame, kinds = next((one for one in dump if len(one) > 1), dump[0]), dump[look.frame], {}
     factor, unit = unit_systems.scale("distance", np.ptp(frame.x, axis=0), frame.units) if len(frame) else (1.0, "")
     radius = 0.5 * diameter if diameter else VOLUME * figures.spacing(first) or factor  # of a single particle nothing says how large it is
 
