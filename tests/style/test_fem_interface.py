@@ -66,7 +66,7 @@ def test_into_elements(lmp, tmp_path):
     assert reflection(one, reference) < BOUNDS["smooth"]
 
 
-@pytest.mark.parametrize("kernel, bound", [("cubic 1.2", 0.02), ("wendland2 1.6", 1e-3)])
+@pytest.mark.parametrize("kernel, bound", [("cubic 1.2", 0.02), pytest.param("wendland2 1.6", 1e-3, marks=pytest.mark.long)])
 def test_at_rest(lmp, tmp_path, kernel, bound):
     """A body under uniform strain: what pairs and elements do to a node or a particle cancels, and it stays at rest"""
     for ragged, limit in ((False, bound), (True, 0.022)):  # speeds of ragged ones: 0.025, 0.030 (with hourglass/viscous 0.1 0.022, 0.025)
@@ -76,7 +76,7 @@ def test_at_rest(lmp, tmp_path, kernel, bound):
         assert out["speed"] < 1.5 * limit
 
 
-@pytest.mark.parametrize("kernel", ["cubic 1.2", "wendland2 1.6"])
+@pytest.mark.parametrize("kernel", ["cubic 1.2", pytest.param("wendland2 1.6", marks=pytest.mark.long)])
 def test_spin(lmp, tmp_path, kernel):
     """A block, half elements and half particles, turns as one body"""
     turned, drift, result = spun(lmp, tmp_path, kernel=kernel, pair=PAIR)
