@@ -40,11 +40,15 @@ static constexpr char LEDGER_ID[] = "HVI_LEDGER";
 
 /* ---------------------------------------------------------------------- */
 
+static bool made_by_styles = false;
+
 FixHVILedger *FixHVILedger::instance(LAMMPS *lmp)
 {
   auto found = lmp->modify->get_fix_by_style("^hvi/ledger$");
+  made_by_styles = found.empty();
   Fix *ifix = found.empty() ? lmp->modify->add_fix(fmt::format("{} all hvi/ledger", LEDGER_ID))
                             : found[0];
+  made_by_styles = false;
   return dynamic_cast<FixHVILedger *>(ifix);
 }
 
@@ -54,7 +58,7 @@ FixHVILedger::FixHVILedger(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), entry(), start_set(0), start(), breaking(0), warned(0), nerased(0),
     dt_step(0.0), nmax(0), lost(nullptr), held(lmp, &entry[CLAMP_WORK])
 {
-  if (strcmp(id, LEDGER_ID) != 0)
+  if (!made_by_styles)
     error->all(FLERR, "Fix hvi/ledger is made by the styles that need it: use compute hvi/energy");
 
   restart_global = 1;

@@ -23,13 +23,11 @@ static constexpr char STORE_ID[] = "HVI_STORE";
 
 /* ---------------------------------------------------------------------- */
 
+static bool made_by_styles = false;
+
 FixHVIStore::FixHVIStore(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
-  // an empty place in the list is that of a fix which is being given again
-
-  bool wrong = strcmp(id, STORE_ID) != 0;
-  for (int k = 0; k < modify->nfix; k++) wrong = wrong || !modify->fix[k];
-  if (wrong)
+  if (!made_by_styles)
     error->all(FLERR,
                "Fix hvi/store is made by pair style hvi/sph and cannot be given in an input");
 }
@@ -45,6 +43,9 @@ FixHVIStore *FixHVIStore::instance(LAMMPS *lmp)
 {
   FixHVIStore *found = find(lmp);
   if (found) return found;
-  return dynamic_cast<FixHVIStore *>(
-      lmp->modify->add_fix(fmt::format("{} all hvi/store", STORE_ID)));
+  made_by_styles = true;
+  found =
+      dynamic_cast<FixHVIStore *>(lmp->modify->add_fix(fmt::format("{} all hvi/store", STORE_ID)));
+  made_by_styles = false;
+  return found;
 }

@@ -160,6 +160,13 @@ def test_clamps_of_a_dynamic_group(lmp):
     assert "group zone is dynamic" in lmp(text, expect_fail=True).error
 
 
+@pytest.mark.parametrize("fix, said", [("HVI_LEDGER all hvi/ledger", "Fix hvi/ledger is made by the styles that need it"), ("HVI_STORE all hvi/store", "Fix hvi/store is made by pair style hvi/sph")])
+@pytest.mark.parametrize("begin", ["", "compute book all hvi/energy\nfix nve all nve\nrun 5\n"])
+def test_fixes_that_styles_make(lmp, fix, said, begin):
+    """an input cannot give them, nor empty the books by it"""
+    assert said in lmp(GRAINS + begin + f"fix {fix}\nrun 1\n", expect_fail=True).error
+
+
 # ---------------------------------------------------------------------- ghosts
 BAR = """units lj
 atom_style {style}

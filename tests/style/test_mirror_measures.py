@@ -288,7 +288,7 @@ def test_flags_and_unknown(runs, capsys, tmp_path):
 
 @pytest.mark.parametrize("words, message", [
     (["cloud", "--mirror", "x"], "a mirror plane is said like x=0 or y=1e-3,hi, or none, not x"),
-    (["cloud", "--mirror", "x=0,left"], "not x=0,left"), (["cloud", "--mirror", "none", "--mirror", "x=0"], "not none"),
+    (["cloud", "--mirror", "x=0,left"], "not x=0,left"), (["cloud", "--mirror", "none", "--mirror", "x=0"], "contradict each other"),
     (["cloud", "--mirror", "x=0", "--mirror", "x=1"], "one for each of x, y, z at most"), (["cloud", "--mirror", "x=nan"], "each at a number"),
     (["fragments", "--column", "c_near"], "a column of a quarter (mirror x 0 lo, mirror y 0 lo) does not tell what hangs together with its image: give the distance"),
     (["fragments", "--column", "c_near", "--bonds", "f.rows", "--distance", "1"], "give one of them"),
