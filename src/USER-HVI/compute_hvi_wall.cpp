@@ -111,7 +111,8 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
       for (int t = 1; t <= atom->ntypes; t++)
         if ((walls[k].owns(t) && walls[j].owns(t)) ||
             (walls[k].has_node(t) && walls[j].has_node(t)))
-          error->all(FLERR, "Compute hvi/wall: walls {} and {} share a type of particles or nodes", j + 1, k + 1);
+          error->all(FLERR, "Compute hvi/wall: walls {} and {} share a type of particles or nodes",
+                     j + 1, k + 1);
   }
   size_array_rows = walls.size();
   memory->create(array, size_array_rows, NCOLUMNS, "hvi/wall:array");
@@ -387,7 +388,7 @@ void ComputeHVIWall::sum_up()
   std::vector<double> sum(nwalls * NCOLUMNS, 0.0), most(nwalls * NCOLUMNS, 0.0);
   std::vector<int> wall_of(atom->ntypes + 1, -1);
   moved.assign(nwalls, 0);
-  std::vector<int> has_nodes(nwalls, 0);
+  std::vector<int> has_nodes(nwalls, 0), lacks_nodes(nwalls, 0);
   for (int k = 0; k < nwalls; k++) {
     for (int t = 1; t <= atom->ntypes; t++)
       if (walls[k].owns(t)) wall_of[t] = k;
@@ -395,8 +396,12 @@ void ComputeHVIWall::sum_up()
   }
 
   for (int i = 0; i < nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
     const int itype = atom->type[i];
+    if (!(atom->mask[i] & groupbit)) {
+      for (int k = 0; mesh && k < nwalls; k++)
+        if (walls[k].has_node(itype)) lacks_nodes[k] = 1;
+      continue;
+    }
     const double *const x = atom->x[i];
     const double *const v = atom->v[i];
     const double m = mass_of(i);
@@ -475,11 +480,14 @@ void ComputeHVIWall::sum_up()
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), sum.size(), MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, most.data(), most.size(), MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(MPI_IN_PLACE, moved.data(), nwalls, MPI_INT, MPI_MAX, world);
-  if (mesh) MPI_Allreduce(MPI_IN_PLACE, has_nodes.data(), nwalls, MPI_INT, MPI_MAX, world);
+  if (mesh) {
+    MPI_Allreduce(MPI_IN_PLACE, has_nodes.data(), nwalls, MPI_INT, MPI_MAX, world);
+    MPI_Allreduce(MPI_IN_PLACE, lacks_nodes.data(), nwalls, MPI_INT, MPI_MAX, world);
+  }
   for (int k = 0; k < nwalls; k++)
-    if (sum[k * NCOLUMNS + HELD_MASS] > 0.0 && !has_nodes[k])
+    if (sum[k * NCOLUMNS + HELD_MASS] > 0.0 && (!has_nodes[k] || lacks_nodes[k]))
       error->all(FLERR,
-                 "Compute hvi/wall: wall {} has elements, and group {} none of its nodes, which "
+                 "Compute hvi/wall: wall {} has elements, and group {} not all of its nodes, which "
                  "have their mass and momentum: give the wall its nodes, and a group with them",
                  k + 1, group->names[igroup]);
   for (int k = 0; k < nwalls; k++) {

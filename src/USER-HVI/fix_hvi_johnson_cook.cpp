@@ -389,7 +389,9 @@ void FixHVIJohnsonCook::setup(int /*vflag*/)
   for (int itype = 1; itype <= atom->ntypes; itype++) {
     const HVI::Material *const material = store->materials.of(itype);
     if (!material || material->is_liquid() || comm->me) continue;
-    if (!models[itype] && inside[itype])
+    const bool comes_later =
+        inside[itype] + outside[itype] == 0 && !modify->get_fix_by_style("^deposit").empty();
+    if (!models[itype] && (inside[itype] || comes_later))
       error->warning(FLERR,
                      "Fix hvi/johnson-cook: material {} (type {}) has no section strength {}: its "
                      "{} particles in group {} bear no shear.  If that is meant, put strength none "

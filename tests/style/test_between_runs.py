@@ -119,6 +119,15 @@ def test_solid_without_a_density_at_rest(lmp, blocks, tmp_path):
     assert "without a density at rest (rho0)" in lmp(text.replace("spacing 1.0", "h 1.2") + "mass * 1.0\nset group all sph/rho 1.0\n" + MOVE + "run 0\n", expect_fail=True).error
 
 
+@pytest.mark.parametrize("comes", [False, True])
+def test_liquids_that_come_later(lmp, blocks, tmp_path, comes):
+    """a type without particles whose material has no strength: a warning where fix deposit may bring some"""
+    text = blocks().replace("create_atoms 2", "# create_atoms 2").replace("pair_coeff * * file m.hvi", "pair_coeff 1 1 file m.hvi spacing 1.0\npair_coeff 2 2 file w.hvi")
+    (tmp_path / "w.hvi").write_text(MATERIAL[:MATERIAL.index("strength")])
+    r = lmp(text + MOVE + "timestep 0.02\n" + "fix come all deposit 1 2 100 123 region lower units box\n" * comes + "run 1\n")
+    assert any("material w.hvi (type 2) has no section strength" in text for text in r.warnings) == comes
+
+
 # ---------------------------------------------------------------------- neighbors and books
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("exclude, force", [("", True), ("neigh_modify exclude type 1 1\n", False), ("neigh_modify exclude group all all\n", False), ("neigh_modify exclude type 1 2\n", True)])

@@ -81,8 +81,9 @@ def test_pieces_of_a_quarter(lmp, reach, nranks):
 def test_walls_and_their_nodes(lmp):
     """that two walls share, or that are not in the group, are refused"""
     mesh, strike = strike_plate(v=1000.0)
-    text = start(mesh) + strike + "group material type 1 2\n"
-    for words, said in (("material hvi/wall axis z wall 2 -2e-3 2e-3 nodes 3", "group material none of its nodes"), ("all hvi/wall axis z wall 2 -2e-3 2e-3", "wall 1 has elements, and group all none of its nodes"),
+    text = start(mesh) + strike + "group material type 1 2\nregion some block INF 0 INF INF INF INF\ngroup some region some\ngroup part union material some\n"
+    for words, said in (("material hvi/wall axis z wall 2 -2e-3 2e-3 nodes 3", "group material not all of its nodes"), ("all hvi/wall axis z wall 2 -2e-3 2e-3", "wall 1 has elements, and group all not all of its nodes"),
+                        ("part hvi/wall axis z wall 2 -2e-3 2e-3 nodes 3", "group part not all of its nodes"),
                         ("all hvi/wall axis z wall 2 -2e-3 2e-3 nodes 3 wall 1 0 2e-3 nodes 3", "walls 1 and 2 share a type of particles or nodes")):
         assert said in lmp(text + f"compute w {words}\nthermo_style custom step c_w[1][4]\nrun 1\n", expect_fail=True).error
 
