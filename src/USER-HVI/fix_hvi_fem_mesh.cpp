@@ -55,7 +55,7 @@ void FixHVIFEMMesh::init()
   expected = -1;
 }
 
-// each is looked at by the rank whose turn it is
+// equal IDs meet on one rank
 
 void FixHVIFEMMesh::check_ids() const
 {

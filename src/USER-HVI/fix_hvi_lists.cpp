@@ -341,18 +341,16 @@ void FixHVILists::post_integrate()
   if (renew || leaving) next_reneighbor = update->ntimestep;
 }
 
-// whether any particle of all ranks is outside of periodic faces
+// whether any particle of all ranks is outside of periodic faces, in a box that is not triclinic: see in_charge()
 
 bool FixHVILists::strays() const
 {
-  const double *const lo = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
-  const double *const hi = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
   int here = 0, any;
   for (int i = 0; i < atom->nlocal && !here; i++) {
-    double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
-    if (domain->triclinic) domain->x2lamda(atom->x[i], x);
+    const double *const x = atom->x[i];
     for (int k = 0; k < 3; k++)
-      if (domain->periodicity[k] && !(x[k] >= lo[k] && x[k] < hi[k])) here = 1;
+      if (domain->periodicity[k] && !(x[k] >= domain->boxlo[k] && x[k] < domain->boxhi[k]))
+        here = 1;
   }
   MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
   return any;

@@ -217,10 +217,11 @@ void FixHVISPH::init()
     if (!(other->box_change & (BOX_CHANGE_SIZE | BOX_CHANGE_SHAPE))) continue;
     const auto *const deform = dynamic_cast<FixDeform *>(other);
     if (!deform || deform->remapflag != Domain::NO_REMAP)
-      error->all(FLERR,
-                 "Fix hvi/sph does not support fix {} {}: it moves particles with the box, without "
-                 "a velocity, so they would not feel it; fix deform may have remap none",
-                 other->id, other->style);
+      error->all(
+          FLERR,
+          "Fix hvi/sph does not support fix {} {}: it may move particles with the box, without "
+          "a velocity, so they would not feel it; fix deform may have remap none",
+          other->id, other->style);
   }
   if (update->dt < 0.0)
     error->all(FLERR, "Fix hvi/sph: the time step must not be negative: {}", update->dt);

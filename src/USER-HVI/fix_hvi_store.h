@@ -41,8 +41,10 @@ class FixHVIStore : public Fix {
       0;    // bit of the group of particles in elements, whose mass and energy are those of nodes and elements
   bool is_reported = false;    // there was a table of HVISphReport
   bool has_moved = false;      // a fix hvi/sph has begun a run
-  bool has_forgotten =
-      false;    // LAMMPS, what a restart file has for fixes: before a run each command that sets up does so
+
+  // LAMMPS has forgotten what a restart file has for fixes: any command before the first run that sets up makes it do so
+
+  bool has_forgotten = false;
 
   static FixHVIStore *find(class LAMMPS *);        // of this simulation, nullptr: none
   static FixHVIStore *instance(class LAMMPS *);    // makes it if need be; not in init() of fixes

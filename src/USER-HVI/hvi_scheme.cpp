@@ -499,8 +499,10 @@ void HVIScheme::find_images()
                    atom->tag[i], "xyz"[k], update -> ntimestep);
 
   const int nall = atom->nlocal + atom->nghost;
-  std::vector<char>
-      alone;    // neigh_modify exclude: images are of the types and groups of their owners
+
+  // neigh_modify exclude: images are of the types and groups of their owners
+
+  std::vector<char> alone;
   if (neighbor->exclude) {
     alone.resize(atom->nlocal);
     for (int i = 0; i < atom->nlocal; i++) {

@@ -16,12 +16,12 @@ def cubes(n=0, **more):
     return start(block(4, 4, 4, map=lambda x: (x - 2) * EDGE, n=n, type=2, node_type=3), courant=0.8, every=1, **{"fem": ELASTIC, **more})
 
 
-@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
 @pytest.mark.parametrize("n", [0, 2])
-def test_commands_that_touch_nodes(lmp, n, nranks):
+def test_commands_that_touch_nodes(lmp, n, nranks, newton):
     """change the energy by their work, here none"""
     touch = "velocity nodes set 0 0 1e-12 sum yes units box\nrun 10\n"
-    r = lmp(cubes(n) + VIBRATES + "run 10\n" + 5 * touch, nranks=nranks)
+    r = lmp(cubes(n, newton=newton) + VIBRATES + "run 10\n" + 5 * touch, nranks=nranks)
     assert len(r.runs) == 6
     for run in r.runs:
         assert run["c_book[9]"] == pytest.approx(1.0, abs=1e-8)
