@@ -5,6 +5,7 @@ Needs neither NumPy nor LAMMPS, as the documentation's table is made with it. Cu
 """
 
 import dataclasses
+import functools
 import math
 import os
 import pathlib
@@ -359,7 +360,16 @@ def everything(folder):
 
 def density_of(name, si=False):
     """(rho0, units) of a material file, as it has them or in SI"""
-    one = read(name)
+    path = find(name)
+    with reading(path):
+        state = os.stat(path)
+    return _density(path, (state.st_mtime_ns, state.st_size, state.st_ino), si)
+
+
+@functools.lru_cache(maxsize=64)
+def _density(path, state, si):
+    """the same of one state of the file: equations ask for it hundreds of times"""
+    one = read(path)
     section = "eos", one.laws("eos")[0]
     if "rho0" not in one.sections[section] or si and one.units == "lj":
         raise HVIError(f"{one.path}: no rho0 in the section {' '.join(section)}" + (" in units that SI knows" if si else ""))
