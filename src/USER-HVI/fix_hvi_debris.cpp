@@ -81,6 +81,9 @@ void FixHVIDebris::init()
   if (!store || !strength || movers.empty())
     error->all(FLERR,
                "Fix hvi/debris needs pair style hvi/sph, fix hvi/sph and fix hvi/johnson-cook");
+  if (store->fields.settings.laws.dim != 3)
+    error->all(FLERR, "Fix hvi/debris needs pair style hvi/sph with dim 3, not {}",
+               store->fields.settings.laws.dim);
   integrator = dynamic_cast<FixHVISPH *>(movers[0]);
   if (!atom->rmass)
     error->all(FLERR,

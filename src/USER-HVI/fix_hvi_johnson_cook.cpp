@@ -304,7 +304,9 @@ void FixHVIJohnsonCook::make_models()
   bool anywhere = false, here = false, liquids = false;
   for (int itype = 1; itype <= atom->ntypes; itype++) {
     const HVI::Material *const material = store->materials.of(itype);
-    if (!material || material->is_liquid()) continue;
+    if (!material || material->liquid)
+      continue;    // with strength none, files say no more than we do
+    if (options.strength != "none" && material->is_liquid()) continue;
     if (options.strength != "none" && !material->section("strength", options.strength)) {
       liquids = liquids || inside[itype];
       continue;

@@ -243,11 +243,12 @@ void HVIScheme::no_answer(int i, double rho) const
               "particles need that come during a run, by fix deposit in the group of fix hvi/sph "
               "for instance"
             : "");
+  const HVI::Eos &eos = *store->materials.of(itype)->eos;
   error->one(FLERR,
              "Pair hvi/sph: equation of state {} of particle {} (type {}) has no answer at "
-             "density {} and energy per mass {} at step {}",
-             store->materials.of(itype)->eos->name(), atom->tag[i], itype, rho,
-             atom->esph[i] / mass(i), update->ntimestep);
+             "density {} and energy per mass {} at step {}{}",
+             eos.name(), atom->tag[i], itype, rho, atom->esph[i] / mass(i), update->ntimestep,
+             rho < eos.rho_max() ? "" : fmt::format(": it ends at density {:.6g}", eos.rho_max()));
 }
 
 /* ----------------------------------------------------------------------

@@ -248,7 +248,9 @@ def test_laws_that_a_material_lacks():
     for name, solid, lacking in (("Al6061-T6", "damage yes spall voids", []), ("Ti-6Al-4V", "damage yes spall voids", ["spall"]), ("Ti-6Al-4V", "damage no spall voids", ["spall", "damage"]),
                                  ("Ti-6Al-4V", "spall none", ["spall"]), ("steel-304", "damage yes spall voids", ["damage"]), ("steel-304", "damage no spall voids", ["damage"]),
                                  ("steel-304", "damage johnson-cook", ["spall", "damage"]), ("PMMA", "", ["spall", "damage"]), ("Al6061-T6", "damage johnson spall voids", ["damage"]),
-                                 ("Al6061-T6", "damage no spall none", ["spall", "damage"])):
+                                 ("Al6061-T6", "damage no spall none", ["spall", "damage"]), ("Al6061-T6", "damage off spall pressure", ["spall", "damage"]),
+                                 ("Al6061-T6", "damage on spall voids", []), ("Al6061-T6", "damage no damage true spall voids", []), ("Al6061-T6", "spall voids spall none damage false", ["spall", "damage"]),
+                                 ("Al6061-T6", "spall zero strength none", ["damage"])):
         assert list(laws.lacking(f"{name}.hvi", solid)) == lacking, (name, solid)
     assert laws.lacking("steel-304.hvi", "damage no spall voids") == {"damage": "with damage no"}
 

@@ -182,3 +182,84 @@ def test_energy_of_elements_without_particles(lmp, scene, root, tmp_path, nranks
     r = lmp(text + "compute w all hvi/wall axis z wall 2 -1e-3 1e-3 nodes 3 layers 2\nrun 0\ngroup nodes type 3\ngroup plate type 2\ncompute kn nodes ke\ngroup held union wall_embedded\ngroup free subtract plate held\n"
             "compute kf free ke\ncompute eall all sph/e/atom\ncompute ef free reduce sum c_eall\nvariable right equal c_kn+c_kf+f_wall[10]+c_ef\nthermo_style custom step c_w[1][5] v_right\nthermo_modify norm no format float %.12g\nrun 30\n", nranks=nranks)
     assert r.thermo["c_w[1][5]"][1:] == pytest.approx(r.thermo["v_right"][1:], rel=1e-9)
+
+
+# ---------------------------------------------------------------------- laws of materials
+BARS = """units si
+boundary f f f
+atom_style sph
+region b block -0.1 0.1 -1e-2 1e-2 -1e-2 1e-2 units box
+create_box 1 b
+region bar block -5e-2 5e-2 0 1e-3 0 1e-3 units box
+lattice sc 1e-3 origin 0.5 0.5 0.5
+create_atoms 1 region bar
+pair_style hvi/sph gauss dim 1
+pair_coeff 1 1 file Pb.hvi spacing 1e-3 strength none
+variable u atom "v_speed*(2*(x<0)-1)"
+velocity all set v_u 0 0 units box
+fix m all hvi/sph
+fix dt all hvi/dt 0.3
+compute s all hvi/atom p
+compute r all property/atom rho
+region near block 4e-3 1e-2 0 1e-3 0 1e-3 units box
+group near dynamic all region near
+compute near near reduce ave c_s c_r
+thermo_style custom step c_near[*]
+thermo 20
+run ${steps}
+"""
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_matter_does_not_collapse_beyond_its_law(lmp, nranks):
+    """lead on lead at 6 km/s has the pressure of its Hugoniot, at 10 km/s it leaves the law, which is an error"""
+    held = lmp("variable speed equal 3000\nvariable steps equal 240\n" + BARS, nranks=nranks).thermo
+    assert held["c_near[1]"][-1] == pytest.approx(218e9, rel=0.03) and held["c_near[2]"][-1] == pytest.approx(11340 / (1 - 3000 * 3000 * 11340 / 218e9), rel=0.03)
+    r = lmp("variable speed equal 5000\nvariable steps equal 400\n" + BARS, nranks=nranks, expect_fail=True)
+    assert re.search(r"equation of state gruneisen of particle \d+ \(type 1\) has no answer at density \S+ and .*: it ends at density 26", r.error), r.error
+
+
+WATER = "# UNITS: si\n# water\neos gruneisen\nrho0 998\nC 1480\nS1 2.56\nS2 -1.986\nS3 0.2268\ng0 0.4934\na {a}\n"
+
+
+@pytest.mark.parametrize("a", ["0", "1.3937"])
+def test_hot_vapor_expands(lmp, tmp_path, a):
+    """also by a set in which Gamma grows faster with density than it is large"""
+    (tmp_path / "water.hvi").write_text(WATER.format(a=a))
+    r = lmp("units si\nboundary f f f\natom_style sph\nregion b block -0.1 0.1 -0.1 0.1 -0.1 0.1 units box\ncreate_box 1 b\nlattice sc 1e-3 origin 0.5 0.5 0.5\n"
+            "region c block -4e-3 4e-3 -4e-3 4e-3 -4e-3 4e-3 units box\ncreate_atoms 1 region c\nmass 1 $(300*1e-9)\npair_style hvi/sph cubic\npair_coeff 1 1 file water.hvi h 1.2e-3\n"
+            "fix m all hvi/sph\nset group all sph/rho 300\nset group all sph/e $(300*1e-9*2e7)\nfix dt all hvi/dt 0.2\ncompute s all hvi/atom p\ncompute p all reduce min c_s\ncompute g all gyration\n"
+            "thermo_style custom step c_p c_g\nthermo 10\nrun 60\n")
+    assert (r.thermo["c_p"] > 0.0).all() and (np.diff(r.thermo["c_g"]) >= 0.0).all() and r.thermo["c_g"][-1] > 1.5 * r.thermo["c_g"][0]
+
+
+LIQUID = """units si
+boundary p p p
+atom_style sph
+region b block 0 8e-3 0 8e-3 0 8e-3
+create_box 2 b
+lattice sc 1e-3 origin 0.5 0.5 0.5
+create_atoms 1 box
+pair_style hvi/sph cubic
+pair_coeff 1 1 file water.hvi spacing 1e-3
+pair_coeff 2 2 file Al2024-T3.hvi spacing 1e-3
+fix m all hvi/sph
+fix liquid all hvi/johnson-cook strength none spall zero
+run 0
+set group all sph/rho 990
+compute s all hvi/atom p spalled
+compute p all reduce min c_s[1]
+compute q all reduce sum c_s[2]
+thermo_style custom step c_p c_q f_liquid[1]
+timestep 1e-8
+run 5
+"""
+
+
+@pytest.mark.parametrize("alone", [False, True])
+@pytest.mark.parametrize("section", ["", "strength none\n"])
+def test_liquids_cavitate(lmp, tmp_path, section, alone):
+    """whether their files say that they bear no shear, or nothing about it"""
+    (tmp_path / "water.hvi").write_text(f"# UNITS: si\n# water\neos tait\nrho0 1000\nc0 1480\n{section}spall limit\nsigma_p 1e5\n")
+    last = {key: of[-1] for key, of in lmp(LIQUID.replace("pair_coeff 2 2 file Al2024-T3.hvi spacing 1e-3\n", "").replace("create_box 2", "create_box 1") if alone else LIQUID).thermo.items()}
+    assert last["c_p"] == 0.0 and last["c_q"] == 512 and last["f_liquid[1]"] == 1

@@ -21,7 +21,8 @@ struct Bound {
 Bound gruneisen(double rho0, double C, double S1, double g0, double a)
 {
   std::string problem;
-  return {HVI::make_eos("gruneisen", {rho0, C, S1, g0, a, 900}, problem), C * C / (g0 - a)};
+  return {HVI::make_eos("gruneisen", {rho0, C, S1, g0, a, 900}, problem),
+          C * C / std::max(g0 - a, 0.5 * g0)};
 }
 
 Bound aluminum()
@@ -35,8 +36,9 @@ std::vector<Bound> all()
   std::vector<Bound> laws;
   laws.push_back(aluminum());
   laws.push_back(gruneisen(11340, 2006, 1.429, 2.74, 0.54));
-  laws.push_back(gruneisen(1000, 1500, 1.5, 0.3, 0.0));     // less Gamma than vapor has
-  laws.push_back(gruneisen(1000, 1500, 1.5, 1.0, -0.3));    // more, as it expands
+  laws.push_back(gruneisen(1000, 1500, 1.5, 0.3, 0.0));          // less Gamma than vapor has
+  laws.push_back(gruneisen(1000, 1500, 1.5, 1.0, -0.3));         // more, as it expands
+  laws.push_back(gruneisen(998, 1480, 2.56, 0.4934, 1.3937));    // g0 < a: water
   laws.push_back(
       {HVI::make_eos("mie-gruneisen", {2785, 5240, 1.338, 2.0, 875}, problem), 5240.0 * 5240 / 2});
   laws.push_back({HVI::make_eos("polynomial",

@@ -29,7 +29,7 @@ namespace HVI {
      params[]                  its table of parameters, density first
      problem(const double *)   if it has any: what is wrong with values that are right one by one
      make(const double *)      from values in the order of params
-     rho0, c0, rho_max         rho_max: the law holds below it (pole of the Hugoniot)
+     rho0, c0, rho_max         rho_max: the law holds below it
      state(rho, e, p, csq)     pressure, and dp/drho at constant entropy,
                                which is dp/drho|e + (p/rho^2) dp/de|rho
      temperature(rho, e)       NaN without a heat capacity
@@ -43,9 +43,8 @@ class Eos {
   virtual double rho0() const = 0;    // 0 if the law has no reference density (ideal gas)
   virtual double c0() const = 0;      // sound speed at rho0 and e = 0; 0 for the ideal gas
 
-  // Densities at and beyond this are outside the law's range: there C/Us, which is 1 on the
-  // reference state and 0 on the pole of the Hugoniot, has fallen to 1/100.  Infinite for laws
-  // without a pole; behind its last density for a table.
+  // Densities at and beyond this are outside the law's range: see hvi_eos_hugoniot.h.  Infinite for
+  // laws without an end; behind its last density for a table.
   virtual double rho_max() const = 0;
 
   // False outside the law's range: rho not in (0, rho_max), anything not finite.  Then p and csq

@@ -29,7 +29,7 @@ namespace HVI {
 
      p = H rho (e - e0(0)),   H = 2/3
 
-   of single atoms, less the energy e0(0) that binds them: C^2/(g0 - a) of the law gruneisen.
+   of single atoms, less the energy e0(0) that binds them: C^2/G(0) of the law gruneisen.
    That Gamma goes from that of the solid to that of the vapor, and that the binding energy counts, is
    from the law PUFF (Radioss Reference Guide, /EOS/PUFF; there by a root of x and an exponential,
    with a parameter for the energy).

@@ -10,6 +10,7 @@
 #define LMP_HVI_EOS_MIE_GRUNEISEN_H
 
 #include "hvi_eos_expansion.h"
+#include "hvi_eos_hugoniot.h"
 #include "hvi_eos_thermal.h"
 #include "hvi_parameter.h"
 
@@ -25,7 +26,7 @@ namespace HVI {
    Esposito (2024) eqs 2.11-2.13; eq 2.14 as printed drops -g0 eta/2.  In
    expansion, where the Hugoniot says nothing, the line of LS-DYNA's form is
    taken, less where it pushes: see hvi_eos_expansion.h; it joins with the same slope.
-   C/Us = 1 - S1 eta vanishes on the pole; the law ends where it is 1/100.
+   Where it ends: hvi_eos_hugoniot.h.
 ------------------------------------------------------------------------- */
 
 struct EosMieGruneisen {
@@ -45,7 +46,7 @@ struct EosMieGruneisen {
   static EosMieGruneisen make(const double *v)
   {
     EosMieGruneisen law = {v[0], v[1], v[2], v[3], v[4], v[5], NO_LIMIT, HotExpansion(v[3]), {}};
-    if (law.S1 > 0.99) law.rho_max = law.rho0 / (1.0 - 0.99 / law.S1);
+    law.rho_max = end_of_hugoniot(law);
     law.thermal.fill(law);
     return law;
   }
@@ -69,11 +70,13 @@ struct EosMieGruneisen {
     csq = slope + p * v * v * rho0 * g;
   }
 
+  double ratio(double eta) const { return 1.0 - S1 * eta; }    // C/Us
+
   // in compression: pressure at e = 0, and dp/de/rho0
 
   double p0(double eta) const
   {
-    const double d = 1.0 - S1 * eta;
+    const double d = ratio(eta);
     return rho0 * c0 * c0 * eta * (1.0 - 0.5 * g0 * eta) / (d * d);
   }
   double g(double) const { return g0; }

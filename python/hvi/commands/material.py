@@ -39,6 +39,8 @@ def main(args):
     for use, words, missing in library.uses(one):
         print(f"  {'no ' if missing else 'yes'} {use}" + (f" ({words})" if words else "") + (f": it has no {', no '.join(missing)}" if missing else ""))
     if one.laws("eos")[0] in ("table", "idealgas"):
+        if args.out:
+            raise HVIError(f"--out: there are no curves of eos {one.laws('eos')[0]}")
         print(f"\nno curves of eos {one.laws('eos')[0]}")
     else:
         if "voids" in one.laws("spall"):

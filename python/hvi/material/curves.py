@@ -38,10 +38,12 @@ class Eos:
             return self._expanded(rho, np.where(mu > 0.0, cold, mu * ((v["T1"] or v["A1"]) + mu * v["T2"])) + gamma * self.rho0 * e, v["B0"])
         if self.law == "tillotson":
             return self._tillotson(rho, e)
-        gamma = v["g0"] + v.get("a", 0.0) * mu
+        g0, a = v["g0"], v.get("a", 0.0)
+        k = max(2.0 * a / max(g0, 1e-30) - 1.0, 0.0)  # hvi_eos_gruneisen.h
+        gamma = g0 + a * mu / (1.0 - k * np.minimum(mu, 0.0))
         stiff = self.rho0 * v["C"] ** 2
         squeezed = stiff * eta / self.ratio(eta) ** 2 * (1.0 - 0.5 * gamma * eta)
-        return self._expanded(rho, np.where(eta > 0.0, squeezed, stiff * mu) + gamma * self.rho0 * e, v["g0"] - v.get("a", 0.0))
+        return self._expanded(rho, np.where(eta > 0.0, squeezed, stiff * mu) + gamma * self.rho0 * e, max(g0 - a, 0.5 * g0))
 
     def _expanded(self, rho, p, thin):
         """hvi_eos_expansion.h; thin: Gamma rho/rho0 that the law's line has at density 0"""
@@ -63,13 +65,13 @@ class Eos:
         return np.where(part > 0.0, part * vapor, 0.0) + (1.0 - part) * dense
 
     def last_eta(self):
-        """the compression 1 - rho0/rho where the law ends, at C/Us of 1/100, or where a cubic Hugoniot turns back"""
+        """the compression 1 - rho0/rho where the law ends: hvi_eos_hugoniot.h"""
         if "S1" not in self.v:
             return 0.999
-        eta = np.linspace(0.0, 1.0, 10001)
-        ratio = self.ratio(eta)
-        past = np.flatnonzero((ratio[1:] <= 0.01) | (np.diff(ratio) > 0.0))
-        return eta[past[0]] if past.size else eta[-2]
+        eta = np.linspace(0.0, 1.0, 10001)[:-1]
+        ratio, gamma = self.ratio(eta), self.v["g0"] + self.v.get("a", 0.0) * eta / (1.0 - eta)
+        past = np.flatnonzero((ratio[1:] <= 0.01) | (np.diff(ratio) > 0.0) | (gamma * eta >= 2.0)[1:])
+        return eta[past[0]] if past.size else eta[-1]
 
     def hugoniot(self, up):
         """(Us, p, rho, e) behind shocks into the reference state, where the Rayleigh line meets the law; NaN where it does not"""

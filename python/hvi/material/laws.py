@@ -9,6 +9,13 @@ from ..errors import reading
 from . import library
 
 SOLID = "damage yes spall voids"  # words of fix hvi/johnson-cook that shields take
+YES, NO = {"yes", "on", "true"}, {"no", "off", "false"}  # as LAMMPS has them
+
+
+def last_word(words, key):
+    """what follows a keyword in the words of a style, where it is given last, as LAMMPS takes it; None: it is not"""
+    words = words.split()
+    return next((value for name, value in reversed([*zip(words, words[1:])]) if name == key), None)
 
 
 def strengths(path):
@@ -48,7 +55,7 @@ def meant(name, known):
 def check(case, reader):
     """All materials must have the law of strength that the run takes: one without it would be a liquid, whatever else its file has"""
     words = case.setting("solid").split()
-    law = next((new for old, new in zip(words, words[1:]) if old == "strength"), "johnson-cook")
+    law = last_word(case.setting("solid"), "strength") or "johnson-cook"
     places = [("projectile: material", case.material), *((f"wall {k}: material", wall.material) for k, wall in enumerate(case.walls, 1))]
     laws = {name: strengths(path) for _, name in places if (path := library.of_case(name)).is_file()}
     common = sorted(set.intersection(*map(set, laws.values())) - {"none"}) if laws else []
@@ -66,13 +73,15 @@ def lacking(name, solid):
     path = library.of_case(name)
     if not path.is_file():
         return {}  # LAMMPS says so
-    words, text = solid.split(), path.read_text(errors="replace")
-    law = {kind: next((new for old, new in zip(words, words[1:]) if old == kind), preset) for kind, preset in (("spall", "principal"), ("damage", "yes"))}
-    section = {"spall": law["spall"] if law["spall"] in ("voids", "tuler-butcher", "grady") else "limit", "damage": r"[\w-]+" if law["damage"] == "yes" else law["damage"]}
+    text = path.read_text(errors="replace")
+    law = {kind: last_word(solid, kind) or preset for kind, preset in (("spall", "principal"), ("damage", "yes"))}
+    section = {"spall": law["spall"] if law["spall"] in ("voids", "tuler-butcher", "grady") else "limit", "damage": r"[\w-]+" if law["damage"] in YES else law["damage"]}
     found = {}
-    for kind, none in (("spall", "none"), ("damage", "no")):
-        if law[kind] == none:
-            found[kind] = f"with {kind} {none}"
+    for kind, none in (("spall", {"none", "pressure"}), ("damage", NO)):  # with spall pressure nothing comes apart
+        if law[kind] in none:
+            found[kind] = f"with {kind} {law[kind]}"
+        elif kind == "damage" and last_word(solid, "strength") == "none":
+            found[kind] = "with strength none"
         elif not re.search(rf"^[ \t]*{kind}[ \t]+{section[kind]}(?![\w-])", text, re.M):
             found[kind] = f"whose file has no law of {kind} ({solid})"
     return found

@@ -309,12 +309,14 @@ def read(name):
 
 
 # ---------------------------------------------------------------------- what a file is good for
+SOFTENS = ("johnson-cook", "steinberg-guinan", "zerilli-armstrong")  # laws of strength that know the temperature
 USES = (  # what, words of the input, what is needed
     ("shocks and flow without strength", "", ()),
     ("projectiles, debris, plate impact", "spall voids", (("strength", None), ("spall", "voids"))),
     ("walls of shields", "damage yes spall voids", (("strength", None), ("damage", None), ("spall", "voids"))),
     ("spall as other codes have it", "spall principal", (("strength", None), ("spall", "limit"))),
-    ("temperature, softening by heat, melting", "", (("cp", None),)),
+    ("temperature", "", (("cp", None),)),
+    ("softening by heat, melting", "", (("cp", None), ("softens", None))),
 )
 
 
@@ -324,8 +326,13 @@ def needs(material, wanted):
     found = []
     for kind, law in wanted:
         if kind == "cp":
-            if not (eos.get("cp") or eos.get("cv") or material.table):
+            if material.table and not re.search(r"^[ \t]*temperature[ \t]", texts.read(find(material.table, "table")), re.M):
+                found.append("temperature in its table")
+            elif not (eos.get("cp") or eos.get("cv") or material.table):
                 found.append("cp of the eos")
+        elif kind == "softens":
+            if not set(SOFTENS) & set(material.laws("strength")):
+                found.append("strength that knows the temperature")
         elif law and (kind, law) not in material.sections or not [x for x in material.laws(kind) if x != "none"]:
             found.append(f"{kind} {law}" if law else kind)
     return found
@@ -333,7 +340,9 @@ def needs(material, wanted):
 
 def uses(material):
     """[(use, words of the input, what is missing for it)]"""
-    return [(use, words, needs(material, wanted)) for use, words, wanted in USES]
+    laws = [law for law in material.laws("strength") if law != "none"]
+    own = f" strength {laws[0]}" if laws and "johnson-cook" not in laws else ""  # what fix hvi/johnson-cook takes if it is told nothing
+    return [(use, words + own * bool(words), needs(material, wanted)) for use, words, wanted in USES]
 
 
 def row(material):

@@ -304,12 +304,6 @@ def read_settings(reader, node, key):
     return {name: value for name, value in given.items() if f"{key}: {name}" in reader.at}
 
 
-def last_word(words, key):
-    """what follows a keyword in the words of a style, where it is given last; None: it is not"""
-    words = words.split()
-    return next((value for name, value in reversed([*zip(words, words[1:])]) if name == key), None)
-
-
 def read(path, model=True):
     """The Case in a file; HVIError names line and key of what is wrong.
 

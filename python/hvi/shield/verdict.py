@@ -85,7 +85,7 @@ def measured(shield, result):
     m.solid = solid
     m.whole = [(k, *lack) for k in range(1, d + 1) for lack in laws.lacking(case.walls[k - 1].material, solid).items()]
     m.whole += [(k, kind, f"with settings: {{fem: {kind} no}} of its elements") for k in range(1, d + 1) if case.walls[k - 1].method != "sph"
-                for kind in HOW if cases.last_word(shield.settings["fem"], kind) == "no"]
+                for kind in HOW if laws.last_word(shield.settings["fem"], kind) in laws.NO]
     m.ball_whole = [lack for lack in laws.lacking(case.material, solid).items() if lack[0] == "spall"]  # what breaks a projectile is tension
     m.thickness = case.walls[d - 1].thickness_mm
     m.tstop = 1.5 * max(shield.geometry.tstop_us, result["time_us"])
