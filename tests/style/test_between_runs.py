@@ -176,6 +176,111 @@ def test_fixes_that_styles_make(lmp, fix, said, begin):
     assert said in lmp(GRAINS + begin + f"fix {fix}\nrun 1\n", expect_fail=True).error
 
 
+# ---------------------------------------------------------------------- bonded molecules
+CUBE = "cube\n\n8 atoms\n12 bonds\n\nCoords\n\n" + "".join(f"{k + 1} {k >> 2} {k >> 1 & 1} {k & 1}\n" for k in range(8)) + "\nTypes\n\n" + "".join(f"{k + 1} 1\n" for k in range(8)) \
+    + "\nBonds\n\n" + "".join(f"{n + 1} 1 {i + 1} {j + 1}\n" for n, (i, j) in enumerate((i, i | 1 << k) for i in range(8) for k in range(3) if not i >> k & 1))
+MOLECULES = """units lj
+newton {newton}
+atom_style bond
+lattice sc 1.0
+region box block 0 32 0 32 0 40
+region plate block 0 {edge} 0 {edge} 0 {edge}/2
+boundary f f f
+create_box 2 box bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 30
+create_atoms 2 region plate
+group gone id 1:4
+delete_atoms group gone compress no
+mass * 1.0
+"""
+LAWS = """pair_style hvi/contact
+pair_coeff * * 0.1 0.890898718
+special_bonds lj/coul 1 1 1
+bond_style hvi/spring
+bond_coeff 1 4.0 1.0 1.34
+molecule cube cube.mol
+fix move all nve
+timestep 0.001
+compute pieces all hvi/fragment bonds
+thermo_style custom step atoms bonds c_pieces[1]
+"""
+DROP = "region top block 5 25 5 25 20 30\nfix drop all deposit 2 0 2 4242 region top mol cube near 2.0 vz -2 -2 vx 0 0 vy 0 0 units box\nrun 4\nunfix drop\n"
+
+
+@pytest.mark.parametrize("nranks, newton, edge", [(1, "on", 31.9), (1, "off", 5.9), (2, "on", 5.9), (3, "off", 5.9)])
+def test_molecules_that_come(lmp, tmp_path, nranks, newton, edge):
+    """bonded cubes, by fix deposit in a run, by a command after it, and after a restart; the first scene fills the arrays of particles, so that a row that is too short ends it"""
+    (tmp_path / "cube.mol").write_text(CUBE)
+    head = MOLECULES.format(newton=newton, edge=edge).replace("31.9/2", "15.9").replace("5.9/2", "2.9")
+    r = lmp(head + LAWS + DROP + "create_atoms 0 single 15 15 35 mol cube 123\nrun 2\nwrite_restart half\n", nranks=nranks)
+    plate = r.runs[0]["Atoms"][0]
+    assert [(t["Atoms"][-1] - plate, t["Bonds"][-1], t["c_pieces[1]"][-1] - plate) for t in r.runs] == [(16, 24, 2), (24, 36, 3)]
+    r = lmp("read_restart half\n" + LAWS + "create_atoms 0 single 15 15 38 mol cube 123\nrun 2\n", nranks=nranks)
+    assert r.thermo["Bonds"][-1] == 48 and r.thermo["c_pieces[1]"][-1] == plate + 4
+
+
+BALL = """units lj
+newton {newton}
+atom_style bond
+lattice sc 1.0
+region box block -10 10 -10 10 -10 10
+region ball sphere 0 0 -5.5 3
+region plate block -6 6 -6 6 0 2.5
+boundary f f f
+create_box 2 box bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 30
+create_atoms 1 region ball
+create_atoms 2 region plate
+mass * 1.0
+pair_style hvi/contact
+pair_coeff * * 0.1 0.890898718
+special_bonds lj/coul 0 1 1
+create_bonds many all all 1 0.0 1.1
+special_bonds lj/coul 1 1 1
+bond_style hvi/spring
+bond_coeff 1 4.0 1.0 1.34
+thermo_modify lost ignore
+group ball type 1
+velocity ball set 0.1 0.05 5
+fix move all nve
+fix step all hvi/dt 0.1
+"""
+FREE = BALL.replace("{newton}", "on")
+
+
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "off"), (3, "on")])
+def test_molecules_by_bonds_that_are_left(lmp, nranks, newton):
+    """reset_atoms mol after a run in which bonds break: as compute hvi/fragment/atom; a plate that was cut hangs together no more"""
+    text = BALL.format(newton=newton) + "run 350\n{}reset_atoms mol all single yes\ncompute piece all hvi/fragment/atom bonds\nrun 0\nwrite_dump all custom now id mol c_piece\n"
+    cut = "region half block 0 INF INF INF -0.5 INF\ngroup half region half\ndelete_bonds half bond 1 any remove\n"
+    for commands, number in ("", 2), (cut, None):
+        r = lmp(text.format(commands), nranks=nranks)
+        now = read_dump("now", sort=True)
+        pieces = set(zip(now["mol"], now["c_piece"]))
+        assert len(pieces) == len(set(now["mol"])) == len(set(now["c_piece"])) and len(pieces) > 1, commands
+        assert number is None or int(re.findall(r"number of new molecule IDs = (\d+)", r.log)[-1]) == number
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_commands_that_find_no_bonds(lmp, nranks):
+    """LAMMPS's compute fragment/atom in a run, and lists of bonds to particles that are gone"""
+    said = "Compute stock (fragment/atom) finds no bonds of bond style hvi/spring in a run: use compute hvi/fragment/atom"
+    assert said in lmp(FREE + "compute stock all fragment/atom\nrun 0\n", nranks=nranks, expect_fail=True).error
+    r = lmp(FREE + "run 2\ngroup some id 400:405\ndelete_atoms group some compress no\nreset_atoms mol all\n", nranks=nranks, expect_fail=True)
+    assert re.search(r"there are bonds to particle 40\d, which is gone: use delete_atoms with bond yes", r.error)
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_pieces_of_before_a_command(lmp, nranks):
+    """are not those of after it, though output of the run has asked for them at this step"""
+    text = FREE + "compute f all hvi/fragment bonds\nthermo_style custom step c_f[1]\nrun 350\n{}\nwrite_dump all local now index c_f[2] c_f[9]\n"
+    lmp(text.format("velocity all set 0 0 100"), nranks=nranks)
+    assert read_dump("now")["c_f[9]"] == pytest.approx([100, 100], rel=1e-12)
+    r = lmp(text.format("delete_atoms group ball bond yes"), nranks=nranks, expect_fail=None)
+    if r.returncode:
+        assert nranks > 1 and "ghosts are not there: use run 0 first" in r.error
+    else:
+        assert list(read_dump("now")["c_f[2]"]) == [507]
+
+
 # ---------------------------------------------------------------------- ghosts
 BAR = """units lj
 atom_style {style}
