@@ -112,7 +112,7 @@ void HVILeavers::fraction_of_box(double distance, double *fraction) const
    those at a full step if dt is 0
 ------------------------------------------------------------------------- */
 
-HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
+HVILeavers::Account HVILeavers::take_out(double dt_in)
 {
   dt = dt_in;
   Account a = {};
@@ -122,7 +122,6 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
     const double *const v = atom->v[i];
     const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
     const double ke = 0.5 * force->mvv2e * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    const bool clamped = atom->mask[i] & clampbit;
     a.energy += ke;
     if (atom->esph_flag) a.energy += atom->esph[i];
     for (const auto *carrier : carriers) {
@@ -130,11 +129,7 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
       a.plastic += carrier->plastic_work(i);
       a.voids += carrier->void_work(i);
     }
-    if (clamped) a.clamped.energy += ke;
-    for (int k = 0; k < 3; k++) {
-      a.momentum[k] += m * v[k];
-      if (clamped) a.clamped.momentum[k] += m * v[k];
-    }
+    for (int k = 0; k < 3; k++) a.momentum[k] += m * v[k];
     a.mass += m;
     a.count += 1.0;
   }

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import solid_scenes
 from dumps import read_dump
+from scenes import books
 
 MATERIAL = solid_scenes.MATERIAL.format(sigma_p=3.0)
 HEAD = """units lj
@@ -81,6 +82,24 @@ def test_where_particles_are_between_runs(lmp, blocks, words, nranks):
     r = lmp(text.replace("pair_coeff * *", "pair_coeff 1 1").replace("create_box 2", "create_box 1").replace("group lower", "# group lower") + f"fix sph all hvi/sph {words}\nfix jc all hvi/johnson-cook spall none damage no\n"
             "velocity all set 0 0 1.0\ntimestep 0.05\nrun 260\nregion low block INF INF INF INF 0 10\nvariable n equal count(all,low)\nprint \"there: $(v_n)\"\n", nranks=nranks)
     assert int(re.search(r"^there: (\d+)", r.log, re.M)[1]) == 16 * 9
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("stop", ["fix stop all halt 1 v_late > 0.5 error continue", "timer timeout 0:00:01 every 28"])
+def test_where_particles_are_after_a_run_that_is_stopped(lmp, stop, nranks):
+    """in the periodic box; what goes on from there, without a setup, is the run that was not stopped"""
+    text = "processors * * 1\n" + GRAINS
+    for old, new in (("boundary p p f", "boundary p p p"), ("hvi/contact", "hvi/contact lists relative"), ("block 0 4 0 4 0 20", "block 0 8 0 8 0 10"), ("block 0 4 0 4 2 8", "block 2 6 2 6 0 8.1"),
+                     ("set 0 0 -0.5", "set 0 0 50\nvelocity all ramp vx 1 -1 x 2 6 sum yes"), ("0.005", "0.01")):
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    text += "fix nve all nve\nthermo_style custom step ke\nthermo_modify norm no format float %.15g\nvariable late equal step>=28\n"
+    r = lmp(text + stop + "\nrun 100000000\ntimer timeout off\nregion whole block 0 8 0 8 0 10\ngroup g region whole\nprint \"there: $(count(g)) of $(atoms)\"\n"
+            + ("unfix stop\n" if "halt" in stop else "") + "run 50 pre no\n", nranks=nranks)
+    assert re.search(r"^there: 225 of 225", r.log, re.M), re.search("^there: .*", r.log, re.M)
+    if "halt" in stop:
+        r = r.thermo, lmp(text + f"run {int(r.thermo['Step'][-1])}\n", nranks=nranks).thermo
+        assert r[0]["KinEng"][-1] == pytest.approx(r[1]["KinEng"][-1], rel=1e-9) and abs(r[1]["KinEng"][-1] - r[1]["KinEng"][0]) > 1e-3
 
 
 def test_a_piston_that_is_let_go(lmp, blocks):
@@ -167,6 +186,26 @@ def test_clamps_and_a_wall_that_reflects(lmp, first, nranks):
 def test_clamps_of_a_dynamic_group(lmp):
     text = GRAINS + "region zone block -9 99 -9 99 12 20\ngroup zone dynamic all region zone every 1\ncompute book all hvi/energy clamps zone\nfix nve all nve\nrun 1\n"
     assert "group zone is dynamic" in lmp(text, expect_fail=True).error
+
+
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
+def test_what_other_fixes_take_out_of_clamped_groups(lmp, nranks, newton):
+    """is no work of clamps, and shows in the total; what clamps have done to it until then stays booked"""
+    text = f"newton {newton}\n" + GRAINS.replace("boundary p p f", "boundary p p p").replace("sc 1.0", "sc 0.1").replace("set 0 0 -0.5", "set 0.3 0 1 units box") + "compute book all hvi/energy clamps all\nfix nve all nve\n{}" \
+        "region whole block INF INF INF INF INF INF\nfix take all evaporate 5 2 whole 123\nthermo_style custom step atoms c_book[*]\nthermo_modify norm no format float %.17g\nthermo 5\nrun 30\n"
+    r = lmp(text.format(""), nranks=nranks)
+    book, n = books(r.thermo), r.thermo["Atoms"]
+    assert n[0] - n[-1] == 12 and any("of the energy has gone" in w for w in r.warnings)
+    assert book["ratio"] == pytest.approx(n / n[0], rel=1e-9)
+    assert all(np.abs(book[name]).max() < 1e-9 for name in ("clamps", "jx", "jz"))
+
+    # a force of 1; particles go after the first half of each fifth kick
+
+    book = books(lmp(text.format("fix push all addforce 0 0 1\n"), nranks=nranks).thermo)
+    t = 1 + 0.005 * np.arange(0, 30, 5)  # velocity at the start of each five steps
+    kicks = [(n[:-1], t, t + 4.5 * 0.005), (n[1:], t + 4.5 * 0.005, t + 5 * 0.005)]
+    assert np.diff(book["jz"]) == pytest.approx(sum(m * (b - a) for m, a, b in kicks), rel=1e-9)
+    assert np.diff(book["clamps"]) == pytest.approx(-sum(m * (b * b - a * a) / 2 for m, a, b in kicks), rel=1e-9)
 
 
 @pytest.mark.parametrize("fix, said", [("HVI_LEDGER all hvi/ledger", "Fix hvi/ledger is made by the styles that need it"), ("HVI_STORE all hvi/store", "Fix hvi/store is made by pair style hvi/sph")])
