@@ -284,6 +284,7 @@ void ComputeHVIWall::init()
 
   check_walls();
   if (!fragment) return;
+  fragment->choose(nullptr, FixHVIJohnsonCook::find(lmp) ? 1 : 0);
   fragment->init();
   for (Wall &w : walls) {
     w.start.clear();    // commands between runs may have changed it

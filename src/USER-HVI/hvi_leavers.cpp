@@ -186,11 +186,10 @@ void HVILeavers::share(bool bonded)
                          atom->mask[i],
                          atom->molecule ? atom->molecule[i] : 0});
       rank.push_back(p);
-      for (int n = 0; bonded && n < atom->num_bond[i]; n++)
-        if (atom->bond_type[i][n] > 0) {
-          bonds.push_back({atom->tag[i], atom->bond_atom[i][n], atom->bond_type[i][n]});
-          bond_rank.push_back(p);
-        }
+      for (int n = 0; bonded && n < atom->num_bond[i]; n++) {
+        bonds.push_back({atom->tag[i], atom->bond_atom[i][n], atom->bond_type[i][n]});
+        bond_rank.push_back(p);
+      }
     }
   }
   out = HVI::deliver(world, leavers, rank);
@@ -291,7 +290,7 @@ void HVILeavers::fractional(const double *x, double *s) const
 
 /* ----------------------------------------------------------------------
    bonds by record: with newton_bond off a bond has one at either end, each
-   worth half.  The atom map may be gone: fix balance migrates particles first.
+   worth half; one that delete_bonds has turned off has no energy.  The atom map may be gone: fix balance migrates particles first.
 ------------------------------------------------------------------------- */
 
 double HVILeavers::tear_bonds(const HVITorn &laws, bigint &nrecords)
@@ -332,6 +331,7 @@ double HVILeavers::tear_bonds(const HVITorn &laws, bigint &nrecords)
     const auto other = leaver.find(b.partner);
     const auto it = stayer.find(b.partner);
     nrecords_here += own;
+    if (b.type <= 0) continue;
     if (other != leaver.end()) {
       if (own) energy += share * spring(laws, b.type, other->second->x, other->second->v, l);
     } else if (it != stayer.end())

@@ -364,6 +364,31 @@ def test_pieces_in_commands_of_a_run(lmp, commands, nranks):
 
 
 @pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("value", ["asleep", "cost"])
+def test_inactive_particles_after_a_command_that_takes_some_away(lmp, value, nranks):
+    """those of the last forces are others"""
+    text = "units lj\natom_style sph\nboundary f f f\nlattice sc 1.0 origin 0.5 0.5 0.5\nregion box block -2 30 0 8 0 8\ncreate_box 2 box\nregion a block 16 28 0 8 0 8\nregion b block -1 3 2 6 2 6\ncreate_atoms 1 region b\n" \
+        "create_atoms 2 region a\ngroup b type 1\nmass * 1\nset group all sph/rho 1.0\npair_style hvi/sph cubic\npair_coeff * * eos linear 1.0 3.0 h 1.2\nvelocity b ramp vx 0.3 0.6 y 0 8\nfix m all hvi/sph\n" \
+        f"compute s all hvi/atom {value}\ntimestep 0.02\nrun 5\ndelete_atoms group b compress no\n{{}}write_dump all custom now id c_s\n"
+    said = "asleep or cost: a command since the last run has moved, made or taken away particles, and ghosts are not there: use run 0 first"
+    assert said in lmp(text.format(""), nranks=nranks, expect_fail=True).error
+    lmp(text.format("run 0\n"), nranks=nranks)
+    assert list(read_dump("now")["c_s"]) == 768 * [{"asleep": 1, "cost": 0.17}[value]]
+
+
+@pytest.mark.parametrize("pair", ["hvi/sph cubic", "hvi/contact"])
+def test_masses_that_ghosts_do_not_have(lmp, pair):
+    """an error; not where the atom style sends them, or the fix does"""
+    laws = {"hvi/contact": "pair_coeff * * 1.0 1.0\n", "hvi/sph cubic": "pair_coeff * * eos tait 1.0 4.0 7 h 1.2\nset group all sph/rho 1.1\nfix sph all hvi/sph\n"}[pair]
+    text = "units lj\natom_style {}\nfix p all property/atom {}\nregion box block 0 10 0 10 0 10\ncreate_box 1 box\ncreate_atoms 1 random 9 123 NULL\nmass * 1.0\nset group all mass 1.0\npair_style " + pair + "\n" + laws + "run 0\n"
+    said = "Masses of particles are not those of their ghosts: use fix ID all property/atom rmass ghost yes"
+    assert said in lmp(text.format("sph", "rmass"), expect_fail=True).error
+    assert said in lmp(text.format("sph", "rmass i_one"), nranks=2, expect_fail=True).error
+    lmp(text.format("sph", "rmass ghost yes"))
+    lmp(text.format("hybrid sph sphere", "i_one"))
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
 def test_bonds_after_a_command_that_takes_ghosts_away(lmp, nranks):
     text = BAR.format(style="bond", more=" bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 12") + "special_bonds lj/coul 0 1 1\nbond_style zero\nbond_coeff * 1.0\ncreate_bonds many all all 1 0.9 1.1\n" \
         "compute n all hvi/atom nbonds\nrun 0\ngroup dust type 2\ndelete_atoms group dust compress no\n{}write_dump all custom now id c_n\n"
