@@ -15,6 +15,7 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
+#include "compute.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_hvi_ledger.h"
@@ -23,13 +24,16 @@
 #include "hvi_cite.h"
 #include "hvi_compat.h"
 #include "hvi_restart.h"
+#include "hvi_tag_exchange.h"
 #include "memory.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "special.h"
 #include "update.h"
 
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 using namespace LAMMPS_NS;
 
@@ -39,7 +43,7 @@ static constexpr int RESTART_FORMAT = 1;
 
 BondHVISpring::BondHVISpring(LAMMPS *lmp) :
     Bond(lmp), kappa(nullptr), r_eq(nullptr), r_cut(nullptr), law(nullptr), ledger(nullptr),
-    exact_images(0), nmax(0), xowner(nullptr)
+    dropped(false), exact_images(0), nmax(0), xowner(nullptr)
 {
   partial_flag = 1;
   born_matrix_enable = 1;
@@ -327,6 +331,11 @@ void BondHVISpring::init_style()
         error->all(FLERR,
                    "Bond style hvi/spring requires special_bonds lj/coul 1 1 1 for a run: contact "
                    "acts between bonded particles too");
+    if (const auto found = modify->get_compute_by_style("^fragment/atom"); !found.empty())
+      error->all(FLERR,
+                 "Compute {} (fragment/atom) finds no bonds of bond style hvi/spring in a run: use "
+                 "compute hvi/fragment/atom",
+                 found[0]->id);
     drop_special();
   } else
     restore_special();
@@ -334,39 +343,45 @@ void BondHVISpring::init_style()
 
 /* ----------------------------------------------------------------------
    with all weights 1 nothing reads the lists of special neighbors, which
-   breaking bonds would leave stale: free them, they cost memory, migration
-   and a search per pair in every rebuild
+   breaking bonds would leave stale: empty them, they cost memory, migration
+   and a search per pair in every rebuild.  Rows keep their width, as fixes and
+   commands bring molecules that fit into it; rows that nobody writes take no memory.
 ------------------------------------------------------------------------- */
 
 void BondHVISpring::drop_special()
 {
   for (int i = 0; i < atom->nlocal; i++)
     atom->nspecial[i][0] = atom->nspecial[i][1] = atom->nspecial[i][2] = 0;
-
-  if (atom->maxspecial > 1) {
-    atom->maxspecial = 1;
-    memory->destroy(atom->special);
-    memory->create(atom->special, atom->nmax, atom->maxspecial, "atom:special");
-    atom->avec->grow_pointers();
-  }
+  memory->destroy(atom->special);
+  memory->create(atom->special, atom->nmax, atom->maxspecial, "atom:special");
+  atom->avec->grow_pointers();
+  dropped = true;
 }
 
 /* ----------------------------------------------------------------------
-   commands between runs that set weights for bonded pairs, as create_bonds
-   wants, find the lists that drop_special() freed in place again
+   commands between runs, such as create_bonds and reset_atoms mol, find lists that are those of the bonds
 ------------------------------------------------------------------------- */
 
 void BondHVISpring::restore_special()
 {
-  if (force->special_lj[1] == 1.0 && force->special_coul[1] == 1.0) return;
-
+  std::vector<tagint> partners;
   bigint owned[2] = {0, 0}, total[2];    // bonds, special neighbors
   for (int i = 0; i < atom->nlocal; i++) {
-    owned[0] += atom->num_bond[i];
+    partners.insert(partners.end(), atom->bond_atom[i], atom->bond_atom[i] + atom->num_bond[i]);
     owned[1] += atom->nspecial[i][0];
   }
+  owned[0] = partners.size();
   MPI_Allreduce(owned, total, 2, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (total[0] && total[1] == 0) Special(lmp).build();
+  if (!dropped && total[1] == total[0] * (force->newton_bond ? 2 : 1)) return;
+
+  const std::vector<char> none(atom->ntypes + 1, 0);
+  if (const tagint gone = HVITagExchange(lmp).connect(partners, none, false))
+    error->all(FLERR,
+               "Bond style hvi/spring: there are bonds to particle {}, which is gone: use "
+               "delete_atoms with bond yes",
+               gone);
+  Special(lmp).build();
+  dropped = false;
 }
 
 /* ----------------------------------------------------------------------

@@ -48,6 +48,7 @@ class BondHVISpring : public Bond, public HVI::TimeStepSource, public HVI::Energ
   HVI::Spring *law;
   class FixHVILedger *ledger;
 
+  bool dropped;        // lists of special neighbors are not those of the bonds
   int exact_images;    // 1 if bonds are measured between coordinates as their owners hold them
   int nmax;
   double **xowner;    // coordinates of ghosts without periodic shifts, only if exact_images

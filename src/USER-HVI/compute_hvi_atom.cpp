@@ -190,10 +190,36 @@ void ComputeHVIAtom::compute_peratom()
     vector_atom = ncols == 1 && nmax ? table[0] : nullptr;
   }
 
-  if (std::find(values.begin(), values.end(), BONDS) != values.end()) count_bonds();
+  const auto asks_for = [this](Value value) {
+    return std::find(values.begin(), values.end(), value) != values.end();
+  };
+  if ((asks_for(ASLEEP) || asks_for(COST)) && update->whichflag == 0)
+    check_ghosts("asleep or cost");
+  if (asks_for(BONDS)) count_bonds();
   for (int i = 0; i < atom->nlocal; i++)
     for (int n = 0; n < ncols; n++)
       table[i][n] = (atom->mask[i] & groupbit) ? value_of(values[n], i) : 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   as in compute hvi/fragment/atom; also whether owned particles are those of the last forces
+------------------------------------------------------------------------- */
+
+void ComputeHVIAtom::check_ghosts(const std::string &value)
+{
+  checking = true;
+  sent = 0;
+  comm->reverse_comm(this);
+  checking = false;
+  const std::size_t seen = store ? store->fields.sleepers.size() : 0;
+  const bool is_old = update->whichflag == 0 && seen && seen != (std::size_t) atom->nlocal;
+  int here = sent != atom->nghost || is_old, any;
+  MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
+  if (any)
+    error->all(FLERR,
+               "Compute hvi/atom {}: a command since the last run has moved, made or taken away "
+               "particles, and ghosts are not there: use run 0 first",
+               value);
 }
 
 /* ----------------------------------------------------------------------
@@ -202,18 +228,7 @@ void ComputeHVIAtom::compute_peratom()
 
 void ComputeHVIAtom::count_bonds()
 {
-  if (force->newton_bond) {    // as in compute hvi/fragment/atom
-    checking = true;
-    sent = 0;
-    comm->reverse_comm(this);
-    checking = false;
-    int here = sent != atom->nghost, any;
-    MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
-    if (any)
-      error->all(FLERR,
-                 "Compute hvi/atom nbonds: a command since the last run has moved, made or taken "
-                 "away particles, and ghosts are not there: use run 0 first");
-  }
+  if (force->newton_bond) check_ghosts("nbonds");
   nbonds.assign(atom->nlocal + atom->nghost, 0.0);
   for (int i = 0; i < atom->nlocal; i++)
     for (int m = 0; m < atom->num_bond[i]; m++) {

@@ -18,6 +18,7 @@ ComputeStyle(hvi/atom,ComputeHVIAtom);
 #include "compute.h"
 #include "hvi_mesh.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -78,6 +79,7 @@ class ComputeHVIAtom : public Compute {
   double value_of(Value, int) const;
   double solid_value(Value, int, double) const;
 
+  void check_ghosts(const std::string &value);
   void count_bonds();
 };
 

@@ -193,12 +193,13 @@ void ComputeHVIFragment::compute_local()
 }
 
 /* ----------------------------------------------------------------------
-   the owner of a fragment's lowest ID gathers what others have of it
+   the owner of a fragment's lowest ID gathers what others have of it.  Rows hold for a step of a run: between
+   runs commands may have changed anything.
 ------------------------------------------------------------------------- */
 
 void ComputeHVIFragment::make_rows()
 {
-  if (table_step == update->ntimestep) return;
+  if (table_step == update->ntimestep && update->whichflag) return;
   table_step = update->ntimestep;
 
   find_fragments(region);

@@ -15,12 +15,15 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_store_global.h"
 #include "group.h"
+#include "modify.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string>
 
 using namespace LAMMPS_NS;
 
@@ -32,6 +35,8 @@ enum {
 };
 // clang-format on
 
+enum { PLACED, AT, NKEPT = AT + 3 };    // in the fix that keeps them
+
 static constexpr int PER_OCTAVE = 64, OCTAVES = 40;    // bins for distances from the plane
 static constexpr int NBINS = 4096;                     // bins for coordinates across the axis
 static constexpr double TAIL = 0.01;                   // share of the particles in each tail
@@ -42,10 +47,10 @@ static constexpr double ONE_SIDED = 0.01;              // a plate with less on o
 
 /* ---------------------------------------------------------------------- */
 
-ComputeHVIHole::ComputeHVIHole(LAMMPS *lmp, int narg, char **arg) :
+ComputeHVIHole::ComputeHVIHole(LAMMPS *lmp, int narg, char **arg, bool keeps) :
     ComputeHVIMatter(lmp, narg, arg), axis(-1), sectors(36), center{NAN, NAN}, plane(NAN),
     thickness(0.0), dr(0.0), fill(0.5), reference(0.0), is_away(false), placed(false),
-    warned_open(false), warned_away(false), warned_coarse(false), warned_dr(false)
+    id_fix(nullptr), warned_open(false), warned_away(false), warned_coarse(false), warned_dr(false)
 {
   if (domain->dimension != 3)
     error->all(FLERR, "Compute hvi/hole needs a three-dimensional simulation");
@@ -102,12 +107,25 @@ ComputeHVIHole::ComputeHVIHole(LAMMPS *lmp, int narg, char **arg) :
   across[1] = (axis == 2) ? 1 : 2;
 
   vector = new double[size_vector];
+
+  // what a restart file says is of another place if the command has been given another one
+
+  if (!keeps) return;
+  id_fix = utils::strdup(std::string(id) + "_COMPUTE_STORE");
+  const double *const kept =
+      dynamic_cast<FixStoreGlobal *>(
+          modify->add_fix(fmt::format("{} all STORE/GLOBAL {} 1", id_fix, (int) NKEPT)))
+          ->vstore;
+  placed =
+      kept[PLACED] != 0.0 && kept[AT] == center[0] && kept[AT + 1] == center[1] && kept[AT + 2] == plane;
 }
 
 /* ---------------------------------------------------------------------- */
 
 ComputeHVIHole::~ComputeHVIHole()
 {
+  if (id_fix && modify->get_fix_by_id(id_fix)) modify->delete_fix(id_fix);
+  delete[] id_fix;
   delete[] vector;
 }
 
@@ -116,6 +134,18 @@ ComputeHVIHole::~ComputeHVIHole()
 void ComputeHVIHole::init()
 {
   warned_open = warned_away = warned_coarse = warned_dr = false;
+  keep();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHVIHole::keep() const
+{
+  if (!id_fix) return;
+  const auto *const fix = dynamic_cast<FixStoreGlobal *>(modify->get_fix_by_id(id_fix));
+  if (!fix) error->all(FLERR, "Compute hvi/hole: the fix {} that it made is gone", id_fix);
+  const double kept[NKEPT] = {placed ? 1.0 : 0.0, center[0], center[1], plane};
+  std::copy(kept, kept + NKEPT, fix->vstore);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -130,6 +160,7 @@ void ComputeHVIHole::compute_vector()
   const bool found_plate = find_extent();
   if (placed) is_away = false;    // it has been there, and flies
   placed = placed || (found_plate && !is_away);
+  keep();
   if (is_away && comm->me == 0 && !warned_away) {
     error->warning(
         FLERR,

@@ -40,11 +40,14 @@ namespace LAMMPS_NS {
 
 class ComputeHVIHole : public ComputeHVIMatter {
  public:
-  ComputeHVIHole(class LAMMPS *, int, char **);
+  // keeps: in restart files, that a plate has been there; a compute that LAMMPS does not know keeps nothing
+
+  ComputeHVIHole(class LAMMPS *, int, char **, bool keeps = true);
   ~ComputeHVIHole() override;
   void init() override;
   void compute_vector() override;
   double memory_usage() override;
+  void say_placed() { placed = true; }    // a plate has been there, as others know
 
  private:
   struct Particle {
@@ -58,6 +61,7 @@ class ComputeHVIHole : public ComputeHVIMatter {
   double center[2], plane, thickness, dr, fill, reference;
   bool is_away;    // from the centre, or from the plane
   bool placed;     // a plate has been there
+  char *id_fix;    // that keeps it, with the place that the command gives; null: none does
   bool warned_open, warned_away, warned_coarse, warned_dr;
 
   // the plate's layer; all but the particles is the same on all ranks
@@ -73,6 +77,7 @@ class ComputeHVIHole : public ComputeHVIMatter {
   std::vector<int64_t> mass;
   HVI::Plate map;
 
+  void keep() const;
   void find_layer();
   bool find_extent();
   void make_map(double);

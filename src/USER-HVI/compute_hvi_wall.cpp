@@ -29,6 +29,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -118,12 +119,13 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
   memory->create(array, size_array_rows, NCOLUMNS, "hvi/wall:array");
 
   if (reach > 0.0) {
-    auto make = [this](const char *what, const std::vector<std::string> &more, auto *none) {
+    auto make = [this](const char *what, const std::vector<std::string> &more, auto *none,
+                       auto... how) {
       using Style = std::remove_pointer_t<decltype(none)>;
       std::vector<std::string> words = command_of(what, more);
       std::vector<char *> args;
       for (std::string &word : words) args.push_back(word.data());
-      return std::make_unique<Style>(this->lmp, (int) args.size(), args.data());
+      return std::make_unique<Style>(this->lmp, (int) args.size(), args.data(), how...);
     };
     const std::string name(1, 'x' + axis);
     auto text = [](double value) {
@@ -142,8 +144,8 @@ ComputeHVIWall::ComputeHVIWall(LAMMPS *lmp, int narg, char **arg) :
       all.insert(all.end(), {"thickness", text(BIG)});
       w.cloud =
           make("hvi/cloud", {"axis", name, "plane", text(w.rear)}, (ComputeHVICloud *) nullptr);
-      w.hole = make("hvi/hole", all, (ComputeHVIHole *) nullptr);
-      w.plane = make("hvi/hole", where, (ComputeHVIHole *) nullptr);
+      w.hole = make("hvi/hole", all, (ComputeHVIHole *) nullptr, false);
+      w.plane = make("hvi/hole", where, (ComputeHVIHole *) nullptr, false);
     }
   }
 
@@ -282,6 +284,7 @@ void ComputeHVIWall::init()
 
   check_walls();
   if (!fragment) return;
+  fragment->choose(nullptr, FixHVIJohnsonCook::find(lmp) ? 1 : 0);
   fragment->init();
   for (Wall &w : walls) {
     w.start.clear();    // commands between runs may have changed it
@@ -291,28 +294,45 @@ void ComputeHVIWall::init()
 }
 
 /* ----------------------------------------------------------------------
-   by the places that particles had first: a wall in other units is none
+   by the places that particles had first: a wall in other units is none.  What stood where its hole is
+   looked for is the wall, however far it has gone since.
 ------------------------------------------------------------------------- */
 
 void ComputeHVIWall::check_walls() const
 {
   const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
-  std::vector<int> in_place(walls.size(), 0);
+  enum { LOWEST, HIGHEST = LOWEST + 2, NENDS = HIGHEST + 2 };    // across the axis; less the lowest
+  std::vector<std::array<double, NENDS>> ends(walls.size(), {-BIG, -BIG, -BIG, -BIG});
   for (int i = 0; i < atom->nlocal; i++)
     for (size_t k = 0; k < walls.size(); k++) {
-      const double s = first->astore[i][axis], thickness = walls[k].rear - walls[k].front;
-      if (walls[k].owns(atom->type[i]) && s > walls[k].front - thickness &&
-          s < walls[k].rear + thickness)
-        in_place[k] = 1;
+      const double *const x0 = first->astore[i];
+      const double s = x0[axis], thickness = walls[k].rear - walls[k].front;
+      if (!walls[k].owns(atom->type[i]) || !(s > walls[k].front - thickness) ||
+          !(s < walls[k].rear + thickness))
+        continue;
+      for (int d = 0; d < 2; d++) {
+        ends[k][LOWEST + d] = MAX(ends[k][LOWEST + d], -x0[across[d]]);
+        ends[k][HIGHEST + d] = MAX(ends[k][HIGHEST + d], x0[across[d]]);
+      }
     }
-  MPI_Allreduce(MPI_IN_PLACE, in_place.data(), in_place.size(), MPI_INT, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, ends.data(), NENDS * ends.size(), MPI_DOUBLE, MPI_MAX, world);
   for (size_t k = 0; k < walls.size(); k++) {
-    if (!in_place[k])
+    if (ends[k][LOWEST] == -BIG)
       error->all(
           FLERR,
           "Compute hvi/wall: no particle of wall {} was near its faces at {} and {} along {}: "
           "are they in other units?",
           k + 1, walls[k].front, walls[k].rear, "xyz"[axis]);
+    bool is_aside = false;
+    for (int d = 0; d < 2; d++) {
+      const double lo = -ends[k][LOWEST + d], hi = ends[k][HIGHEST + d];
+      const double struck = walls[k].struck[d];
+      is_aside = is_aside || struck < 2.0 * lo - hi || struck > 2.0 * hi - lo;
+    }
+    if (fragment && !is_aside) {
+      walls[k].hole->say_placed();
+      walls[k].plane->say_placed();
+    }
     for (int t = walls[k].node_lo; t <= walls[k].node_hi; t++)
       if (t > 0 && !(mesh && mesh->is_node(t)))
         error->all(

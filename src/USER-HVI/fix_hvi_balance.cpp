@@ -93,6 +93,7 @@ void FixHVIBalance::init()
       !modify->get_fix_by_style("^balance$").empty())
     error->all(FLERR, "Fix hvi/balance beside another fix that balances: one is enough");
   store = FixHVIStore::find(lmp);
+  looked_at = -1;    // each run looks at its start
 }
 
 /* ---------------------------------------------------------------------- */

@@ -240,6 +240,7 @@ void FixHVILedger::setup_pre_exchange()
 void FixHVILedger::pre_exchange()
 {
   see_moves();
+  held.look();
   let_go(update->dt);
 }
 
@@ -249,8 +250,7 @@ void FixHVILedger::let_go(double dt)
   const bigint nleft = leavers.pick(output->thermo->lostflag != Thermo::ERROR);
   if (nleft == 0) return;
 
-  held.admit();
-  const HVILeavers::Account left = leavers.take_out(dt, held.bits());
+  const HVILeavers::Account left = leavers.take_out(dt);
   entry[LEFT] += left.energy;
   for (int k = 0; k < 3; k++) entry[LEFT_PX + k] += left.momentum[k];
   entry[LEFT_MASS] += left.mass;
@@ -262,7 +262,6 @@ void FixHVILedger::let_go(double dt)
 
   if (comm->me == 0) entry[BONDS_LEFT] += left.nrecords * (force->newton_bond ? 1.0 : 0.5);
   count_erased(left.nrecords);
-  held.take_out(left.clamped);
 
   if (comm->me == 0 && output->thermo->lostflag == Thermo::WARN)
     error->warning(FLERR, "{} particles left the box at step {}", nleft, update->ntimestep);
@@ -302,9 +301,11 @@ void FixHVILedger::totals(double *sum)
 
 /* ---------------------------------------------------------------------- */
 
+// bodies at rest, or none yet, are no start: the energy that is compared with comes later
+
 const double *FixHVILedger::first(const double *now)
 {
-  if (!start_set) {
+  if (!start_set || start[START_ENERGY] == 0.0) {
     start_set = 1;
     memcpy(start, now, sizeof(start));
   }

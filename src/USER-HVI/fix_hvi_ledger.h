@@ -101,7 +101,7 @@ class FixHVILedger : public Fix {
   void clamp(int groupbits) { held.watch(groupbits); }    // moved by more than pairs and bonds
   void totals(double *sum);                               // the NENTRY entries, summed over ranks
   enum { START_ENERGY, START_PX, START_PY, START_PZ, START_MASS, NSTART };
-  const double *first(const double *now);    // the first totals ever seen, also across restarts
+  const double *first(const double *now);    // the first totals with energy, also across restarts
 
  private:
   bool later = false;    // walls that put particles back have their turn after this fix

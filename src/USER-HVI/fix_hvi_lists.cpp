@@ -50,7 +50,8 @@ static bool making = false;    // else it stands in an input, or goes for good
 FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), has_rows(false), moved(nullptr), going(nullptr),
     nmax(0), farthest{}, beyond{}, unseen{}, delay(0), relative(true), ahead(false), made(0),
-    next(0), looked(0), known(false), leaving(false), put{-1, 0.0, -1.0}, given{0, 0.0, 0.0}
+    next(0), looked(0), known(false), leaving(false),
+    put_back(false), put{-1, 0.0, -1.0}, given{0, 0.0, 0.0}
 {
   if (!making)
     error->all(FLERR, "Fix hvi/lists is made by pair styles and cannot be given in an input");
@@ -63,8 +64,8 @@ FixHVILists::FixHVILists(LAMMPS *lmp, int narg, char **arg) :
 
 FixHVILists::~FixHVILists()
 {
-  if (!making) HVI::run_anew(update);       // in an init() another takes its place
-  if (neighbor) FixHVILists::post_run();    // also if an error has ended the run
+  if (!making) HVI::run_anew(update);    // in an init() another takes its place
+  if (neighbor) give_back();             // also if an error has ended the run
   memory->destroy(moved);
   memory->destroy(going);
 }
@@ -245,6 +246,7 @@ void FixHVILists::setup_pre_neighbor()
 
 void FixHVILists::pre_neighbor()
 {
+  put_back = false;
   give_back_sorting();
   if (ahead && !in_charge()) return;    // nobody else asks for the cells
   made = update->ntimestep;
@@ -290,17 +292,36 @@ void FixHVILists::pre_neighbor()
 void FixHVILists::setup(int /*vflag*/)
 {
   if (!in_charge()) {
-    post_run();
+    give_back();
     return;
   }
   if (neighbor->delay != NEVER) delay = neighbor->delay;
   neighbor->delay = NEVER;
 }
 
-void FixHVILists::post_run()
+void FixHVILists::give_back()
 {
   set_bins(0.0, 0.0);
   if (neighbor->delay == NEVER) neighbor->delay = delay;
+}
+
+/* ----------------------------------------------------------------------
+   commands between runs look for particles in the box, where the last step of a run has put them unless fix halt or
+   a timer has ended it: lists and ghosts are then those of other places
+------------------------------------------------------------------------- */
+
+void FixHVILists::post_run()
+{
+  const bool was_in_charge = neighbor->delay == NEVER;
+  give_back();
+  if (!was_in_charge || !strays()) return;
+  domain->pbc();
+  put_back = true;
+  atom->nghost = 0;
+  if (atom->map_style != Atom::MAP_NONE) {
+    atom->map_init();
+    atom->map_set();
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -316,6 +337,7 @@ void FixHVILists::post_integrate()
       next = update->ntimestep;
     }
   }
+  if (put_back) next_reneighbor = update->ntimestep;
   if (neighbor->delay != NEVER) return;
 
   // commands between runs look for particles in the box

@@ -77,6 +77,7 @@ class FixHVILists : public Fix {
   bigint made, next, looked;    // step when lists were made, are looked at next, were looked at
   bool known;                   // no particle has come since lists were made
   bool leaving;                 // some particle is to be lost
+  bool put_back;                // particles have been put into the box since lists were made
 
   struct Bins {
     int wide;    // neighbor->binsizeflag
@@ -87,6 +88,7 @@ class FixHVILists : public Fix {
   void check_box(const double *length, double cut) const;
   double least_bins(bool shrinks) const;
   void give_back_sorting();
+  void give_back();
   void measure();
   bool strays() const;
   void set_bins(double least, double least_sort);

@@ -19,6 +19,7 @@
 #include "memory.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -29,13 +30,13 @@ using MathExtra::dot3;
 
 static constexpr double NEWCOMER = std::numeric_limits<double>::infinity();
 
-enum { WORK, IMPULSE };    // in the book
+enum { WORK, IMPULSE, N = IMPULSE + 3 };    // in the book; of a particle: kinetic energy, momentum
 
 /* ---------------------------------------------------------------------- */
 
 HVIClamps::HVIClamps(LAMMPS *lmp, double *book_in) :
     Pointers(lmp), book(book_in), clampbit(0), dt(0.0), finternal(nullptr), xold(nullptr),
-    dx(nullptr), nmax(0), newcomers(false), state()
+    dx(nullptr), had(nullptr), nmax(0), newcomers(false)
 {
 }
 
@@ -44,6 +45,7 @@ HVIClamps::~HVIClamps()
   memory->destroy(finternal);
   memory->destroy(xold);
   memory->destroy(dx);
+  memory->destroy(had);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -57,8 +59,11 @@ void HVIClamps::watch(int groupbits)
 void HVIClamps::begin()
 {
   if (!clampbit) return;
-  state = measure();
-  for (int i = 0; i < atom->nlocal; i++) dx[i][0] = dx[i][1] = dx[i][2] = 0.0;
+  const int held = embedded();
+  for (int i = 0; i < atom->nlocal; i++) {
+    find_state(i, held, had[i]);
+    dx[i][0] = dx[i][1] = dx[i][2] = 0.0;
+  }
   newcomers = false;
 }
 
@@ -68,6 +73,7 @@ void HVIClamps::post_integrate()
   dt = update->dt;
   for (int i = 0; i < atom->nlocal; i++)
     for (int k = 0; k < 3 && !is_newcomer(i); k++) dx[i][k] = atom->x[i][k] - xold[i][k];
+  look();
   book_half();
 }
 
@@ -84,11 +90,23 @@ void HVIClamps::see_forces(double dt_in)
 void HVIClamps::end_of_step()
 {
   if (!clampbit) return;
-  const State now = measure();
-  book[WORK] += now.energy - state.energy;
-  for (int k = 0; k < 3; k++) book[IMPULSE + k] += now.momentum[k] - state.momentum[k];
-  state = now;
+  look();
   if (atom->nlocal) memcpy(&xold[0][0], &atom->x[0][0], 3 * sizeof(double) * atom->nlocal);
+}
+
+void HVIClamps::look()
+{
+  if (!clampbit) return;
+  const int held = embedded();
+  double got[N] = {0.0};
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (is_newcomer(i)) continue;
+    double now[N];
+    find_state(i, held, now);
+    for (int n = 0; n < N; n++) got[n] += now[n] - had[i][n];
+    memcpy(had[i], now, sizeof(now));
+  }
+  for (int n = 0; n < N; n++) book[n] += got[n];
 }
 
 // that came in this step and is not admitted yet
@@ -123,34 +141,29 @@ void HVIClamps::add(int i)
 
 void HVIClamps::admit()
 {
-  if (!clampbit || !newcomers) return;
+  if (!newcomers) return;
   newcomers = false;
+  const int held = embedded();
   for (int i = 0; i < atom->nlocal; i++) {
     if (dx[i][0] != NEWCOMER) continue;
     for (int k = 0; k < 3; k++) dx[i][k] = dt * atom->v[i][k];
-    if (atom->mask[i] & clampbit) count_in(i, state);
+    find_state(i, held, had[i]);
   }
-}
-
-void HVIClamps::take_out(const State &left)
-{
-  state.energy -= left.energy;
-  for (int k = 0; k < 3; k++) state.momentum[k] -= left.momentum[k];
 }
 
 void HVIClamps::hand_over(int i, double mass)
 {
   if (!(atom->mask[i] & clampbit)) return;
   const double *const v = atom->v[i];
-  state.energy += 0.5 * force->mvv2e * mass * dot3(v, v);
+  had[i][WORK] += 0.5 * force->mvv2e * mass * dot3(v, v);
   for (int k = 0; k < 3; k++) {
-    state.momentum[k] += mass * v[k];
+    had[i][IMPULSE + k] += mass * v[k];
     if (mass > 0.0) dx[i][k] = update->dt * v[k];
   }
 }
 
 /* ----------------------------------------------------------------------
-   the displacement of a step outlives the migration in the middle of it
+   the displacement of a step, and what particles had, outlive the migration in the middle of it
 ------------------------------------------------------------------------- */
 
 void HVIClamps::grow(int n)
@@ -160,47 +173,52 @@ void HVIClamps::grow(int n)
     memory->grow(*array, n, 3, "hvi/ledger:clamps");
     if (n > nmax) memset(&(*array)[nmax][0], 0, 3 * sizeof(double) * (n - nmax));
   }
+  memory->grow(had, n, N, "hvi/ledger:clamps");
+  if (n > nmax) memset(had[nmax], 0, N * sizeof(double) * (n - nmax));
   nmax = n;
 }
 
 void HVIClamps::copy(int i, int j)
 {
-  if (clampbit) memcpy(dx[j], dx[i], SENT * sizeof(double));
+  if (!clampbit) return;
+  memcpy(dx[j], dx[i], 3 * sizeof(double));
+  memcpy(had[j], had[i], N * sizeof(double));
 }
 
 int HVIClamps::pack(int i, double *buf) const
 {
   if (!clampbit) return 0;
-  memcpy(buf, dx[i], SENT * sizeof(double));
+  memcpy(buf, dx[i], 3 * sizeof(double));
+  memcpy(buf + 3, had[i], N * sizeof(double));
   return SENT;
 }
 
 int HVIClamps::unpack(int i, const double *buf)
 {
   if (!clampbit) return 0;
-  memcpy(dx[i], buf, SENT * sizeof(double));
+  memcpy(dx[i], buf, 3 * sizeof(double));
+  memcpy(had[i], buf + 3, N * sizeof(double));
   newcomers = newcomers || dx[i][0] == NEWCOMER;
   return SENT;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   of a clamped particle; those in elements have nothing of their own: what they are given when these fail is no
+   work of clamps
+------------------------------------------------------------------------- */
 
-void HVIClamps::count_in(int i, State &s) const
-{
-  const double *const v = atom->v[i];
-  const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
-  s.energy += 0.5 * force->mvv2e * m * dot3(v, v);
-  for (int k = 0; k < 3; k++) s.momentum[k] += m * v[k];
-}
-
-// particles in elements have nothing of their own: what they are given when these fail is no work of clamps
-
-HVIClamps::State HVIClamps::measure() const
+int HVIClamps::embedded() const
 {
   const FixHVIStore *const store = FixHVIStore::find(lmp);
-  const int embedded = store ? store->embedded : 0;
-  State s = {0.0, {0.0, 0.0, 0.0}};
-  for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & clampbit) && !(atom->mask[i] & embedded)) count_in(i, s);
-  return s;
+  return store ? store->embedded : 0;
+}
+
+void HVIClamps::find_state(int i, int held, double *state) const
+{
+  std::fill_n(state, +N, 0.0);
+  if (!(atom->mask[i] & clampbit) || (atom->mask[i] & held)) return;
+  const double *const v = atom->v[i];
+  const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+  state[WORK] = 0.5 * force->mvv2e * m * dot3(v, v);
+  for (int k = 0; k < 3; k++) state[IMPULSE + k] = m * v[k];
 }

@@ -26,10 +26,6 @@ namespace LAMMPS_NS {
 
 class HVIClamps : protected Pointers {
  public:
-  struct State {    // of the clamped particles, on this rank
-    double energy, momentum[3];
-  };
-
   HVIClamps(class LAMMPS *, double *book);    // where work and impulse are added up, 4 numbers
   ~HVIClamps() override;
 
@@ -41,17 +37,16 @@ class HVIClamps : protected Pointers {
   void see_forces(double dt);    // complete, and untouched by other fixes
   void end_of_step();
 
+  void look();        // what clamped particles have got since the last look
   void add(int i);    // a particle that has come
-  void admit();       // those that have, before they are counted
-  void take_out(const State &);
   void hand_over(int i, double mass);
 
-  static constexpr int SENT = 3;    // numbers that go along with a particle
+  static constexpr int SENT = 7;    // numbers that go along with a particle
   void grow(int nmax);
   void copy(int i, int j);
   int pack(int i, double *buf) const;
   int unpack(int i, const double *buf);
-  double memory_usage() const { return 9.0 * nmax * sizeof(double); }
+  double memory_usage() const { return 13.0 * nmax * sizeof(double); }
 
  private:
   double *const book;
@@ -59,14 +54,15 @@ class HVIClamps : protected Pointers {
   double dt;              // length of the step in progress, 0 at the start of a run
   double **finternal;     // forces before other fixes change them
   double **xold, **dx;    // positions before the step in progress, displacement in it
-  int nmax;               // their length
-  bool newcomers;         // there may be particles that came in this step
-  State state;            // at the end of the last step
+  double **had;      // kinetic energy and momentum at the last look; what goes takes them along
+  int nmax;          // their length
+  bool newcomers;    // there may be particles that came in this step
 
   void book_half();
+  void admit();
   bool is_newcomer(int i) const;
-  void count_in(int, State &) const;
-  State measure() const;
+  int embedded() const;
+  void find_state(int i, int embedded, double *state) const;
 };
 
 }    // namespace LAMMPS_NS

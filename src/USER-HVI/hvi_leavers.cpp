@@ -112,7 +112,7 @@ void HVILeavers::fraction_of_box(double distance, double *fraction) const
    those at a full step if dt is 0
 ------------------------------------------------------------------------- */
 
-HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
+HVILeavers::Account HVILeavers::take_out(double dt_in)
 {
   dt = dt_in;
   Account a = {};
@@ -122,7 +122,6 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
     const double *const v = atom->v[i];
     const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
     const double ke = 0.5 * force->mvv2e * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    const bool clamped = atom->mask[i] & clampbit;
     a.energy += ke;
     if (atom->esph_flag) a.energy += atom->esph[i];
     for (const auto *carrier : carriers) {
@@ -130,11 +129,7 @@ HVILeavers::Account HVILeavers::take_out(double dt_in, int clampbit)
       a.plastic += carrier->plastic_work(i);
       a.voids += carrier->void_work(i);
     }
-    if (clamped) a.clamped.energy += ke;
-    for (int k = 0; k < 3; k++) {
-      a.momentum[k] += m * v[k];
-      if (clamped) a.clamped.momentum[k] += m * v[k];
-    }
+    for (int k = 0; k < 3; k++) a.momentum[k] += m * v[k];
     a.mass += m;
     a.count += 1.0;
   }
@@ -191,11 +186,10 @@ void HVILeavers::share(bool bonded)
                          atom->mask[i],
                          atom->molecule ? atom->molecule[i] : 0});
       rank.push_back(p);
-      for (int n = 0; bonded && n < atom->num_bond[i]; n++)
-        if (atom->bond_type[i][n] > 0) {
-          bonds.push_back({atom->tag[i], atom->bond_atom[i][n], atom->bond_type[i][n]});
-          bond_rank.push_back(p);
-        }
+      for (int n = 0; bonded && n < atom->num_bond[i]; n++) {
+        bonds.push_back({atom->tag[i], atom->bond_atom[i][n], atom->bond_type[i][n]});
+        bond_rank.push_back(p);
+      }
     }
   }
   out = HVI::deliver(world, leavers, rank);
@@ -296,7 +290,7 @@ void HVILeavers::fractional(const double *x, double *s) const
 
 /* ----------------------------------------------------------------------
    bonds by record: with newton_bond off a bond has one at either end, each
-   worth half.  The atom map may be gone: fix balance migrates particles first.
+   worth half; one that delete_bonds has turned off has no energy.  The atom map may be gone: fix balance migrates particles first.
 ------------------------------------------------------------------------- */
 
 double HVILeavers::tear_bonds(const HVITorn &laws, bigint &nrecords)
@@ -337,6 +331,7 @@ double HVILeavers::tear_bonds(const HVITorn &laws, bigint &nrecords)
     const auto other = leaver.find(b.partner);
     const auto it = stayer.find(b.partner);
     nrecords_here += own;
+    if (b.type <= 0) continue;
     if (other != leaver.end()) {
       if (own) energy += share * spring(laws, b.type, other->second->x, other->second->v, l);
     } else if (it != stayer.end())

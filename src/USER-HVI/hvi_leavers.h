@@ -9,7 +9,6 @@
 #ifndef LMP_HVI_LEAVERS_H
 #define LMP_HVI_LEAVERS_H
 
-#include "hvi_clamps.h"
 #include "hvi_excluded.h"
 #include "pointers.h"
 
@@ -31,7 +30,6 @@ class HVILeavers : protected Pointers {
     double energy;    // kinetic, internal, of contacts and bonds torn apart
     double momentum[3], mass, count;
     double plastic, voids;               // work, parts of the internal energy
-    HVIClamps::State clamped;            // of leavers in the clamped groups
     bigint nrecords;                     // of bonds: one or, newton_bond off, two a bond
     std::vector<std::string> unknown;    // styles whose energy is not in it
   };
@@ -39,7 +37,7 @@ class HVILeavers : protected Pointers {
   HVILeavers(class LAMMPS *lmp) : Pointers(lmp), dt(0.0), reach(0.0), number(0) {}
 
   bigint pick(bool at_faces);    // how many, on all ranks
-  Account take_out(double dt, int clampbit);
+  Account take_out(double dt);
 
  private:
   struct Leaver {

@@ -13,11 +13,16 @@
 #include "hvi_restart.h"
 
 #include "atom.h"
+#include "atom_vec.h"
 #include "comm.h"
 #include "error.h"
+#include "fix.h"
+#include "modify.h"
 #include "utils.h"
 
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 using namespace LAMMPS_NS;
 
@@ -74,6 +79,20 @@ void check_types(LAMMPS *lmp)
                       "is from is damaged, take "
                       "another one",
                       atom->tag[i], atom->type[i], atom->ntypes);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void check_masses(LAMMPS *lmp)
+{
+  if (!lmp->atom->rmass) return;
+  const std::vector<std::string> &sent = lmp->atom->avec->fields_border;
+  if (std::find(sent.begin(), sent.end(), "rmass") != sent.end()) return;
+  for (const Fix *const fix : lmp->modify->get_fix_by_style("^property/atom"))
+    if (fix->comm_border) return;
+  lmp->error->all(FLERR,
+                  "Masses of particles are not those of their ghosts: use fix ID all "
+                  "property/atom rmass ghost yes");
 }
 
 /* ---------------------------------------------------------------------- */

@@ -33,6 +33,10 @@ double *stored_at(LAMMPS_NS::Atom *, int i, int nth);
 
 void check_types(LAMMPS_NS::LAMMPS *);
 
+// an error if masses of particles do not go to ghosts
+
+void check_masses(LAMMPS_NS::LAMMPS *);
+
 /* ----------------------------------------------------------------------
    A section of ours in a restart file, after the number of its form, its size and its checksum: one of another form, or
    with a byte changed, is an error.  Values come back in the order in which they were put, on all ranks.

@@ -71,6 +71,7 @@ PairHVIContact::~PairHVIContact()
 void PairHVIContact::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
+  if (!made.empty()) check_reach();
 
   if (uniform) {
     if (force->newton_pair)
@@ -398,6 +399,7 @@ void PairHVIContact::init_style()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Pair style hvi/contact does not support run_style respa");
   HVI::check_types(lmp);
+  HVI::check_masses(lmp);
 
   neighbor->add_request(this);
   if (!force->pair_match("^hvi/sph$", 0)) {
@@ -408,6 +410,7 @@ void PairHVIContact::init_style()
     FixHVILists::make(lmp, all, true);
   }
   uniform = -1;
+  made.clear();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -422,6 +425,7 @@ double PairHVIContact::init_one(int i, int j)
 
   epsilon[j][i] = epsilon[i][j];
   sigma[j][i] = sigma[i][j];
+  made.emplace_back(i, j);
   law[i][j] = law[j][i] = HVI::Contact::make(epsilon[i][j], sigma[i][j], prefactor);
 
   if (uniform < 0) {
@@ -434,20 +438,21 @@ double PairHVIContact::init_one(int i, int j)
 }
 
 /* ----------------------------------------------------------------------
-   fix adapt: lists and ghosts are those of pair_coeff
+   fix adapt calls init_one(), also through pair style hybrid: lists and ghosts are those of the start of the run
 ------------------------------------------------------------------------- */
 
-void PairHVIContact::reinit()
+void PairHVIContact::check_reach()
 {
-  Pair::reinit();
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++)
-      if (law[i][j].cutsq > cutsq[i][j] * (1.0 + 1.0e-12))
-        error->all(FLERR,
-                   "Pair style hvi/contact: contacts of types {} and {} reach farther than those "
-                   "of pair_coeff, as sigma has grown: give pair_coeff the largest sigma, and let "
-                   "fix adapt make it smaller",
-                   i, j);
+  for (const auto &[i, j] : made) {
+    const double listed = std::sqrt(neighbor->cutneighsq[i][j]) - neighbor->skin;
+    if (std::sqrt(law[i][j].cutsq) > listed + 1.0e-12 * neighbor->cutneighmax)
+      error->all(FLERR,
+                 "Pair style hvi/contact: contacts of types {} and {} reach farther than those "
+                 "of pair_coeff, as sigma has grown: give pair_coeff the largest sigma, and let "
+                 "fix adapt make it smaller",
+                 i, j);
+  }
+  made.clear();
 }
 
 /* ---------------------------------------------------------------------- */

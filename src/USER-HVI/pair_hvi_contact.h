@@ -20,6 +20,9 @@ PairStyle(hvi/contact,PairHVIContact);
 #include "hvi_timestep.h"
 #include "pair.h"
 
+#include <utility>
+#include <vector>
+
 namespace LAMMPS_NS {
 
 class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::EnergyCarrier {
@@ -32,7 +35,6 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::Ener
   void coeff(int, char **) override;
   void init_style() override;
   double init_one(int, int) override;
-  void reinit() override;
   void setup() override;
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
@@ -55,7 +57,8 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::Ener
   double **epsilon, **sigma;
   double **widest;    // sigma of pair_coeff
   HVI::Contact **law;
-  bool looked;    // for pairs that are deep in each other
+  std::vector<std::pair<int, int>> made;    // types whose law is new since the last forces
+  bool looked;                              // for pairs that are deep in each other
 
   // pairs in touch, a batch of them; NROW at most from a row of the list before there is a look at
   // whether the batch is full
@@ -67,6 +70,7 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::Ener
   };
 
   void allocate();
+  void check_reach();
   bool one_mass() const;
   void tighten_uniform(HVI::ContactTimes &) const;
   void tighten_each(HVI::ContactTimes &) const;

@@ -495,6 +495,7 @@ void PairHVISPH::init_style()
                "Pair style hvi/sph needs units in which force = mass * acceleration: "
                "si, cgs, micro, nano or lj");
   HVI::check_types(lmp);
+  HVI::check_masses(lmp);
   if (store && modify->nfix_restart_peratom > 0) store->has_forgotten = true;
   if (store && modify->nfix_restart_peratom > 0) store->has_forgotten = true;
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import solid_scenes
 from dumps import read_dump
+from scenes import books
 
 MATERIAL = solid_scenes.MATERIAL.format(sigma_p=3.0)
 HEAD = """units lj
@@ -81,6 +82,24 @@ def test_where_particles_are_between_runs(lmp, blocks, words, nranks):
     r = lmp(text.replace("pair_coeff * *", "pair_coeff 1 1").replace("create_box 2", "create_box 1").replace("group lower", "# group lower") + f"fix sph all hvi/sph {words}\nfix jc all hvi/johnson-cook spall none damage no\n"
             "velocity all set 0 0 1.0\ntimestep 0.05\nrun 260\nregion low block INF INF INF INF 0 10\nvariable n equal count(all,low)\nprint \"there: $(v_n)\"\n", nranks=nranks)
     assert int(re.search(r"^there: (\d+)", r.log, re.M)[1]) == 16 * 9
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("stop", ["fix stop all halt 1 v_late > 0.5 error continue", "timer timeout 0:00:01 every 28"])
+def test_where_particles_are_after_a_run_that_is_stopped(lmp, stop, nranks):
+    """in the periodic box; what goes on from there, without a setup, is the run that was not stopped"""
+    text = "processors * * 1\n" + GRAINS
+    for old, new in (("boundary p p f", "boundary p p p"), ("hvi/contact", "hvi/contact lists relative"), ("block 0 4 0 4 0 20", "block 0 8 0 8 0 10"), ("block 0 4 0 4 2 8", "block 2 6 2 6 0 8.1"),
+                     ("set 0 0 -0.5", "set 0 0 50\nvelocity all ramp vx 1 -1 x 2 6 sum yes"), ("0.005", "0.01")):
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    text += "fix nve all nve\nthermo_style custom step ke\nthermo_modify norm no format float %.15g\nvariable late equal step>=28\n"
+    r = lmp(text + stop + "\nrun 100000000\ntimer timeout off\nregion whole block 0 8 0 8 0 10\ngroup g region whole\nprint \"there: $(count(g)) of $(atoms)\"\n"
+            + ("unfix stop\n" if "halt" in stop else "") + "run 50 pre no\n", nranks=nranks)
+    assert re.search(r"^there: 225 of 225", r.log, re.M), re.search("^there: .*", r.log, re.M)
+    if "halt" in stop:
+        r = r.thermo, lmp(text + f"run {int(r.thermo['Step'][-1])}\n", nranks=nranks).thermo
+        assert r[0]["KinEng"][-1] == pytest.approx(r[1]["KinEng"][-1], rel=1e-9) and abs(r[1]["KinEng"][-1] - r[1]["KinEng"][0]) > 1e-3
 
 
 def test_a_piston_that_is_let_go(lmp, blocks):
@@ -169,11 +188,136 @@ def test_clamps_of_a_dynamic_group(lmp):
     assert "group zone is dynamic" in lmp(text, expect_fail=True).error
 
 
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
+def test_what_other_fixes_take_out_of_clamped_groups(lmp, nranks, newton):
+    """is no work of clamps, and shows in the total; what clamps have done to it until then stays booked"""
+    text = f"newton {newton}\n" + GRAINS.replace("boundary p p f", "boundary p p p").replace("sc 1.0", "sc 0.1").replace("set 0 0 -0.5", "set 0.3 0 1 units box") + "compute book all hvi/energy clamps all\nfix nve all nve\n{}" \
+        "region whole block INF INF INF INF INF INF\nfix take all evaporate 5 2 whole 123\nthermo_style custom step atoms c_book[*]\nthermo_modify norm no format float %.17g\nthermo 5\nrun 30\n"
+    r = lmp(text.format(""), nranks=nranks)
+    book, n = books(r.thermo), r.thermo["Atoms"]
+    assert n[0] - n[-1] == 12 and any("of the energy has gone" in w for w in r.warnings)
+    assert book["ratio"] == pytest.approx(n / n[0], rel=1e-9)
+    assert all(np.abs(book[name]).max() < 1e-9 for name in ("clamps", "jx", "jz"))
+
+    # a force of 1; particles go after the first half of each fifth kick
+
+    book = books(lmp(text.format("fix push all addforce 0 0 1\n"), nranks=nranks).thermo)
+    t = 1 + 0.005 * np.arange(0, 30, 5)  # velocity at the start of each five steps
+    kicks = [(n[:-1], t, t + 4.5 * 0.005), (n[1:], t + 4.5 * 0.005, t + 5 * 0.005)]
+    assert np.diff(book["jz"]) == pytest.approx(sum(m * (b - a) for m, a, b in kicks), rel=1e-9)
+    assert np.diff(book["clamps"]) == pytest.approx(-sum(m * (b * b - a * a) / 2 for m, a, b in kicks), rel=1e-9)
+
+
 @pytest.mark.parametrize("fix, said", [("HVI_LEDGER all hvi/ledger", "Fix hvi/ledger is made by the styles that need it"), ("HVI_STORE all hvi/store", "Fix hvi/store is made by pair style hvi/sph")])
 @pytest.mark.parametrize("begin", ["", "compute book all hvi/energy\nfix nve all nve\nrun 5\n"])
 def test_fixes_that_styles_make(lmp, fix, said, begin):
     """an input cannot give them, nor empty the books by it"""
     assert said in lmp(GRAINS + begin + f"fix {fix}\nrun 1\n", expect_fail=True).error
+
+
+# ---------------------------------------------------------------------- bonded molecules
+CUBE = "cube\n\n8 atoms\n12 bonds\n\nCoords\n\n" + "".join(f"{k + 1} {k >> 2} {k >> 1 & 1} {k & 1}\n" for k in range(8)) + "\nTypes\n\n" + "".join(f"{k + 1} 1\n" for k in range(8)) \
+    + "\nBonds\n\n" + "".join(f"{n + 1} 1 {i + 1} {j + 1}\n" for n, (i, j) in enumerate((i, i | 1 << k) for i in range(8) for k in range(3) if not i >> k & 1))
+MOLECULES = """units lj
+newton {newton}
+atom_style bond
+lattice sc 1.0
+region box block 0 32 0 32 0 40
+region plate block 0 {edge} 0 {edge} 0 {edge}/2
+boundary f f f
+create_box 2 box bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 30
+create_atoms 2 region plate
+group gone id 1:4
+delete_atoms group gone compress no
+mass * 1.0
+"""
+LAWS = """pair_style hvi/contact
+pair_coeff * * 0.1 0.890898718
+special_bonds lj/coul 1 1 1
+bond_style hvi/spring
+bond_coeff 1 4.0 1.0 1.34
+molecule cube cube.mol
+fix move all nve
+timestep 0.001
+compute pieces all hvi/fragment bonds
+thermo_style custom step atoms bonds c_pieces[1]
+"""
+DROP = "region top block 5 25 5 25 20 30\nfix drop all deposit 2 0 2 4242 region top mol cube near 2.0 vz -2 -2 vx 0 0 vy 0 0 units box\nrun 4\nunfix drop\n"
+
+
+@pytest.mark.parametrize("nranks, newton, edge", [(1, "on", 31.9), (1, "off", 5.9), (2, "on", 5.9), (3, "off", 5.9)])
+def test_molecules_that_come(lmp, tmp_path, nranks, newton, edge):
+    """bonded cubes, by fix deposit in a run, by a command after it, and after a restart; the first scene fills the arrays of particles, so that a row that is too short ends it"""
+    (tmp_path / "cube.mol").write_text(CUBE)
+    head = MOLECULES.format(newton=newton, edge=edge).replace("31.9/2", "15.9").replace("5.9/2", "2.9")
+    r = lmp(head + LAWS + DROP + "create_atoms 0 single 15 15 35 mol cube 123\nrun 2\nwrite_restart half\n", nranks=nranks)
+    plate = r.runs[0]["Atoms"][0]
+    assert [(t["Atoms"][-1] - plate, t["Bonds"][-1], t["c_pieces[1]"][-1] - plate) for t in r.runs] == [(16, 24, 2), (24, 36, 3)]
+    r = lmp("read_restart half\n" + LAWS + "create_atoms 0 single 15 15 38 mol cube 123\nrun 2\n", nranks=nranks)
+    assert r.thermo["Bonds"][-1] == 48 and r.thermo["c_pieces[1]"][-1] == plate + 4
+
+
+BALL = """units lj
+newton {newton}
+atom_style bond
+lattice sc 1.0
+region box block -10 10 -10 10 -10 10
+region ball sphere 0 0 -5.5 3
+region plate block -6 6 -6 6 0 2.5
+boundary f f f
+create_box 2 box bond/types 1 extra/bond/per/atom 6 extra/special/per/atom 30
+create_atoms 1 region ball
+create_atoms 2 region plate
+mass * 1.0
+pair_style hvi/contact
+pair_coeff * * 0.1 0.890898718
+special_bonds lj/coul 0 1 1
+create_bonds many all all 1 0.0 1.1
+special_bonds lj/coul 1 1 1
+bond_style hvi/spring
+bond_coeff 1 4.0 1.0 1.34
+thermo_modify lost ignore
+group ball type 1
+velocity ball set 0.1 0.05 5
+fix move all nve
+fix step all hvi/dt 0.1
+"""
+FREE = BALL.replace("{newton}", "on")
+
+
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "off"), (3, "on")])
+def test_molecules_by_bonds_that_are_left(lmp, nranks, newton):
+    """reset_atoms mol after a run in which bonds break: as compute hvi/fragment/atom; a plate that was cut hangs together no more"""
+    text = BALL.format(newton=newton) + "run 350\n{}reset_atoms mol all single yes\ncompute piece all hvi/fragment/atom bonds\nrun 0\nwrite_dump all custom now id mol c_piece\n"
+    cut = "region half block 0 INF INF INF -0.5 INF\ngroup half region half\ndelete_bonds half bond 1 any remove\n"
+    for commands, number in ("", 2), (cut, None):
+        r = lmp(text.format(commands), nranks=nranks)
+        now = read_dump("now", sort=True)
+        pieces = set(zip(now["mol"], now["c_piece"]))
+        assert len(pieces) == len(set(now["mol"])) == len(set(now["c_piece"])) and len(pieces) > 1, commands
+        assert number is None or int(re.findall(r"number of new molecule IDs = (\d+)", r.log)[-1]) == number
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_commands_that_find_no_bonds(lmp, nranks):
+    """LAMMPS's compute fragment/atom in a run, and lists of bonds to particles that are gone"""
+    said = "Compute stock (fragment/atom) finds no bonds of bond style hvi/spring in a run: use compute hvi/fragment/atom"
+    assert said in lmp(FREE + "compute stock all fragment/atom\nrun 0\n", nranks=nranks, expect_fail=True).error
+    r = lmp(FREE + "run 2\ngroup some id 400:405\ndelete_atoms group some compress no\nreset_atoms mol all\n", nranks=nranks, expect_fail=True)
+    assert re.search(r"there are bonds to particle 40\d, which is gone: use delete_atoms with bond yes", r.error)
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_pieces_of_before_a_command(lmp, nranks):
+    """are not those of after it, though output of the run has asked for them at this step"""
+    text = FREE + "compute f all hvi/fragment bonds\nthermo_style custom step c_f[1]\nrun 350\n{}\nwrite_dump all local now index c_f[2] c_f[9]\n"
+    lmp(text.format("velocity all set 0 0 100"), nranks=nranks)
+    assert read_dump("now")["c_f[9]"] == pytest.approx([100, 100], rel=1e-12)
+    r = lmp(text.format("delete_atoms group ball bond yes"), nranks=nranks, expect_fail=None)
+    if r.returncode:
+        assert nranks > 1 and "ghosts are not there: use run 0 first" in r.error
+    else:
+        assert list(read_dump("now")["c_f[2]"]) == [507]
 
 
 # ---------------------------------------------------------------------- ghosts
@@ -217,6 +361,31 @@ def test_pieces_in_commands_of_a_run(lmp, commands, nranks):
     else:
         now = read_dump("now")
         assert nranks == 1 and "tiled" in commands and len(set(now["c_pa"][now["type"] == 1])) == 1
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("value", ["asleep", "cost"])
+def test_inactive_particles_after_a_command_that_takes_some_away(lmp, value, nranks):
+    """those of the last forces are others"""
+    text = "units lj\natom_style sph\nboundary f f f\nlattice sc 1.0 origin 0.5 0.5 0.5\nregion box block -2 30 0 8 0 8\ncreate_box 2 box\nregion a block 16 28 0 8 0 8\nregion b block -1 3 2 6 2 6\ncreate_atoms 1 region b\n" \
+        "create_atoms 2 region a\ngroup b type 1\nmass * 1\nset group all sph/rho 1.0\npair_style hvi/sph cubic\npair_coeff * * eos linear 1.0 3.0 h 1.2\nvelocity b ramp vx 0.3 0.6 y 0 8\nfix m all hvi/sph\n" \
+        f"compute s all hvi/atom {value}\ntimestep 0.02\nrun 5\ndelete_atoms group b compress no\n{{}}write_dump all custom now id c_s\n"
+    said = "asleep or cost: a command since the last run has moved, made or taken away particles, and ghosts are not there: use run 0 first"
+    assert said in lmp(text.format(""), nranks=nranks, expect_fail=True).error
+    lmp(text.format("run 0\n"), nranks=nranks)
+    assert list(read_dump("now")["c_s"]) == 768 * [{"asleep": 1, "cost": 0.17}[value]]
+
+
+@pytest.mark.parametrize("pair", ["hvi/sph cubic", "hvi/contact"])
+def test_masses_that_ghosts_do_not_have(lmp, pair):
+    """an error; not where the atom style sends them, or the fix does"""
+    laws = {"hvi/contact": "pair_coeff * * 1.0 1.0\n", "hvi/sph cubic": "pair_coeff * * eos tait 1.0 4.0 7 h 1.2\nset group all sph/rho 1.1\nfix sph all hvi/sph\n"}[pair]
+    text = "units lj\natom_style {}\nfix p all property/atom {}\nregion box block 0 10 0 10 0 10\ncreate_box 1 box\ncreate_atoms 1 random 9 123 NULL\nmass * 1.0\nset group all mass 1.0\npair_style " + pair + "\n" + laws + "run 0\n"
+    said = "Masses of particles are not those of their ghosts: use fix ID all property/atom rmass ghost yes"
+    assert said in lmp(text.format("sph", "rmass"), expect_fail=True).error
+    assert said in lmp(text.format("sph", "rmass i_one"), nranks=2, expect_fail=True).error
+    lmp(text.format("sph", "rmass ghost yes"))
+    lmp(text.format("hybrid sph sphere", "i_one"))
 
 
 @pytest.mark.parametrize("nranks", [1, 2])

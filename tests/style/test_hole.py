@@ -386,6 +386,30 @@ thermo_modify format float %.17g
         assert np.array_equal(again.thermo[name], r.thermo[name][2:]), name
 
 
+@pytest.mark.parametrize("first, second", [(1, 1), (2, 3)])
+def test_a_plate_that_has_flown_away_before_a_restart(lmp, tmp_path, first, second):
+    """by several times its depth: its hole is that of the run that goes on; another place is far away, as it was"""
+    x = plate("sc", 3, 16, np.random.default_rng(14))
+    write_data(tmp_path / "data", x[radius(x) > 6], box=[(-30, 30), (-30, 30), (-3, 60)])
+    use = """
+compute h all hvi/hole axis z centre {} 0 plane 0 thickness 200
+fix m all nve
+timestep 1.0
+thermo 5
+thermo_style custom step c_h[1] c_h[11]
+thermo_modify format float %.17g
+"""
+    start = head("data") + "velocity all set 0 0 2\n" + use.format(0)
+    through = lmp(start + "run 20", nranks=first).thermo
+    lmp(start + "run 10\nwrite_restart restart", nranks=first)
+    again = "comm_modify cutoff 1.5\nread_restart restart\npair_style zero 1.5\npair_coeff * *\n"
+    r = lmp(again + use.format(0) + "run 10", nranks=second)
+    assert np.array_equal(r.thermo["c_h[1]"], through["c_h[1]"][2:]) and (r.thermo["c_h[11]"] == 1).all() and not any("hvi/hole" in w for w in r.warnings)
+    r = lmp(again + use.format(1) + "run 10", nranks=second)
+    assert (r.thermo["c_h[11]"] == -1).all() and any("far away from 1 0" in w for w in r.warnings)
+    assert "the fix h_COMPUTE_STORE that it made is gone" in lmp(start + "unfix h_COMPUTE_STORE\nrun 1", expect_fail=True).error
+
+
 def test_two_dimensions(lmp):
     r = lmp("dimension 2\nregion r block 0 1 0 1 -0.5 0.5\ncreate_box 1 r\nmass 1 1\n"
             "compute h all hvi/hole axis z centre 0 0 plane 0", expect_fail=True)

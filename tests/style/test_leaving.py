@@ -251,3 +251,15 @@ def test_who_is_near_is_told(lmp, lmp_exe, traffic, bonded):
     assert book["left_count"][-1] == 1 and book["bonds_left"][-1] == bonded
     assert book["left"][-1] > 4.6 and np.abs(book["ratio"] - 1).max() <= 1e-8
     assert max(got[2:]) < 64 <= min(got[:2])  # bytes of a leaver
+
+
+@pytest.mark.parametrize("newton, nranks", [("on", 1), ("off", 1), ("on", 2), ("off", 3)])
+def test_bonds_that_are_turned_off(lmp, newton, nranks):
+    """go with their particles as the others, and without energy"""
+    s = cube(4, 0.0, 0.0)
+    s.v[:, 2] = 4.0
+    s.box = np.array([[-4.0, 10.0], [-4.0, 10.0], [-4.0, 4.6]])
+    text = fly(s, 500, newton=newton)
+    on, off = (lmp(text.replace("timestep", command + "timestep"), nranks=nranks).thermo for command in ("", "delete_bonds all bond 1\n"))
+    assert off["Bonds"][0] == 144 and 0 < off["Bonds"][-1] < 100 and np.array_equal(off["Bonds"], on["Bonds"])
+    assert np.array_equal(off["Bonds"] + books(off)["bonds_left"], np.full(len(off["Bonds"]), 144.0)) and books(off)["ratio"] == pytest.approx(1.0, abs=1e-12)

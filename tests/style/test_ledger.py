@@ -175,6 +175,19 @@ def test_shows_what_is_not_booked(lmp, what):
     assert second["left"][0] == second["clamps"][0] == second["broken"][0] == 0.0
 
 
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_bodies_at_rest_are_no_start(lmp, nranks):
+    """total/initial refers to the first total that is not 0, also across a restart"""
+    s = State([[0, 0, 0], [3, 0, 0]], 0.0, [], [[-8.0, 8.0]] * 3)
+    laws = NVE + ledger() + "timestep 0.001\n"
+    begin = scene(s, "s.data", bond="bond_style none\n") + laws + "run 0\n"
+    move = "group one id 1\nvelocity one set 1 0 0\nrun 10\nvelocity one set 2 0 0\nrun 10\n"
+    for text in begin + move, begin + "write_restart half\nclear\nread_restart half\n" + PAIR + laws + move:
+        rest, one, two = (books(t) for t in lmp(text, nranks=nranks).runs)
+        assert rest["total"][0] == 0.0 and list(rest["ratio"]) == [1.0]
+        assert one["ratio"] == pytest.approx([1, 1]) and two["ratio"] == pytest.approx([4, 4]) and two["p0x"] == pytest.approx([1, 1])
+
+
 def test_shows_an_unbooked_force(lmp):
     """fix addforce without clamps: total and momentum grow by its work and impulse"""
     s = cube(3, 0.02, 0.1)
