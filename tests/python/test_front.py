@@ -563,27 +563,36 @@ def test_meshes_are_made(folder, capsys):
     assert "thickness1 0.9 mm: wall 1: method: hybrid: 5 layers" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("shape, number", [("{shape: cylinder, diameter_mm: 4, length_mm: 6, pitch_deg: 30", 1), ("{shape: cube, side_mm: 4", 4), ("{shape: hollow sphere, diameter_mm: 8, thickness_mm: 1.6", 4)])
+@pytest.mark.parametrize("shape, number", [("{shape: cylinder, diameter_mm: 2.4, length_mm: 9, pitch_deg: 60", 1), ("{shape: cube, side_mm: 4", 4), ("{shape: cube, side_mm: 4, pitch_deg: -30", 1),
+                                           ("{shape: hollow sphere, diameter_mm: 8, thickness_mm: 1.6", 4)])
 def test_real_shapes(root, lmp, tmp_path, shape, number):
-    """LAMMPS makes the body that a case asks for: its mass, its extents, a quarter of it where planes are mirrors"""
+    """LAMMPS makes the body that a case asks for: its mass, its extents, pitched ones to both sides, a quarter of it where planes are mirrors; the result has its number of particles, and a note
+    if it is not the one planned"""
     (tmp_path / "hit.yaml").write_text(REAL.replace("{diameter_mm: 6", shape).replace("[0.8, 0.66]", "[0.4]"))
     case = cases.read(tmp_path / "hit.yaml")
     made = chain.write_run(case, 0, 0.0, tmp_path / "run")
-    lmp(tmp_path / "run/in.shield", cwd=tmp_path / "run", vars={"until": 0.02})
+    log = lmp(tmp_path / "run/in.shield", cwd=tmp_path / "run", vars={"until": 0.02}).log
     frame = hvi.Dump(str(sorted((tmp_path / "run").glob("film.*.dump"))[0]))[0]
-    ball = frame.select(frame["type"] == 1)
-    assert made.images == number and number * ball.m.sum() == pytest.approx(2790 * 1e-9 * case.projectile.volume_mm3, rel=1e-6)
-    assert number * len(ball) == pytest.approx(case.projectile.volume_mm3 / 0.4**3, rel=0.1)
-    x = 1e3 * ball.x + [0, 0, case.projectile.radius_mm - 7e-3 * 0]
-    if case.projectile.shape == "cylinder":
-        c, s = math.cos(math.radians(30)), math.sin(math.radians(30))
-        along, across = c * x[:, 2] + s * x[:, 0], np.hypot(c * x[:, 0] - s * x[:, 2], x[:, 1])
-        assert abs(along).max() < 3.001 and abs(along).max() > 2.6 and 1.6 < across.max() < 2.001
-    elif case.projectile.shape == "cube":
-        assert np.allclose(abs(x).max(axis=0), 1.8, atol=0.21) and x[:, :2].min() > 0
+    ball, body = frame.select(frame["type"] == 1), case.projectile
+    assert made.images == number and number * ball.m.sum() == pytest.approx(2790 * 1e-9 * body.volume_mm3, rel=5e-6)  # a dump has six digits of a mass
+    assert number * len(ball) == pytest.approx(body.volume_mm3 / 0.4**3, rel=0.1)
+    x = 1e3 * ball.x + [0, 0, body.radius_mm]
+    c, s = math.cos(math.radians(body.pitch_deg)), math.sin(math.radians(body.pitch_deg))
+    across, y, along = c * x[:, 0] - s * x[:, 2], x[:, 1], c * x[:, 2] + s * x[:, 0]
+    if body.shape == "cylinder":
+        assert -4.501 < along.min() < -4.2 and 4.2 < along.max() < 4.501 and 0.9 < np.hypot(across, y).max() < 1.201
+    elif body.shape == "cube":
+        low = -2.001 if number == 1 else 0
+        assert all(low <= side.min() and 1.7 < side.max() < 2.001 for side in (across, y)) and -2.001 < along.min() < -1.7 and 1.7 < along.max() < 2.001
+        assert number == 4 or min((a * across + b * along).max() for a in (-1, 1) for b in (-1, 1)) > 3.45  # all edges
     else:
         r = np.linalg.norm(x, axis=1)
         assert 2.4 <= r.min() < 2.8 and 3.6 < r.max() <= 4.0
+    for text, many in ((log, len(ball)), (log.replace(f"\n{len(ball)} atoms in group ball\n", "\n50 atoms in group ball\n"), 50), ("", math.nan)):
+        (tmp_path / "run/log.lammps").write_text(text)
+        found = chain.judge(tmp_path / "run")
+        assert found["projectile_particles"] == pytest.approx(many, nan_ok=True) and ("filled" in found["rules"]) == (many == 50)
+        assert any("the projectile has 50 particles, and " in note for note in found.get("notes", [])) == (many == 50)
 
 
 @pytest.mark.parametrize("shape, quarter", [("diameter_mm: 6", True), ("shape: hollow sphere, diameter_mm: 8, thickness_mm: 1.6", True), ("shape: cube, side_mm: 4", True),

@@ -143,7 +143,7 @@ def test_rows_after_a_restart_count_once(tmp_path):
 def result(**changed):
     """of two walls of which the second holds"""
     found = {"walls": 2, "walls_reached": 2, "time_us": 30.0, "energy_ratio": 1.0, "ended_by": "event", "method": "sph", "elements_failed_without_particles": 0, "momentum_left_ratio": 0.0,
-             "conversion_heat_ratio": 0.0, "hourglass_energy_ratio": 0.0}
+             "conversion_heat_ratio": 0.0, "hourglass_energy_ratio": 0.0, "projectile_particles": 67, "projectile_particles_planned": 67}
     for k in (1, 2):
         found.update({f"wall{k}_{key}": 0 for key in ("apart_mass_mg", "apart_particles", "spall_mass_mg", "still_to_come", "missed_fraction", "missed_reach_mm", "push_percent", "bulge_m_s", "torn",
                                                       "bulge_over_thickness", "deepest_failed_layer", "rear_plastic_strain", "outer_plastic_strain", "cloud_energy_ratio")})

@@ -152,18 +152,20 @@ class Projectile:
     def regions(self, number):
         """lines of LAMMPS that define the region ball, its center R before wall 1; number: of a length or angle, as text"""
         R, z = 1e-3 * self.radius_mm, number(-1e-3 * self.radius_mm)
-        turn = f" rotate v_pitch 0 0 {z} 0 1 0" if self.pitch_deg else ""
-        lines = [("variable", f"pitch equal {number(math.radians(self.pitch_deg))}")] if self.pitch_deg else []
         if self.shape == "sphere":
             return [("region", f"ball sphere 0 0 {z} {number(R)} units box")]
         if self.shape == "hollow sphere":
             return [("region", f"outer sphere 0 0 {z} {number(R)} units box"), ("region", f"inner sphere 0 0 {z} {number(R - 1e-3 * self.thickness_mm)} side out units box"),
                     ("region", "ball intersect 2 outer inner")]
-        if self.shape == "cylinder":
-            half = 0.5e-3 * self.length_mm
-            return [*lines, ("region", f"ball cylinder z 0 0 {number(0.5e-3 * self.diameter_mm)} {number(-R - half)} {number(-R + half)} units box{turn}")]
-        half = 0.5e-3 * self.side_mm
-        return [*lines, ("region", f"ball block {number(-half)} {number(half)} {number(-half)} {number(half)} {number(-R - half)} {number(-R + half)} units box{turn}")]
+        half = 0.5e-3 * (self.length_mm or self.side_mm)
+        high = f"{number(-R - half)} {number(-R + half)}"
+        straight = f"cylinder z 0 0 {number(0.5e-3 * self.diameter_mm)} {high}" if self.shape == "cylinder" else f"block {number(-half)} {number(half)} {number(-half)} {number(half)} {high}"
+        if not self.pitch_deg:
+            return [("region", f"ball {straight} units box")]
+        # create_atoms looks at the box that a region had before it was turned; one that is the outside of something has none
+        return [("variable", f"pitch equal {number(math.radians(self.pitch_deg))}"), ("region", f"outside {straight} side out units box rotate v_pitch 0 0 {z} 0 1 0"),
+                ("region", "turned union 2 outside outside side out"), ("region", f"around block {number(-R)} {number(R)} {number(-R)} {number(R)} {number(-2 * R)} 0 units box"),
+                ("region", "ball intersect 2 turned around")]
 
 
 def read(reader, node, key):

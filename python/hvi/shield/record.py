@@ -81,7 +81,7 @@ class Record:
         self.walls, self.pieces = named(walls), named(pieces)
         self.us = np.interp(self.steps, self.history_steps, self.history[:, 0])
         self.seldom_us = np.interp(self.seldom, self.history_steps, self.history[:, 0])
-        self.loops = loops(folder)
+        self.loops, self.ball, self.lammps = logs(folder)
 
     @property
     def time_us(self):
@@ -96,14 +96,15 @@ class Record:
         return float(self.history[row, 2 + BOOK + k]) if self.history.shape[1] > 2 + BOOK else None
 
 
-def loops(folder):
-    """[(seconds, ranks, particles), ...] of the runs in the logs of a folder, and LAMMPS's version as a number, 20250204"""
-    found, said = [], ""
+def logs(folder):
+    """([(seconds, ranks, particles), ...] of the runs in the logs of a folder, particles of the projectile, or NaN if the log of the begin is gone, LAMMPS's version as a number, 20250204)"""
+    found, ball, said = [], math.nan, ""
     for path in sorted(pathlib.Path(folder).glob("log*.lammps"), key=lambda path: int(re.sub(r"\D", "", path.name) or 0)):
         text = path.read_text(errors="replace")
         found += [(float(s), int(p), int(n)) for s, p, n in re.findall(r"^Loop time of (\S+) on (\d+) procs for [1-9]\d* steps with (\d+) atoms", text, re.M)]
+        ball = next(map(int, re.findall(r"^(\d+) atoms in group ball$", text, re.M)), ball)
         said = next(iter(re.findall(r"^LAMMPS \((\d+ \w+ \d+)", text, re.M)), said)
-    return found, int(time.strftime("%Y%m%d", time.strptime(said, "%d %b %Y"))) if said else 0
+    return found, ball, int(time.strftime("%Y%m%d", time.strptime(said, "%d %b %Y"))) if said else 0
 
 
 def measure(shield, folder):
@@ -148,7 +149,7 @@ def measure(shield, folder):
     first = {name: float(getattr(p, name)[max(int(np.argmax(p.tip[:, 0] >= close[0])) - 1, 0) if n > 1 and (p.tip[:, 0] >= close[0]).any() else -1, 0]) for name in WALL}
     error = math.sqrt(sum((record.book(10 + d) + record.book(13 + d) - record.book(16 + d) - record.book(24 + d)) ** 2 for d in range(3)))
     start = math.sqrt(sum(record.book(24 + d) ** 2 for d in range(3)))
-    (runs_, lammps) = record.loops
+    runs_ = record.loops
     seconds, ranks = sum(s for s, _, _ in runs_), max((r for _, r, _ in runs_), default=1)
     core = sum(s * r for s, r, _ in runs_)
     elements = record.fem(0, 0)
@@ -160,12 +161,13 @@ def measure(shield, folder):
         "walls": n, "walls_reached": reached, "quarter": "yes" if g.quarter else "no", "v0_m_s": v0, "dx_mm": 1e3 * g.a, "method": case.method() or "sph",
         "elements": int(elements or 0), "elements_left": int(record.fem(0) or 0), "elements_failed_without_particles": int(record.fem(9) or 0),
         "conversion_heat_ratio": q * (record.fem(7) or 0.0) / E0, "hourglass_energy_ratio": q * (record.fem(8) or 0.0) / E0,
+        "projectile_particles": record.ball, "projectile_particles_planned": round(shield.in_projectile() / q),
         "particles": (matter(folder, atoms) if elements else atoms) + left, "particles_left_the_box": left, "steps": step, "time_us": record.time_us,
         "ended_by": "time" if record.time_us >= shield.latest_us else "event" if over(shield, record) else "until",
         "energy_ratio": record.book(9), "energy_missed_ratio": record.book(30) * record.book(9) / record.book(8), "energy_start_J": q * record.book(8) / record.book(9),
         "momentum_error": error / start, "momentum_left_ratio": q * record.book(15) / p0, "mass_error": (record.book(19) + record.book(20)) / record.book(27) - 1,
         "areal_density_kg_m2": round(sum(wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])), 3), "wall_s": round(seconds, 2), "ranks": ranks, "core_s": round(core, 1), "particle_steps_per_s": round(step * (atoms + left) / max(seconds, 1e-9)),
-        "lammps_version": lammps, "package_version": version()})
+        "lammps_version": record.lammps, "package_version": version()})
     return found
 
 
