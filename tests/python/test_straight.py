@@ -10,6 +10,7 @@ import yaml
 from hvi import cli, errors
 from hvi.shield import chain, decision, record, script, verdict
 from hvi.shield import case as cases
+from shield_runs import write_record
 
 CASE = """projectile: {diameter_mm: 3, material: Al2017-T4}
 speed_km_s: 5
@@ -336,6 +337,21 @@ def test_push_is_that_of_the_last_rows(tmp_path):
     assert record.push(found, 1, 40.0) == pytest.approx((1.25 - 5.25 / 5) / 1.25 / 4 * 4)
     found.seldom_us = 2 * found.seldom_us
     assert record.push(found, 1, 80.0) == pytest.approx((1.25 - 5.25 / 5) / 1.25 / 4 * 4)
+
+
+@pytest.mark.parametrize("gap", [2.5, 8])
+@pytest.mark.parametrize("tips, struck, reached, until", [([0.4, 0.5, 0.9], 0.0, 1, 3.0), ([0.4, 0.9, 1.0], 0.1, 2, 1.0), ([0.95, 1.0, 1.0], 0.1, 2, 1.0), ([0.3, 0.9, 0.95], 0.0, 1, 3.0)])
+def test_what_has_reached_the_next_wall(tmp_path, gap, tips, struck, reached, until):
+    """matter comes near to it, at 6 spacings (0.75 mm) or half of the gap, and pushes it: else the wall before decides, by its numbers at the end, and never by those of the begin
+
+    tips: of wall 1, in gaps, at 1, 2 and 3 us; struck: momentum of wall 2 at the end
+    """
+    shield = chain.shield_of(read(tmp_path / "c.yaml", CASE.replace("gap_mm: 8", f"gap_mm: {gap}")), 0, 0.0)
+    places = [1e-3 * (0.75 + gap * tip) for tip in (0, *tips)]
+    write_record(tmp_path / "run", 2, [0, 1, 2, 3], {(1, "tip"): places, (2, "momentum"): [0, 0, 0, struck], (1, "momentum"): [0, 1, 2, 3]})
+    found = record.measure(shield, tmp_path / "run")
+    assert (found["walls_reached"], found["wall1_until_us"]) == (reached, until) and found["wall1_momentum_N_s"] == shield.images * until
+    assert verdict.of_run(shield, found)["decided_by"] == f"wall{reached}"
 
 
 def test_push_does_not_go_with_the_end_that_is_asked_for(tmp_path):

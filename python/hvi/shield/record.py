@@ -28,7 +28,8 @@ UNITS = {**dict.fromkeys("""coming_mass passed_mass missed_mass mass held_mass c
 OF_THE_MODEL = {"kg", "kg m/s", "J", "N", "W"}  # of a quarter model these are a quarter, except of a single piece
 OF_A_PIECE = {"largest_mass", "largest_apart_mass"}
 BOOK = 32  # entries of compute hvi/energy
-ARRIVE = 6  # widest spacings before a wall: what comes so near has arrived
+ARRIVE = 6  # widest spacings before a wall, half of the gap at most: what comes so near has arrived
+TOUCHED = 1e-6  # of the momentum of the projectile: what has not given a wall more has not reached it
 NOTHING = 1e-99
 
 
@@ -115,14 +116,11 @@ def measure(shield, folder):
         raise HVIError(f"{folder}: walls.dat is of {record.walls.tip.shape[1]} walls, the case has {n}")
     p, mp = record.pieces, shield.mass()
     E0, p0 = shield.energy, mp * v0
-    close = [wall.front - ARRIVE * g.widest for wall in g.walls[1:]]
-    reached = 1
-    while reached < n and (p.tip[:, reached - 1] >= close[reached - 1]).any():
-        reached += 1
+    ends = [before_next(p, k, wall.front - min(ARRIVE * g.widest, 0.5 * (wall.front - before.rear)), TOUCHED * p0 / q) for k, (before, wall) in enumerate(zip(g.walls, g.walls[1:]))]
+    reached = next((k for k, row in enumerate(ends, 1) if row is None), n)
     found = {}
     for k, wall in enumerate(g.walls[:reached]):
-        near = np.flatnonzero(p.tip[:, k] >= close[k]) if k < n - 1 else []
-        row = max(near[0] - 1, 0) if len(near) else len(record.seldom) - 1
+        row = ends[k] if k < reached - 1 else -1
         at = {name: float(getattr(p, name)[row, k]) for name in WALL}
         rho, name, hold = shield.rho[k + 1], f"wall{k + 1}_", shield.hold(k + 1)
         missed = q * at["missed_mass"] / mp
@@ -146,7 +144,7 @@ def measure(shield, folder):
     for k in range(1, n + 1):
         found.setdefault(f"wall{k}_reached", False)
         found.update(hole(record, k, k <= reached))
-    first = {name: float(getattr(p, name)[max(int(np.argmax(p.tip[:, 0] >= close[0])) - 1, 0) if n > 1 and (p.tip[:, 0] >= close[0]).any() else -1, 0]) for name in WALL}
+    first = {name: float(getattr(p, name)[ends[0] if reached > 1 else -1, 0]) for name in WALL}
     error = math.sqrt(sum((record.book(10 + d) + record.book(13 + d) - record.book(16 + d) - record.book(24 + d)) ** 2 for d in range(3)))
     start = math.sqrt(sum(record.book(24 + d) ** 2 for d in range(3)))
     runs_ = record.loops
@@ -169,6 +167,12 @@ def measure(shield, folder):
         "areal_density_kg_m2": round(sum(wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])), 3), "wall_s": round(seconds, 2), "ranks": ranks, "core_s": round(core, 1), "particle_steps_per_s": round(step * (atoms + left) / max(seconds, 1e-9)),
         "lammps_version": record.lammps, "package_version": version()})
     return found
+
+
+def before_next(p, k, close, least):
+    """row of pieces before the cloud of wall k, from 0 on, comes close to the next wall, none of the begin; None if nothing has reached that, which has least momentum then"""
+    near = np.flatnonzero(p.tip[:, k] >= close)
+    return max(near[0] - 1, 1) if len(near) and abs(p.momentum[near[0]:, k + 1]).max() >= least else None
 
 
 def matter(folder, atoms):
