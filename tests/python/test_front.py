@@ -157,7 +157,7 @@ def test_tables_of_keys(capsys):
 def test_frames_stay_within_the_budget(particles, least, report):
     """31 of 20,000 particles, fewer of more, in 500 MB; the page holds those of the plan whatever they contain"""
     for tstop in (3.0, 21.69, 33.4, 99.95, 1000.0):
-        shield = types.SimpleNamespace(particles=lambda: particles, steps=lambda: 1000, settings={}, case=types.SimpleNamespace(setting=lambda _: 0), geometry=types.SimpleNamespace(tstop_us=tstop))
+        shield = types.SimpleNamespace(particles=lambda: particles, nodes=lambda: 0, embedded=lambda: 0, steps=lambda: 1000, settings={}, case=types.SimpleNamespace(setting=lambda _: 0), geometry=types.SimpleNamespace(tstop_us=tstop))
         shield.settings["film"] = chain.film_of(shield)
         plan = chain.size_of(shield)
         assert least <= plan["frames"] <= chain.FRAMES + 2 and plan["frames"] * chain.ROW * particles <= chain.BUDGET or plan["frames"] == 1, f"{tstop}: {plan}"
@@ -521,6 +521,23 @@ def test_case_with_elements(folder):
     assert words["n"] == 3 and words["core"] == 0 and "hold" not in words and words["quarter"] is False
     assert words["side"] >= 60e-3 and words["side"] / (2 * words["element"]) == pytest.approx(round(words["side"] / (2 * words["element"])))
     assert "made" not in decision.job(cases.read(written(folder, CASE)), (0, 0.0), folder / "c").record
+
+
+@pytest.mark.parametrize("more, angle", [("", 0), ("", 30), (", radius_mm: 12, core_mm: 0", 0), (", radius_mm: 14, hold_mm: 12", 30)], ids=["quarter", "whole", "no core", "few beyond"])
+def test_elements_are_in_the_plan(folder, monkeypatch, more, angle):
+    """free and embedded particles and nodes of the files that are made; frames, memory, disk and restart files follow from these"""
+    (folder / "emi.yaml").write_text(HYBRID.replace("gap_mm: 60", "gap_mm: 8").replace("thickness_mm: 0.8,", f"thickness_mm: 0.8{more},") + f"angle_deg: {angle}\n")
+    case = cases.read("emi.yaml")
+    shield = chain.write_run(case, 1, 0.0, folder / "run")
+    plan, found = chain.plan_of(shield), [DataFile(folder / f"run/wall{k}.data").frame()["type"] for k in (1, 2)]
+    for k, types_ in enumerate(found, 1):
+        assert plan[f"wall{k}_particles"] == pytest.approx((types_ == 1 + k).sum(), rel=0.02) and shield.of_walls[k - 1][2] == pytest.approx((types_ == 3 + k).sum(), rel=0.03), k
+    count, nodes = (sum((types_ == first + k).sum() for k, types_ in enumerate(found, 1)) for first in (1, 3))
+    assert plan["particles"] == pytest.approx(count + plan["projectile_particles"], rel=0.02) and plan["nodes"] == pytest.approx(nodes, rel=0.03)
+    assert plan["memory_MB"] > 35 + 3e-3 * (count + nodes) and plan["frames_MB"] == pytest.approx(1.5e-4 * plan["frames"] * plan["particles"], rel=0.01) and plan["frames_MB"] < 500
+    assert plan["disk_MB"] > plan["frames_MB"] + 2.3e-3 * (count + nodes)
+    monkeypatch.setattr(chain, "LEG", (count + nodes) * shield.steps() / 8)
+    assert chain.legs(shield) == 8
 
 
 def written(folder, text):

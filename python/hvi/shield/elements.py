@@ -60,6 +60,12 @@ def of_wall(case, k, which):
     return {**words, "type": 1 + k, "node_type": 1 + len(case.walls) + k, "material": wall.material}
 
 
+def size(case, k, which):
+    """(free particles, embedded particles, nodes) of wall k in the model, about"""
+    words = of_wall(case, k, which)
+    return mesh_plate.size(**{name: words[name] for name in ("side", "element", "n", "layers", "core", "hold", "growth", "largest", "quarter") if name in words})
+
+
 def of_case(case, which):
     """{file: words} of the walls that have elements"""
     return {file_of(k): of_wall(case, k, which) for k, wall in enumerate(case.walls, 1) if wall.method != "sph"}

@@ -129,10 +129,22 @@ class Shield:
         g = self.geometry
         return 1e-6 * g.tstop_us * (5300 + 1e3 * self.case.speed_km_s) / min([g.a, *(wall.spacing for wall in g.walls)])
 
+    @functools.cached_property
+    def of_walls(self):
+        """[(free particles, embedded particles, nodes), ...] of the model, about"""
+        return [elements.size(self.case, k, self.which) if k in self.elements else (wall.particles / self.images, 0.0, 0.0) for k, wall in enumerate(self.walls, 1)]
+
+    def embedded(self):
+        """about, of the model"""
+        return sum(held for _, held, _ in self.of_walls)
+
+    def nodes(self):
+        """about, of the model"""
+        return sum(nodes for *_, nodes in self.of_walls)
+
     def particles(self):
-        """about, of the model; walls of elements are left out, which hold few or none"""
-        g = self.geometry
-        return (self.in_projectile() + sum(wall.particles for k, wall in enumerate(g.walls, 1) if k not in self.elements)) / self.images
+        """about, of the model, embedded ones, too, which may become free; no nodes"""
+        return self.in_projectile() / self.images + sum(free + held for free, held, _ in self.of_walls)
 
     def outer_type(self, k):
         """of the particles in the outer part of wall k; None: it has none"""
