@@ -25,13 +25,19 @@ def fitting(thickness, number):
     return [math.ceil(1e4 * thickness / n) / 1e4 for n in found if n]
 
 
+def half_side(case, k):
+    """of wall k, mm"""
+    reach = geometry.reaches(case)[k - 1]
+    return case.walls[k - 1].radius_mm or (reach if k == 1 else MARGIN * reach)
+
+
 def radii(case, k, element):
     """(core, hold, half) of wall k in mm: free particles up to core, elements with particles up to hold, the side is twice half
 
     Debris meets nothing where elements hold no particles. So they do wherever it can arrive; only wall 1 is struck in its middle alone.
     """
     wall, reach, R = case.walls[k - 1], geometry.reaches(case)[k - 1], case.projectile.radius_mm / math.cos(math.radians(case.angle_deg))
-    half = wall.radius_mm or (reach if k == 1 else MARGIN * reach)
+    half = half_side(case, k)
     core = wall.core_mm if wall.core_mm is not None else CORE * R if k == 1 else 0.5 * min(reach, half)
     hold = wall.hold_mm or (max(2 / 3 * reach, core + 4 * element) if k == 1 else reach)
     return core, hold, half
