@@ -349,10 +349,10 @@ def test_particles_in_files(folder, ball):
     (folder / "emi.yaml").write_text(text)
     made = bodies.make(bodies.sphere(2.5e-3), 5e-4, "glass", 1)
 
-    def write(density):
-        bodies.write_data(folder / "ball.data", made.x, 1, [density * made.volume] * len(made.x), density, made.x.min(axis=0) - 5e-4, made.x.max(axis=0) + 5e-4, (), "ball")
+    def write(by, density=2785):
+        bodies.write_data(folder / "ball.data", by * made.x, 1, [2785 * made.volume] * len(made.x), density, made.x.min(axis=0) - 5e-4, made.x.max(axis=0) + 5e-4, (), "ball")
 
-    write(2785)
+    write(1)
     if "file" in ball:
         with pytest.raises(HVIError, match="shifts: particle files have no lattice that could be shifted"):
             cases.read("emi.yaml")
@@ -361,9 +361,28 @@ def test_particles_in_files(folder, ball):
     first = begun(folder)
     assert len(first) == len(list(folder.glob("runs/emi/*/ball.data"))) == (1 if "file" in ball else 2)
     assert front("shield") == 4 and begun(folder) == first
-    write(2700)
+    write(1.001)
     assert front("shield") == 4
     assert all((begun(folder)[name] == first[name]) == ("glass" in ball) for name in first)
+
+
+@pytest.mark.parametrize("types_, masses, density, style, message", [
+    (1, [3.5e-7], 2785, "sph", ""), (1, [3.5e-7], 8930, "sph", "ball.data has a density of 8930 kg/m^3, and the material of the projectile 2785: python3 -m hvi body --material"),
+    (2, [3.5e-7, 7e-7], 2785, "sph", "ball.data has particles of several masses or densities"), (2, [3.5e-7, 3.5e-7], 2785, "sph", ""),
+    (2, [3.5e-7, 3.5e-7], [2785, 8930], "sph", "ball.data has particles of several masses or densities"), (1, [3.5e-7], 2785, "hybrid", "ball.data: atom_style hybrid is not read here")])
+def test_particle_files_are_of_the_material(folder, types_, masses, density, style, message):
+    """its density, and one mass: a projectile is of equal particles of one material"""
+    (folder / "emi.yaml").write_text(change("diameter_mm: 5", "shape: file\n  file: ball.data").replace("[0.2, 0.4]", "[0.5]").replace("shifts: [0, 0.5]\n", ""))
+    x = 5e-4 * np.stack(np.meshgrid(*3 * (np.arange(6),)), axis=-1).reshape(-1, 3)
+    kind = 1 + np.arange(len(x)) % types_
+    bodies.write_data(folder / "ball.data", x, kind, masses, np.array(density)[kind - 1] if isinstance(density, list) else density, x.min(axis=0), x.max(axis=0), (), "ball")
+    path = folder / "ball.data"
+    path.write_text(path.read_text().replace("Atoms # sph", f"Atoms # {style}"))
+    if message:
+        with pytest.raises(HVIError, match=re.escape(message)):
+            cases.read("emi.yaml")
+    else:
+        assert cases.read("emi.yaml").projectile.volume_mm3 == pytest.approx(216 * 3.5e-7 / 2785 * 1e9)
 
 
 def test_goes_on(folder, capsys, monkeypatch):

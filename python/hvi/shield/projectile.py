@@ -23,7 +23,8 @@ SHAPES = {"sphere": (("diameter_mm",), ()), "cylinder": (("diameter_mm", "length
           "hollow sphere": (("diameter_mm", "thickness_mm"), ()), "file": (("file",), ())}
 FILLS = ("lattice", "glass")
 OURS = r"(in|log)\..*|wall\d+\.data|.*\.(yaml|dat|hvi|dump|txt)"  # files that folders of runs have
-LEAST = 8  # particles of a body of a file
+LEAST = 8  # particles of a body of a file,
+SAME = 0.01  # by how much their masses, and their density and that of the material, may differ
 LENGTHS = ("diameter_mm", "length_mm", "side_mm", "thickness_mm")
 
 
@@ -200,7 +201,9 @@ def measured(path, density):
         triangles = stl.read(path)
         x, volume = triangles.reshape(-1, 3), stl.volume(triangles)
     else:
-        x, mass = particles(path)
+        x, mass, rho = particles(path)
+        if abs(rho / density - 1) > SAME:
+            raise HVIError(f"{path} has a density of {rho:g} kg/m^3, and the material of the projectile {density:g}: python3 -m hvi body --material FILE.hvi makes one of it")
         x, volume = 1e3 * x, 1e9 * mass / density
     return float(2 * np.linalg.norm(x - stl.middle(x), axis=1).max()), volume
 
@@ -215,12 +218,14 @@ def is_surface(path):
 
 
 def particles(path):
-    """(places (n, 3) in m, mass in kg) of a particle file of atom_style sph, as hvi body writes it"""
+    """(places (n, 3) in m, mass in kg, density in kg/m^3) of a particle file of atom_style sph, as hvi body writes it"""
     data = DataFile(path)
     frame = data.frame()
-    if not frame.type_masses or data.mirror:
-        raise HVIError(f"{path} must have a section Masses and no mirror plane: python3 -m hvi body makes such files")
-    return frame.x, float(frame.m.sum())
+    if not frame.type_masses or data.mirror or data.rho is None:
+        raise HVIError(f"{path} must be of atom_style sph, with a section Masses and no mirror plane: python3 -m hvi body makes such files")
+    if np.ptp(frame.m) > SAME * frame.m.min() or np.ptp(data.rho) > SAME * data.rho.min():
+        raise HVIError(f"{path} has particles of several masses or densities, and those of a projectile are all alike: python3 -m hvi body makes such files")
+    return frame.x, float(frame.m.sum()), float(data.rho[0])
 
 
 def write(path, spacing, shift, density, quarter, file=None, checksum=None, **of):
@@ -246,7 +251,7 @@ def write(path, spacing, shift, density, quarter, file=None, checksum=None, **of
 def from_file(source, spacing, shift, density):
     """(places (n, 3), their middle at 0; mass): m, kg"""
     if not is_surface(source):
-        x, mass = particles(source)
+        x, mass, _ = particles(source)
         x = x - stl.middle(x)
     else:
         triangles = 1e-3 * stl.read(source)
