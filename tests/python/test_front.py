@@ -366,6 +366,27 @@ def test_particles_in_files(folder, ball):
     assert all((begun(folder)[name] == first[name]) == ("glass" in ball) for name in first)
 
 
+@pytest.mark.parametrize("name, sides, turn, refused", [("plate.stl", (10, 10, 1.9), 0, "1.9 mm"), ("plate.stl", (10, 10, 2.1), 0, ""), ("plate.stl", (10, 10, 0.9), 45, "1.786 mm"), ("plate.stl", (10, 10, 1.1), 45, ""),
+                                                        ("plate.data", (5, 5, 1.5), 0, "1.5 mm"), ("plate.data", (5, 5, 2.0), 0, "")])
+def test_plates_of_files_have_layers(folder, name, sides, turn, refused):
+    """four particles across the thinnest of a body of a file, two through a plate that lies askew: not of the sphere of its mass"""
+    c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+    if name.endswith("stl"):
+        corners = np.array([[x, y, z] for x in (0, sides[0]) for y in (0, sides[1]) for z in (0, sides[2])]) @ np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+        faces = [corners[list(face)] for a, b, p, q in ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)) for face in ((a, b, p), (a, p, q))]
+        text = "".join("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {x:.9f} {y:.9f} {z:.9f}\n" for x, y, z in face) + "endloop\nendfacet\n" for face in faces)
+        (folder / name).write_text(f"solid plate\n{text}endsolid plate\n")
+    else:
+        x = 5e-4 * np.stack(np.meshgrid(*(np.arange(round(side / 0.5)) for side in sides)), axis=-1).reshape(-1, 3)
+        bodies.write_data(folder / name, x, 1, [2785 * 1.25e-10], 2785, x.min(axis=0), x.max(axis=0), (), "plate")
+    (folder / "emi.yaml").write_text(change("diameter_mm: 5", f"shape: file\n  file: {name}").replace("[0.2, 0.4]", "[0.5]").replace("shifts: [0, 0.5]", "shifts: [0]"))
+    if refused:
+        with pytest.raises(HVIError, match=f"spacings_mm: 0.5 mm leaves fewer than 4 particles across the projectile of {refused}"):
+            cases.read("emi.yaml")
+    else:
+        assert cases.read("emi.yaml").projectile.volume_mm3 == pytest.approx(math.prod(sides), rel=1e-5)  # places of STL are rounded
+
+
 @pytest.mark.parametrize("types_, masses, density, style, message", [
     (1, [3.5e-7], 2785, "sph", ""), (1, [3.5e-7], 8930, "sph", "ball.data has a density of 8930 kg/m^3, and the material of the projectile 2785: python3 -m hvi body --material"),
     (2, [3.5e-7, 7e-7], 2785, "sph", "ball.data has particles of several masses or densities"), (2, [3.5e-7, 3.5e-7], 2785, "sph", ""),

@@ -235,7 +235,7 @@ class Case:
         body = self.projectile
         for dx in self.spacings_mm:
             if dx > body.least_mm / ACROSS:
-                wrong("spacings_mm", f"{dx:g} mm leaves fewer than {ACROSS} particles across the projectile of {body.least_mm:g} mm")
+                wrong("spacings_mm", f"{dx:g} mm leaves fewer than {ACROSS} particles across the projectile of {body.least_mm:.4g} mm")
             if body.shape == "hollow sphere" and dx > 0.5 * body.thickness_mm:
                 wrong("spacings_mm", f"{dx:g} mm leaves fewer than 2 particles through the shell of {body.thickness_mm:g} mm")
         if body.files and not projectile.is_surface(body.files[0]):

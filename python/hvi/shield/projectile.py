@@ -57,8 +57,8 @@ KEYS = {
 class Projectile:
     """Lengths in mm, pitch in degrees: by how much its axis is turned about y from the direction normal to the walls
 
-    files: absolute paths, one STL file, in mm, or particle files, one for each spacing; of_files: what they say, [(extent, volume), ...]: that of the sphere around
-    it, mm, and mm^3
+    files: absolute paths, one STL file, in mm, or particle files, one for each spacing; of_files: what they say, [(extent, volume, least), ...]: that of the sphere around
+    it, mm, mm^3, and the least extent, mm
     """
 
     material: str
@@ -76,7 +76,7 @@ class Projectile:
     def radius_mm(self):
         """of the sphere around it, whose center is that of the body"""
         if self.shape == "file":
-            return 0.5 * max(extent for extent, _ in self.of_files)
+            return 0.5 * max(extent for extent, *_ in self.of_files)
         return {"sphere": lambda: 0.5 * self.diameter_mm, "hollow sphere": lambda: 0.5 * self.diameter_mm, "cube": lambda: 0.5 * math.sqrt(3) * self.side_mm,
                 "cylinder": lambda: 0.5 * math.hypot(self.diameter_mm, self.length_mm)}[self.shape]()
 
@@ -95,7 +95,7 @@ class Projectile:
     @property
     def least_mm(self):
         """the least of its extents"""
-        return min(value for value in (self.diameter_mm, self.length_mm, self.side_mm, self.equivalent_mm) if value)
+        return min(value for value in (self.diameter_mm, self.length_mm, self.side_mm, self.equivalent_mm, *(least for *_, least in self.of_files)) if value)
 
     @property
     def in_data(self):
@@ -196,16 +196,21 @@ def read(reader, node, key):
 
 
 def measured(path, density):
-    """(diameter of the sphere around its middle, volume) in mm, mm^3: of an STL file, in mm, or of a particle file, in m, of this density"""
+    """(diameter of the sphere around its middle, volume, least extent) in mm, mm^3: of an STL file, in mm, or of a particle file, in m, of this density
+
+    least: along an axis, or twice the thickness of a surface, as of a plate that lies askew, or a hollow body: two particles are across a shell, and four across the projectile
+    """
     if is_surface(path):
         triangles = stl.read(path)
         x, volume = triangles.reshape(-1, 3), stl.volume(triangles)
+        least = min(np.ptp(x, axis=0).min(), 2 * stl.thickness(triangles))
     else:
         x, mass, rho = particles(path)
         if abs(rho / density - 1) > SAME:
             raise HVIError(f"{path} has a density of {rho:g} kg/m^3, and the material of the projectile {density:g}: python3 -m hvi body --material FILE.hvi makes one of it")
         x, volume = 1e3 * x, 1e9 * mass / density
-    return float(2 * np.linalg.norm(x - stl.middle(x), axis=1).max()), volume
+        least = np.ptp(x, axis=0).min() + (volume / len(x)) ** (1 / 3)
+    return float(2 * np.linalg.norm(x - stl.middle(x), axis=1).max()), volume, float(least)
 
 
 def spacing_of(path, volume_mm3):
