@@ -158,12 +158,14 @@ def test_report_of_one_run(tmp_path, capsys):
 
 
 def test_report_of_a_run_by_hand(tmp_path, capsys):
-    """equations say nothing of what is not modelled"""
+    """equations say nothing of what is not modelled; core-seconds may be unknown"""
     make_run(tmp_path / "one", 1.0, verdict="undecided", outside="MLI, of 20 layers")
     (tmp_path / "one/job.yaml").unlink()
+    path = tmp_path / "one/result.yaml"
+    path.write_text(path.read_text().replace("core_s: 4.0", "core_s: .nan"))
     assert cli.main(["report", str(tmp_path / "one"), "--out", "a.html"]) == 0
     words = "".join(Seen((tmp_path / "a.html").read_text()).text)
-    assert "do not have what one names in not_modelled: MLI, of 20 layers" in words and "JSC Whipple 2011" not in words
+    assert "do not have what one names in not_modelled: MLI, of 20 layers" in words and "JSC Whipple 2011" not in words and "unknowncore time of 1 run" in words
 
 
 def test_report_of_what_is_not_known(several, capsys):

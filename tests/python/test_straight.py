@@ -78,7 +78,7 @@ def test_write_run_and_judge(lmp, tmp_path, capsys, monkeypatch, change):
             if folder == "three" and leg == 1:  # one that is stopped in the middle leaves rows, which do not count
                 lmp(command, cwd=where, env={"LAMMPS_POTENTIALS": ""}, vars={"until": 4, "from": "r.a", "to": "r.lost"})
             lmp(command, cwd=where, env={"LAMMPS_POTENTIALS": ""}, vars={"until": until, "to": f"r.{'ab'[leg % 2]}", **({"from": f"r.{'ba'[leg % 2]}"} if leg else {})})
-        (where / "log.1.lammps").write_text("LAMMPS (4 Feb 2025)\nLoop time of 1.0 on 1 procs for 10 steps with 900 atoms\n")
+        (where / "log.1.lammps").write_text("LAMMPS (4 Feb 2025)\nLoop time of 1.0 on 1 procs for 100000 steps with 900 atoms\n")
         status = cli.main(["judge", str(where)])
         result = yaml.safe_load((where / "result.yaml").read_text())
         assert status == {"holds": 0, "fails": 3, "undecided": 4}[result["verdict"]] and f"verdict: {result['verdict']}\n" in capsys.readouterr().out, folder
@@ -352,6 +352,36 @@ def test_what_has_reached_the_next_wall(tmp_path, gap, tips, struck, reached, un
     found = record.measure(shield, tmp_path / "run")
     assert (found["walls_reached"], found["wall1_until_us"]) == (reached, until) and found["wall1_momentum_N_s"] == shield.images * until
     assert verdict.of_run(shield, found)["decided_by"] == f"wall{reached}"
+
+
+def test_files_that_are_not_of_the_run(tmp_path):
+    """columns of history.dat that are more or fewer, or of elements where there are none; a value that is no number: an error that names the file"""
+    shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
+    write_record(tmp_path, 2, [0, 1, 2], {})
+    assert record.measure(shield, tmp_path)["elements"] == 0
+    path = tmp_path / "history.dat"
+    right = path.read_text()
+    for change in (lambda line: line.rsplit(" ", 3)[0], lambda line: line + " 1", lambda line: line + 12 * " 7"):
+        path.write_text("".join(change(line) + "\n" for line in right.splitlines()))
+        with pytest.raises(errors.HVIError, match="history.dat must have 34 columns after the step, as in.shield of this case writes them; it has (31|35|46)"):
+            record.measure(shield, tmp_path)
+    path.write_text(right)
+    write_record(tmp_path, 2, [0, 1, 2], {(2, "fragments"): [0, math.nan, 0]})
+    with pytest.raises(errors.HVIError, match=r"(walls|pieces).dat: a value at step 100 is no number"):
+        record.measure(shield, tmp_path)
+
+
+def test_time_of_a_run_whose_log_is_gone(tmp_path):
+    """a run that was continued by hand, its first log written over: what it took is unknown, and steps per second are those of what is logged"""
+    shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
+    write_record(tmp_path, 2, [0, 1, 2], {})  # 200 steps
+    log = "Loop time of 2.0 on 3 procs for 80 steps with 900 atoms\n"
+    (tmp_path / "log.lammps").write_text(log)
+    found = record.measure(shield, tmp_path)
+    assert math.isnan(found["wall_s"]) and math.isnan(found["core_s"]) and found["particle_steps_per_s"] == 80 * 900 / 2
+    (tmp_path / "log.1.lammps").write_text(log.replace("80", "120"))
+    found = record.measure(shield, tmp_path)
+    assert (found["wall_s"], found["core_s"], found["particle_steps_per_s"]) == (4.0, 12.0, 200 * 900 / 4)
 
 
 def test_push_does_not_go_with_the_end_that_is_asked_for(tmp_path):

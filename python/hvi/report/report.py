@@ -106,7 +106,7 @@ class Report:
                  (f"{result.get(f'wall{last}_bulge_over_thickness', 0):.2f}", f"bulge over thickness of wall {last}"),
                  (f"{result.get(f'wall{last}_layers', 0):g}", f"layers of particles in wall {last}"),
                  (f"{errors[worst]:.1e}", f"{worst}, of that of the start"),
-                 (engine.duration(cost), f"core time of {len(self.runs)} run{'s' * (len(self.runs) > 1)}")]
+                 ("unknown" if np.isnan(cost) else engine.duration(cost), f"core time of {len(self.runs)} run{'s' * (len(self.runs) > 1)}")]
         return tag("div", *(tag("div", tag("b", value), tag("span", text), class_="tile") for value, text in found), class_="tiles")
 
     def summary(self, hero):

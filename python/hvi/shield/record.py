@@ -27,7 +27,7 @@ UNITS = {**dict.fromkeys("""coming_mass passed_mass missed_mass mass held_mass c
          **dict.fromkeys("tip failed_depth missed_reach far_free cloud_length cloud_diameter bulge hole_diameter hole_min hole_max plane_diameter plane_x plane_y".split(), "m")}
 OF_THE_MODEL = {"kg", "kg m/s", "J", "N", "W"}  # of a quarter model these are a quarter, except of a single piece
 OF_A_PIECE = {"largest_mass", "largest_apart_mass"}
-BOOK = 32  # entries of compute hvi/energy
+BOOK, FEM = 32, 12  # entries of compute hvi/energy, and of fix hvi/fem
 ARRIVE = 6  # widest spacings before a wall, half of the gap at most: what comes so near has arrived
 TOUCHED = 1e-6  # of the momentum of the projectile: what has not given a wall more has not reached it
 NOTHING = 1e-99
@@ -61,6 +61,9 @@ def rows_of(path):
     if not found:
         raise HVIError(f"{path} has no rows: has the run begun?")
     steps = sorted(found)
+    bad = next((step for step in steps if np.isnan(found[step]).any()), None)
+    if bad is not None:
+        raise HVIError(f"{path}: a value at step {bad} is no number: the run has gone wrong there")
     return np.array(steps), np.array([found[step] for step in steps])
 
 
@@ -98,11 +101,11 @@ class Record:
 
 
 def logs(folder):
-    """([(seconds, ranks, particles), ...] of the runs in the logs of a folder, particles of the projectile, or NaN if the log of the begin is gone, LAMMPS's version as a number, 20250204)"""
+    """([(seconds, ranks, particles, steps), ...] of the runs in the logs of a folder, particles of the projectile, or NaN if the log of the begin is gone, LAMMPS's version as a number, 20250204)"""
     found, ball, said = [], math.nan, ""
     for path in sorted(pathlib.Path(folder).glob("log*.lammps"), key=lambda path: int(re.sub(r"\D", "", path.name) or 0)):
         text = path.read_text(errors="replace")
-        found += [(float(s), int(p), int(n)) for s, p, n in re.findall(r"^Loop time of (\S+) on (\d+) procs for [1-9]\d* steps with (\d+) atoms", text, re.M)]
+        found += [(float(s), int(p), int(n), int(steps)) for s, p, steps, n in re.findall(r"^Loop time of (\S+) on (\d+) procs for ([1-9]\d*) steps with (\d+) atoms", text, re.M)]
         ball = next(map(int, re.findall(r"^(\d+) atoms in group ball$", text, re.M)), ball)
         said = next(iter(re.findall(r"^LAMMPS \((\d+ \w+ \d+)", text, re.M)), said)
     return found, ball, int(time.strftime("%Y%m%d", time.strptime(said, "%d %b %Y"))) if said else 0
@@ -114,6 +117,9 @@ def measure(shield, folder):
     n, q, v0 = shield.n, shield.images, 1e3 * case.speed_km_s
     if record.walls.tip.shape[1] != n:
         raise HVIError(f"{folder}: walls.dat is of {record.walls.tip.shape[1]} walls, the case has {n}")
+    columns = 2 + BOOK + (FEM if shield.elements else 0)
+    if record.history.shape[1] != columns:
+        raise HVIError(f"{folder}: history.dat must have {columns} columns after the step, as {script.BEGIN} of this case writes them; it has {record.history.shape[1]}: take a file of your own for other values")
     p, mp = record.pieces, shield.mass()
     E0, p0 = shield.energy, mp * v0
     ends = [before_next(p, k, wall.front - min(ARRIVE * g.widest, 0.5 * (wall.front - before.rear)), TOUCHED * p0 / q) for k, (before, wall) in enumerate(zip(g.walls, g.walls[1:]))]
@@ -148,11 +154,12 @@ def measure(shield, folder):
     error = math.sqrt(sum((record.book(10 + d) + record.book(13 + d) - record.book(16 + d) - record.book(24 + d)) ** 2 for d in range(3)))
     start = math.sqrt(sum(record.book(24 + d) ** 2 for d in range(3)))
     runs_ = record.loops
-    seconds, ranks = sum(s for s, _, _ in runs_), max((r for _, r, _ in runs_), default=1)
-    core = sum(s * r for s, r, _ in runs_)
+    seconds, ranks = sum(s for s, *_ in runs_), max((r for _, r, *_ in runs_), default=1)
+    core, logged = sum(s * r for s, r, *_ in runs_), sum(steps for *_, steps in runs_)
     elements = record.fem(0, 0)
     atoms, left = runs_[-1][2] if runs_ else 0, int(record.book(21))
     step = int(record.history_steps[-1])
+    known = 1.0 if logged >= step else math.nan  # a call by hand writes over the log of the one before, unless its -log has another name
     found.update({
         "perforated": found[f"wall{n}_perforated"], "front_velocity_m_s": first["front_velocity"], "cloud_length_mm": 1e3 * first["cloud_length"],
         "cloud_diameter_mm": 1e3 * first["cloud_diameter"], "length_ratio": first["cloud_ratio"], "axial_velocity_ratio": first["front_velocity"] / v0,
@@ -164,7 +171,8 @@ def measure(shield, folder):
         "ended_by": "time" if record.time_us >= shield.latest_us else "event" if over(shield, record) else "until",
         "energy_ratio": record.book(9), "energy_missed_ratio": record.book(30) * record.book(9) / record.book(8), "energy_start_J": q * record.book(8) / record.book(9),
         "momentum_error": error / start, "momentum_left_ratio": q * record.book(15) / p0, "mass_error": (record.book(19) + record.book(20)) / record.book(27) - 1,
-        "areal_density_kg_m2": round(sum(wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])), 3), "wall_s": round(seconds, 2), "ranks": ranks, "core_s": round(core, 1), "particle_steps_per_s": round(step * (atoms + left) / max(seconds, 1e-9)),
+        "areal_density_kg_m2": round(sum(wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])), 3), "wall_s": round(known * seconds, 2), "ranks": ranks, "core_s": round(known * core, 1),
+        "particle_steps_per_s": round(logged * (atoms + left) / max(seconds, 1e-9)),
         "lammps_version": record.lammps, "package_version": version()})
     return found
 
