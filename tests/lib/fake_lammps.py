@@ -75,6 +75,7 @@ for k in range(n):
 book = [0.0] * int(BOOK)
 book[7] = book[8] = book[18] = book[26] = 1.0
 book[11] = book[25] = 1.0  # momentum
+book += [0.0] * (12 if "method" in variables else 0)  # of fix hvi/fem
 
 
 def block(step):

@@ -2,7 +2,7 @@
 
 import pytest
 import yaml
-from hvi.shield import chain, script
+from hvi.shield import chain, record, script
 from hvi.shield import case as cases
 
 
@@ -21,6 +21,22 @@ def read(path, *walls, **words):
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(yaml.safe_dump(mapping(*walls, **words)))
     return cases.read(path)
+
+
+def write_record(folder, n, us, columns):
+    """walls.dat, pieces.dat and history.dat of a run with n walls; us: time of each row; columns: {(wall, name): value of all rows, or of each}, 0 without"""
+    folder.mkdir(exist_ok=True)
+    book = [0.0] * record.BOOK
+    for k in (8, 9, 12, 19, 26, 27):  # energy and momentum balance, mass
+        book[k - 1] = 1.0
+
+    def value(k, name, row):
+        of = columns.get((k, name), float(name == "mass"))
+        return of[row] if isinstance(of, (list, tuple)) else of
+
+    for name in ("walls.dat", "pieces.dat"):
+        (folder / name).write_text("".join(f"{100 * row} {n}\n" + "".join(f"{k} " + " ".join(f"{value(k, name, row):g}" for name in record.WALL) + "\n" for k in range(1, n + 1)) for row in range(len(us))))
+    (folder / "history.dat").write_text("".join(f"{100 * row} {time} {1e-6 * time} {' '.join(map(str, book))}\n" for row, time in enumerate(us)))
 
 
 @pytest.fixture

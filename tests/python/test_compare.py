@@ -89,11 +89,28 @@ def test_answer_of_a_folder(three):
 
 
 def test_another_state_of_the_case(three, capsys):
-    """a case that was changed since does not take the answer of before; neither spacings nor frames for pictures change it"""
+    """a case that was changed since does not take the answer of before; frames for pictures and the order of values do not change it"""
     (three / "emi.yaml").write_text(ONE.replace("gap_mm: 60", "gap_mm: 50"))
-    assert cli.main(["compare", "emi.yaml", "triple.yaml"]) == 1 and "runs/emi is of another state of emi.yaml, or of files that it names: call python3 -m hvi shield" in capsys.readouterr().err
-    (three / "emi.yaml").write_text(ONE.replace("spacings_mm: [0.2, 0.4]", "spacings_mm: [0.3, 0.4]\nsettings: {film: 2}"))
+    assert cli.main(["compare", "emi.yaml", "triple.yaml"]) == 1 and "runs/emi is of another state of emi.yaml (its runs are dx-0.2_shift-0.0, dx-0.4_shift-0.0), or of files that it names: call python3 -m hvi shield" in capsys.readouterr().err
+    (three / "emi.yaml").write_text(ONE.replace("spacings_mm: [0.2, 0.4]", "spacings_mm: [0.4, 0.2]\nsettings: {film: 2}"))
     assert cli.main(["compare", "emi.yaml", "triple.yaml"]) == 0
+
+
+SPACINGS = "spacings_mm: [0.2, 0.4]"
+
+
+@pytest.mark.parametrize("old, new", [(SPACINGS, "spacings_mm: [0.2, 0.3]"), ("shifts: [0]", "shifts: [0, 0.5]"), ("gap_mm: 60", "gap_mm: 60\n    spacings_mm: [0.2, 0.3]"), *(pytest.param(*pair, marks=pytest.mark.long) for pair in (
+    (SPACINGS, "spacings_mm: [0.2, 0.3, 0.4]"), (SPACINGS, "spacings_mm: [0.4]"), ("shifts: [0]", "shifts: [0.25]")))])
+def test_another_spacing_is_another_state(three, capsys, old, new):
+    """of the case or of a wall: neither verdict nor limit are taken for those of the case of today; the folder alone still has both"""
+    words = ["--on", "thickness2", "--from", "1.2", "--to", "3.2", "--step", "1"]
+    assert front("limit", *words) == 0 and list(answer.read("emi.yaml").limits) == list(answer.read("runs/emi").limits) == ["limit-thickness2"]
+    (three / "emi.yaml").write_text(ONE.replace(old, new))
+    with pytest.raises(HVIError, match=r"another state of emi.yaml \(its runs are dx-0.2_shift-0.0, dx-0.4_shift-0.0\)"):
+        answer.read("emi.yaml")
+    assert answer.read("runs/emi").verdict == "fails" and list(answer.read("runs/emi").limits) == ["limit-thickness2"]
+    (three / "runs/emi/verdict.yaml").unlink()
+    assert answer.read("emi.yaml").left_out == ("limit-thickness2",)
 
 
 FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
@@ -127,7 +144,7 @@ def test_files_of_the_case_that_have_changed(folder, root, monkeypatch, change_o
     else:
         (folder / "ball.stl").rename(folder / "other.stl")
         (folder / "emi.yaml").write_text(text.replace("ball.stl", "other.stl"))
-    with pytest.raises(HVIError, match="runs/emi is of another state of emi.yaml, or of files that it names: call python3 -m hvi shield"):
+    with pytest.raises(HVIError, match=r"runs/emi is of another state of emi.yaml \(its runs are .*\), or of files that it names: call python3 -m hvi shield"):
         answer.read("emi.yaml")
     (folder / "runs/emi/verdict.yaml").unlink()
     found = answer.read("emi.yaml")

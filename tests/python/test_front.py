@@ -157,7 +157,7 @@ def test_tables_of_keys(capsys):
 def test_frames_stay_within_the_budget(particles, least, report):
     """31 of 20,000 particles, fewer of more, in 500 MB; the page holds those of the plan whatever they contain"""
     for tstop in (3.0, 21.69, 33.4, 99.95, 1000.0):
-        shield = types.SimpleNamespace(particles=lambda: particles, steps=lambda: 1000, settings={}, case=types.SimpleNamespace(setting=lambda _: 0), geometry=types.SimpleNamespace(tstop_us=tstop))
+        shield = types.SimpleNamespace(particles=lambda: particles, nodes=lambda: 0, embedded=lambda: 0, steps=lambda: 1000, settings={}, case=types.SimpleNamespace(setting=lambda _: 0), geometry=types.SimpleNamespace(tstop_us=tstop))
         shield.settings["film"] = chain.film_of(shield)
         plan = chain.size_of(shield)
         assert least <= plan["frames"] <= chain.FRAMES + 2 and plan["frames"] * chain.ROW * particles <= chain.BUDGET or plan["frames"] == 1, f"{tstop}: {plan}"
@@ -351,10 +351,10 @@ def test_particles_in_files(folder, ball):
     (folder / "emi.yaml").write_text(text)
     made = bodies.make(bodies.sphere(2.5e-3), 5e-4, "glass", 1)
 
-    def write(density):
-        bodies.write_data(folder / "ball.data", made.x, 1, [density * made.volume] * len(made.x), density, made.x.min(axis=0) - 5e-4, made.x.max(axis=0) + 5e-4, (), "ball")
+    def write(by, density=2785):
+        bodies.write_data(folder / "ball.data", by * made.x, 1, [2785 * made.volume] * len(made.x), density, made.x.min(axis=0) - 5e-4, made.x.max(axis=0) + 5e-4, (), "ball")
 
-    write(2785)
+    write(1)
     if "file" in ball:
         with pytest.raises(HVIError, match="shifts: particle files have no lattice that could be shifted"):
             cases.read("emi.yaml")
@@ -363,9 +363,49 @@ def test_particles_in_files(folder, ball):
     first = begun(folder)
     assert len(first) == len(list(folder.glob("runs/emi/*/ball.data"))) == (1 if "file" in ball else 2)
     assert front("shield") == 4 and begun(folder) == first
-    write(2700)
+    write(1.001)
     assert front("shield") == 4
     assert all((begun(folder)[name] == first[name]) == ("glass" in ball) for name in first)
+
+
+@pytest.mark.parametrize("name, sides, turn, refused", [("plate.stl", (10, 10, 1.9), 0, "1.9 mm"), ("plate.stl", (10, 10, 2.1), 0, ""), ("plate.stl", (10, 10, 0.9), 45, "1.786 mm"), ("plate.stl", (10, 10, 1.1), 45, ""),
+                                                        ("plate.data", (5, 5, 1.5), 0, "1.5 mm"), ("plate.data", (5, 5, 2.0), 0, "")])
+def test_plates_of_files_have_layers(folder, name, sides, turn, refused):
+    """four particles across the thinnest of a body of a file, two through a plate that lies askew: not of the sphere of its mass"""
+    c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+    if name.endswith("stl"):
+        corners = np.array([[x, y, z] for x in (0, sides[0]) for y in (0, sides[1]) for z in (0, sides[2])]) @ np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+        faces = [corners[list(face)] for a, b, p, q in ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)) for face in ((a, b, p), (a, p, q))]
+        text = "".join("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {x:.9f} {y:.9f} {z:.9f}\n" for x, y, z in face) + "endloop\nendfacet\n" for face in faces)
+        (folder / name).write_text(f"solid plate\n{text}endsolid plate\n")
+    else:
+        x = 5e-4 * np.stack(np.meshgrid(*(np.arange(round(side / 0.5)) for side in sides)), axis=-1).reshape(-1, 3)
+        bodies.write_data(folder / name, x, 1, [2785 * 1.25e-10], 2785, x.min(axis=0), x.max(axis=0), (), "plate")
+    (folder / "emi.yaml").write_text(change("diameter_mm: 5", f"shape: file\n  file: {name}").replace("[0.2, 0.4]", "[0.5]").replace("shifts: [0, 0.5]", "shifts: [0]"))
+    if refused:
+        with pytest.raises(HVIError, match=f"spacings_mm: 0.5 mm leaves fewer than 4 particles across the projectile of {refused}"):
+            cases.read("emi.yaml")
+    else:
+        assert cases.read("emi.yaml").projectile.volume_mm3 == pytest.approx(math.prod(sides), rel=1e-5)  # places of STL are rounded
+
+
+@pytest.mark.parametrize("types_, masses, density, style, message", [
+    (1, [3.5e-7], 2785, "sph", ""), (1, [3.5e-7], 8930, "sph", "ball.data has a density of 8930 kg/m^3, and the material of the projectile 2785: python3 -m hvi body --material"),
+    (2, [3.5e-7, 7e-7], 2785, "sph", "ball.data has particles of several masses or densities"), (2, [3.5e-7, 3.5e-7], 2785, "sph", ""),
+    (2, [3.5e-7, 3.5e-7], [2785, 8930], "sph", "ball.data has particles of several masses or densities"), (1, [3.5e-7], 2785, "hybrid", "ball.data: atom_style hybrid is not read here")])
+def test_particle_files_are_of_the_material(folder, types_, masses, density, style, message):
+    """its density, and one mass: a projectile is of equal particles of one material"""
+    (folder / "emi.yaml").write_text(change("diameter_mm: 5", "shape: file\n  file: ball.data").replace("[0.2, 0.4]", "[0.5]").replace("shifts: [0, 0.5]\n", ""))
+    x = 5e-4 * np.stack(np.meshgrid(*3 * (np.arange(6),)), axis=-1).reshape(-1, 3)
+    kind = 1 + np.arange(len(x)) % types_
+    bodies.write_data(folder / "ball.data", x, kind, masses, np.array(density)[kind - 1] if isinstance(density, list) else density, x.min(axis=0), x.max(axis=0), (), "ball")
+    path = folder / "ball.data"
+    path.write_text(path.read_text().replace("Atoms # sph", f"Atoms # {style}"))
+    if message:
+        with pytest.raises(HVIError, match=re.escape(message)):
+            cases.read("emi.yaml")
+    else:
+        assert cases.read("emi.yaml").projectile.volume_mm3 == pytest.approx(216 * 3.5e-7 / 2785 * 1e9)
 
 
 def test_goes_on(folder, capsys, monkeypatch):
@@ -525,6 +565,23 @@ def test_case_with_elements(folder):
     assert "made" not in decision.job(cases.read(written(folder, CASE)), (0, 0.0), folder / "c").record
 
 
+@pytest.mark.parametrize("more, angle", [("", 0), ("", 30), (", radius_mm: 12, core_mm: 0", 0), (", radius_mm: 14, hold_mm: 12", 30)], ids=["quarter", "whole", "no core", "few beyond"])
+def test_elements_are_in_the_plan(folder, monkeypatch, more, angle):
+    """free and embedded particles and nodes of the files that are made; frames, memory, disk and restart files follow from these"""
+    (folder / "emi.yaml").write_text(HYBRID.replace("gap_mm: 60", "gap_mm: 8").replace("thickness_mm: 0.8,", f"thickness_mm: 0.8{more},") + f"angle_deg: {angle}\n")
+    case = cases.read("emi.yaml")
+    shield = chain.write_run(case, 1, 0.0, folder / "run")
+    plan, found = chain.plan_of(shield), [DataFile(folder / f"run/wall{k}.data").frame()["type"] for k in (1, 2)]
+    for k, types_ in enumerate(found, 1):
+        assert plan[f"wall{k}_particles"] == pytest.approx((types_ == 1 + k).sum(), rel=0.02) and shield.of_walls[k - 1][2] == pytest.approx((types_ == 3 + k).sum(), rel=0.03), k
+    count, nodes = (sum((types_ == first + k).sum() for k, types_ in enumerate(found, 1)) for first in (1, 3))
+    assert plan["particles"] == pytest.approx(count + plan["projectile_particles"], rel=0.02) and plan["nodes"] == pytest.approx(nodes, rel=0.03)
+    assert plan["memory_MB"] > 35 + 3e-3 * (count + nodes) and plan["frames_MB"] == pytest.approx(1.5e-4 * plan["frames"] * plan["particles"], rel=0.01) and plan["frames_MB"] < 500
+    assert plan["disk_MB"] > plan["frames_MB"] + 2.3e-3 * (count + nodes)
+    monkeypatch.setattr(chain, "LEG", (count + nodes) * shield.steps() / 8)
+    assert chain.legs(shield) == 8
+
+
 def written(folder, text):
     (folder / "other.yaml").write_text(text)
     return "other.yaml"
@@ -565,27 +622,36 @@ def test_meshes_are_made(folder, capsys):
     assert "thickness1 0.9 mm: wall 1: method: hybrid: 5 layers" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("shape, number", [("{shape: cylinder, diameter_mm: 4, length_mm: 6, pitch_deg: 30", 1), ("{shape: cube, side_mm: 4", 4), ("{shape: hollow sphere, diameter_mm: 8, thickness_mm: 1.6", 4)])
+@pytest.mark.parametrize("shape, number", [("{shape: cylinder, diameter_mm: 2.4, length_mm: 9, pitch_deg: 60", 1), ("{shape: cube, side_mm: 4", 4), ("{shape: cube, side_mm: 4, pitch_deg: -30", 1),
+                                           ("{shape: hollow sphere, diameter_mm: 8, thickness_mm: 1.6", 4)])
 def test_real_shapes(root, lmp, tmp_path, shape, number):
-    """LAMMPS makes the body that a case asks for: its mass, its extents, a quarter of it where planes are mirrors"""
+    """LAMMPS makes the body that a case asks for: its mass, its extents, pitched ones to both sides, a quarter of it where planes are mirrors; the result has its number of particles, and a note
+    if it is not the one planned"""
     (tmp_path / "hit.yaml").write_text(REAL.replace("{diameter_mm: 6", shape).replace("[0.8, 0.66]", "[0.4]"))
     case = cases.read(tmp_path / "hit.yaml")
     made = chain.write_run(case, 0, 0.0, tmp_path / "run")
-    lmp(tmp_path / "run/in.shield", cwd=tmp_path / "run", vars={"until": 0.02})
+    log = lmp(tmp_path / "run/in.shield", cwd=tmp_path / "run", vars={"until": 0.02}).log
     frame = hvi.Dump(str(sorted((tmp_path / "run").glob("film.*.dump"))[0]))[0]
-    ball = frame.select(frame["type"] == 1)
-    assert made.images == number and number * ball.m.sum() == pytest.approx(2790 * 1e-9 * case.projectile.volume_mm3, rel=1e-6)
-    assert number * len(ball) == pytest.approx(case.projectile.volume_mm3 / 0.4**3, rel=0.1)
-    x = 1e3 * ball.x + [0, 0, case.projectile.radius_mm - 7e-3 * 0]
-    if case.projectile.shape == "cylinder":
-        c, s = math.cos(math.radians(30)), math.sin(math.radians(30))
-        along, across = c * x[:, 2] + s * x[:, 0], np.hypot(c * x[:, 0] - s * x[:, 2], x[:, 1])
-        assert abs(along).max() < 3.001 and abs(along).max() > 2.6 and 1.6 < across.max() < 2.001
-    elif case.projectile.shape == "cube":
-        assert np.allclose(abs(x).max(axis=0), 1.8, atol=0.21) and x[:, :2].min() > 0
+    ball, body = frame.select(frame["type"] == 1), case.projectile
+    assert made.images == number and number * ball.m.sum() == pytest.approx(2790 * 1e-9 * body.volume_mm3, rel=5e-6)  # a dump has six digits of a mass
+    assert number * len(ball) == pytest.approx(body.volume_mm3 / 0.4**3, rel=0.1)
+    x = 1e3 * ball.x + [0, 0, body.radius_mm]
+    c, s = math.cos(math.radians(body.pitch_deg)), math.sin(math.radians(body.pitch_deg))
+    across, y, along = c * x[:, 0] - s * x[:, 2], x[:, 1], c * x[:, 2] + s * x[:, 0]
+    if body.shape == "cylinder":
+        assert -4.501 < along.min() < -4.2 and 4.2 < along.max() < 4.501 and 0.9 < np.hypot(across, y).max() < 1.201
+    elif body.shape == "cube":
+        low = -2.001 if number == 1 else 0
+        assert all(low <= side.min() and 1.7 < side.max() < 2.001 for side in (across, y)) and -2.001 < along.min() < -1.7 and 1.7 < along.max() < 2.001
+        assert number == 4 or min((a * across + b * along).max() for a in (-1, 1) for b in (-1, 1)) > 3.45  # all edges
     else:
         r = np.linalg.norm(x, axis=1)
         assert 2.4 <= r.min() < 2.8 and 3.6 < r.max() <= 4.0
+    for text, many in ((log, len(ball)), (log.replace(f"\n{len(ball)} atoms in group ball\n", "\n50 atoms in group ball\n"), 50), ("", math.nan)):
+        (tmp_path / "run/log.lammps").write_text(text)
+        found = chain.judge(tmp_path / "run")
+        assert found["projectile_particles"] == pytest.approx(many, nan_ok=True) and ("filled" in found["rules"]) == (many == 50)
+        assert any("the projectile has 50 particles, and " in note for note in found.get("notes", [])) == (many == 50)
 
 
 @pytest.mark.parametrize("shape, quarter", [("diameter_mm: 6", True), ("shape: hollow sphere, diameter_mm: 8, thickness_mm: 1.6", True), ("shape: cube, side_mm: 4", True),

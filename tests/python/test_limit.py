@@ -150,6 +150,33 @@ def test_curve_over_gap(folder, capsys, monkeypatch):
         assert front("curve", *words) == 1 and message in capsys.readouterr().err, words
 
 
+@pytest.mark.parametrize("on, sides", [("thickness2", ("from 2", "up to 1.6")), ("D", ("up to 4", "from 4.5"))])
+def test_curve_says_which_side_holds(folder, capsys, monkeypatch, on, sides):
+    """as hvi limit of the same runs"""
+    if on != "D":
+        monkeypatch.setenv("FAKE_LIMIT", "4.05")
+    (folder / "emi.yaml").write_text(ONE)
+    words = ["--on", on, *(("--from", "1.2", "--to", "3.2", "--step", "0.4") if on != "D" else ("--from", "3", "--to", "7", "--step", "0.5"))]
+    assert front("curve", "--speeds", "7.1:7.2:2", *words) == 0
+    out, (first, _) = capsys.readouterr().out, yaml.safe_load((folder / f"runs/emi/curve-{on}/curve.yaml").read_text())["points"]
+    with open(folder / f"runs/emi/curve-{on}/curve.csv", newline="") as table:
+        assert next(csv.DictReader(table)).items() >= {"holds": sides[0], "fails": sides[1]}.items()
+    assert (first["holds"], first["fails"]) == sides and re.search(rf"^ *7.1 .* {sides[0]} +{sides[1]} ", out, re.M) and "holds, fails: of all runs, between them undecided" in out
+    assert front("limit", *words) == 0 and (answer(folder, on)["holds"], answer(folder, on)["fails"]) == sides
+
+
+@pytest.mark.parametrize("shape", ["shape: cylinder, diameter_mm: 2, length_mm: 12", "shape: cube, side_mm: 3"])
+def test_equations_of_a_curve_are_of_the_same_size(folder, capsys, shape):
+    """as those of hvi limit: the diameter of a cylinder, not of the sphere of its mass"""
+    (folder / "emi.yaml").write_text(ONE.replace("\n  diameter_mm: 5\n  material: Al2024-T3", f" {{{shape}, material: Al2024-T3}}").replace("[0.2, 0.4]", "[0.2, 0.1]"))
+    words = ["--from", "1", "--to", "7", "--step", "0.5"]
+    assert front("curve", "--speeds", "7.1:7.2:2", *words) == 0 and front("limit", "--on", "D", *words) == 0
+    with open(folder / "runs/emi/curve-D/curve.csv", newline="") as table:
+        row = next(csv.DictReader(table))
+    (limit_,) = answer(folder)["equations"]["NNO"]["limits"]
+    assert float(row["NNO"]) == pytest.approx(limit_, rel=1e-4)
+
+
 def test_no_limit_in_the_range(folder, capsys):
     assert front("limit", "--on", "D", "--from", "5", "--to", "9") == 4
     out = capsys.readouterr().out

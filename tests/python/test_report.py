@@ -14,6 +14,8 @@ from hvi.commands import movie
 from hvi.errors import HVIError
 from hvi.io.dump import Dump
 from hvi.report import page, pictures, render, view
+from hvi.shield import ble
+from hvi.shield import case as cases
 from hvi.shield.run import Run, runs_of
 
 EVIL = "<script>alert(1)</script>"
@@ -141,23 +143,29 @@ def test_report(several, capsys):
 
 
 def test_report_of_one_run(tmp_path, capsys):
-    """says that one run is one; a verdict that holds is not red"""
+    """says that one run is one; a verdict that holds is not red; equations have the strength that the case says, and no text says otherwise"""
     make_run(tmp_path / "one", 1.0, verdict="holds")
+    path = tmp_path / "one/case.yaml"
+    case = yaml.safe_load(path.read_text())
+    case["walls"][1]["yield_ksi"] = 10
+    path.write_text(yaml.safe_dump(case))
     (tmp_path / "one/job.yaml").unlink()
     assert cli.main(["report", str(tmp_path / "one"), "--out", "a.html"]) == 0
     seen = Seen((tmp_path / "a.html").read_text())
     words = "".join(seen.text)
-    assert "JSC: JSC Whipple 2011 [RC11]" in words  # of walls and projectile of the plan
+    assert f"JSC: JSC Whipple 2011 [RC11]{ble.predictions(cases.read(path))['JSC']['critical_diameter_mm']:.4g}" in words and "whatever yield_ksi" not in words
     assert "One run: nothing says how far" in words and seen.all("body")[0]["class"] == "holds"
 
 
 def test_report_of_a_run_by_hand(tmp_path, capsys):
-    """equations say nothing of what is not modelled"""
+    """equations say nothing of what is not modelled; core-seconds may be unknown"""
     make_run(tmp_path / "one", 1.0, verdict="undecided", outside="MLI, of 20 layers")
     (tmp_path / "one/job.yaml").unlink()
+    path = tmp_path / "one/result.yaml"
+    path.write_text(path.read_text().replace("core_s: 4.0", "core_s: .nan"))
     assert cli.main(["report", str(tmp_path / "one"), "--out", "a.html"]) == 0
     words = "".join(Seen((tmp_path / "a.html").read_text()).text)
-    assert "do not have what one names in not_modelled: MLI, of 20 layers" in words and "JSC Whipple 2011" not in words
+    assert "do not have what one names in not_modelled: MLI, of 20 layers" in words and "JSC Whipple 2011" not in words and "unknowncore time of 1 run" in words
 
 
 def test_report_of_what_is_not_known(several, capsys):

@@ -10,6 +10,7 @@ import yaml
 from hvi import cli, errors
 from hvi.shield import chain, decision, record, script, verdict
 from hvi.shield import case as cases
+from shield_runs import write_record
 
 CASE = """projectile: {diameter_mm: 3, material: Al2017-T4}
 speed_km_s: 5
@@ -77,7 +78,7 @@ def test_write_run_and_judge(lmp, tmp_path, capsys, monkeypatch, change):
             if folder == "three" and leg == 1:  # one that is stopped in the middle leaves rows, which do not count
                 lmp(command, cwd=where, env={"LAMMPS_POTENTIALS": ""}, vars={"until": 4, "from": "r.a", "to": "r.lost"})
             lmp(command, cwd=where, env={"LAMMPS_POTENTIALS": ""}, vars={"until": until, "to": f"r.{'ab'[leg % 2]}", **({"from": f"r.{'ba'[leg % 2]}"} if leg else {})})
-        (where / "log.1.lammps").write_text("LAMMPS (4 Feb 2025)\nLoop time of 1.0 on 1 procs for 10 steps with 900 atoms\n")
+        (where / "log.1.lammps").write_text("LAMMPS (4 Feb 2025)\nLoop time of 1.0 on 1 procs for 100000 steps with 900 atoms\n")
         status = cli.main(["judge", str(where)])
         result = yaml.safe_load((where / "result.yaml").read_text())
         assert status == {"holds": 0, "fails": 3, "undecided": 4}[result["verdict"]] and f"verdict: {result['verdict']}\n" in capsys.readouterr().out, folder
@@ -143,7 +144,7 @@ def test_rows_after_a_restart_count_once(tmp_path):
 def result(**changed):
     """of two walls of which the second holds"""
     found = {"walls": 2, "walls_reached": 2, "time_us": 30.0, "energy_ratio": 1.0, "ended_by": "event", "method": "sph", "elements_failed_without_particles": 0, "momentum_left_ratio": 0.0,
-             "conversion_heat_ratio": 0.0, "hourglass_energy_ratio": 0.0}
+             "conversion_heat_ratio": 0.0, "hourglass_energy_ratio": 0.0, "projectile_particles": 67, "projectile_particles_planned": 67}
     for k in (1, 2):
         found.update({f"wall{k}_{key}": 0 for key in ("apart_mass_mg", "apart_particles", "spall_mass_mg", "still_to_come", "missed_fraction", "missed_reach_mm", "push_percent", "bulge_m_s", "torn",
                                                       "bulge_over_thickness", "deepest_failed_layer", "rear_plastic_strain", "outer_plastic_strain", "cloud_energy_ratio")})
@@ -336,6 +337,51 @@ def test_push_is_that_of_the_last_rows(tmp_path):
     assert record.push(found, 1, 40.0) == pytest.approx((1.25 - 5.25 / 5) / 1.25 / 4 * 4)
     found.seldom_us = 2 * found.seldom_us
     assert record.push(found, 1, 80.0) == pytest.approx((1.25 - 5.25 / 5) / 1.25 / 4 * 4)
+
+
+@pytest.mark.parametrize("gap", [2.5, 8])
+@pytest.mark.parametrize("tips, struck, reached, until", [([0.4, 0.5, 0.9], 0.0, 1, 3.0), ([0.4, 0.9, 1.0], 0.1, 2, 1.0), ([0.95, 1.0, 1.0], 0.1, 2, 1.0), ([0.3, 0.9, 0.95], 0.0, 1, 3.0)])
+def test_what_has_reached_the_next_wall(tmp_path, gap, tips, struck, reached, until):
+    """matter comes near to it, at 6 spacings (0.75 mm) or half of the gap, and pushes it: else the wall before decides, by its numbers at the end, and never by those of the begin
+
+    tips: of wall 1, in gaps, at 1, 2 and 3 us; struck: momentum of wall 2 at the end
+    """
+    shield = chain.shield_of(read(tmp_path / "c.yaml", CASE.replace("gap_mm: 8", f"gap_mm: {gap}")), 0, 0.0)
+    places = [1e-3 * (0.75 + gap * tip) for tip in (0, *tips)]
+    write_record(tmp_path / "run", 2, [0, 1, 2, 3], {(1, "tip"): places, (2, "momentum"): [0, 0, 0, struck], (1, "momentum"): [0, 1, 2, 3]})
+    found = record.measure(shield, tmp_path / "run")
+    assert (found["walls_reached"], found["wall1_until_us"]) == (reached, until) and found["wall1_momentum_N_s"] == shield.images * until
+    assert verdict.of_run(shield, found)["decided_by"] == f"wall{reached}"
+
+
+def test_files_that_are_not_of_the_run(tmp_path):
+    """columns of history.dat that are more or fewer, or of elements where there are none; a value that is no number: an error that names the file"""
+    shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
+    write_record(tmp_path, 2, [0, 1, 2], {})
+    assert record.measure(shield, tmp_path)["elements"] == 0
+    path = tmp_path / "history.dat"
+    right = path.read_text()
+    for change in (lambda line: line.rsplit(" ", 3)[0], lambda line: line + " 1", lambda line: line + 12 * " 7"):
+        path.write_text("".join(change(line) + "\n" for line in right.splitlines()))
+        with pytest.raises(errors.HVIError, match="history.dat must have 34 columns after the step, as in.shield of this case writes them; it has (31|35|46)"):
+            record.measure(shield, tmp_path)
+    path.write_text(right)
+    write_record(tmp_path, 2, [0, 1, 2], {(2, "fragments"): [0, math.nan, 0]})
+    with pytest.raises(errors.HVIError, match=r"(walls|pieces).dat: a value at step 100 is no number"):
+        record.measure(shield, tmp_path)
+
+
+def test_time_of_a_run_whose_log_is_gone(tmp_path):
+    """a run that was continued by hand, its first log written over: what it took is unknown, and steps per second are those of what is logged"""
+    shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
+    write_record(tmp_path, 2, [0, 1, 2], {})  # 200 steps
+    log = "Loop time of 2.0 on 3 procs for 80 steps with 900 atoms\n"
+    (tmp_path / "log.lammps").write_text(log)
+    found = record.measure(shield, tmp_path)
+    assert math.isnan(found["wall_s"]) and math.isnan(found["core_s"]) and found["particle_steps_per_s"] == 80 * 900 / 2
+    (tmp_path / "log.1.lammps").write_text(log.replace("80", "120"))
+    found = record.measure(shield, tmp_path)
+    assert (found["wall_s"], found["core_s"], found["particle_steps_per_s"]) == (4.0, 12.0, 200 * 900 / 4)
 
 
 def test_push_does_not_go_with_the_end_that_is_asked_for(tmp_path):

@@ -30,21 +30,22 @@ def add_arguments(parser):
 
 
 def row(value, over, limit):
-    """numbers of a value: the limit, between which values it is, what is wrong with it"""
+    """numbers of a value: the limit, between which values it is, on which sides of these all runs hold and fail, what is wrong with it"""
     answer = limit.answer()
     between = answer.get("undecided", [math.nan, math.nan])
     return {over.name: value, "limit": math.nan if answer["limit"] is None else answer["limit"], "low": between[0], "high": between[1],
+            "holds": answer.get("holds", math.nan), "fails": answer.get("fails", math.nan),
             "runs": sum(len(search.said) for search in limit.searches.values()), "why_not": "; ".join(answer.get("reasons", []))}
 
 
 def equations(case, over, values):
-    """{equation: [(critical diameter in mm, is it within its ranges), ...]} over values, or why there are none"""
+    """{equation: [(critical size in mm, as limits have it, is it within its ranges), ...]} over values, or why there are none; equations have that of a sphere of the same mass"""
     def curves():
         found = {}
         for at in (over.at(case, value) for value in values):
             of = ble.from_case(at)
             for name, points in ble.curves(of, ble.equations(of), [at.speed_km_s], at.angle_deg).items():
-                found.setdefault(name, []).extend(points)
+                found.setdefault(name, []).extend((d * at.projectile.size_mm / at.diameter_mm, within) for d, within in points)
         return found
 
     return ble.beside(curves)
@@ -95,8 +96,8 @@ def report(case, on, over, limits, folder, jobs):
     fine = running.evenly(min(limits), max(limits), 60) if len(limits) > 1 else [*limits]
     known = equations(case, over, [*limits]) if on == "D" else f"none: the equations are for a diameter, not for {on}"
     names = [] if isinstance(known, str) else list(known)
-    columns = (over.name, f"limit_{unit}", "low", "high", "runs", *names)
-    cells = [(line[over.name], *(line[key] for key in ("limit", "low", "high", "runs")), *(known[name][k][0] for name in names)) for k, line in enumerate(rows)]
+    columns = (over.name, f"limit_{unit}", "low", "high", "holds", "fails", "runs", *names)
+    cells = [(line[over.name], *(line[key] for key in ("limit", "low", "high", "holds", "fails", "runs")), *(known[name][k][0] for name in names)) for k, line in enumerate(rows)]
     shown = [[value if value == value else "-" for value in line] for line in cells]
     print(tables.text(columns, shown))
     for line in rows:
@@ -106,7 +107,7 @@ def report(case, on, over, limits, folder, jobs):
         print(f"note: {note}")
     if isinstance(known, str):
         print(f"equations: {known}")
-    print(f"low to high: up to there all runs hold, from there all fail; cost: {len(jobs)} runs, {sum(job.result().get('core_s', 0) for job in jobs):g} core-seconds")
+    print(f"holds, fails: of all runs, between them undecided; cost: {len(jobs)} runs, {sum(job.result().get('core_s', 0) for job in jobs):g} core-seconds")
     tables.write_csv(folder / "curve.csv", columns, cells)
     running.save(folder / "curve.yaml", {"on": on, "unit": unit, "over": over.name, "case": case.mapping(), "files": next(iter(limits.values())).files,
                                          "points": [{key: value for key, value in line.items() if value == value} for line in rows],

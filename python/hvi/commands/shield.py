@@ -96,8 +96,9 @@ def plan(case, folder, args):
     words = runs.check(args)
     plans = [chain.plan_of(chain.shield_of(case, which, case.shifts[0])) for which in range(len(case.spacings_mm))]
     n = len(case.walls)
+    nodes = ["nodes"] if case.method() else []
     keys = ["projectile_particles", *(f"wall{k}_{what}" for k in range(1, n + 1) for what in ("particles", "layers", "areal_density_kg_m2")), "areal_density_kg_m2",
-            "tstop_us", "particles", "steps", "core_s", "memory_MB", "frames", "frames_MB", "frames_in_report", "disk_MB"]
+            "tstop_us", "particles", *nodes, "steps", "core_s", "memory_MB", "frames", "frames_MB", "frames_in_report", "disk_MB"]
     print(tables.text(("each run", *(f"dx-{dx:g}" for dx in case.spacings_mm)), [
         (key, *(f"about {tables.number(found[key])}" if key in ("steps", "core_s", "memory_MB", "frames", "frames_MB", "disk_MB") else found[key] for found in plans)) for key in keys]))
     core, local, ranks = sum(found["core_s"] for found in plans) * len(case.shifts), args.engine == "local", args.ranks or runs.RANKS

@@ -134,6 +134,11 @@ class DataFile:
         return Box(lo, vectors, (False,) * 3)
 
     @property
+    def rho(self):
+        """densities of particles of atom_style sph, (n,), None of another style"""
+        return self._table("Atoms", self._counts["atoms"], (2,))[:, 0] if self._style == "sph" else None
+
+    @property
     def atoms(self):
         """(IDs, types), (n,) of int64 each, in order of IDs."""
         style = self._style

@@ -163,6 +163,17 @@ def _circular(half, radius, element, n, core, hold, growth, largest):
     return points, quads, _disk(core, sectors, element / n), sectors / 2 * core**2 * np.sin(2 * np.pi / sectors)
 
 
+def size(side, element, n, layers, core=0.0, hold=np.inf, growth=1.0, largest=np.inf, quarter=False):
+    """(free particles, embedded particles, nodes) of a square plate() with a ragged core, about, without making it"""
+    half, parts = 0.5 * side, 1 if quarter else 4
+    cells = len(_axis(half, element, min(hold, half), growth, largest)) - 1
+    each = layers * n**3 / element**2
+    inner = np.pi / 4 * core**2
+    outer = np.pi / 4 * hold**2 if hold < half else half**2
+    nodes = (cells + 1 if quarter else 2 * cells + 1) ** 2 - parts * inner / element**2
+    return parts * inner * each, parts * (outer - inner) * each, nodes * (layers + 1)
+
+
 def plate(thickness, element, side=None, radius=None, n=2, core=0.0, hold=np.inf, circle=False, growth=1.0, largest=np.inf, layers=None,
           quarter=False, center=(0.0, 0.0), bottom=0.0, type=1, node_type=None):
     """A Mesh of a plate across z, from bottom to bottom + thickness

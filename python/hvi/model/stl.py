@@ -33,6 +33,17 @@ def volume(triangles):
     return float(abs((a * np.cross(b, c)).sum()) / 6)
 
 
+def thickness(triangles, directions=500):
+    """in the mean, where it is thinnest: the volume over the area of the largest shadow; what lies one behind the other counts in that as often"""
+    k = np.arange(directions) + 0.5
+    z, turn = k / directions, np.pi * (1 + 5**0.5) * k
+    r = np.sqrt(1 - z**2)
+    a, b, c = np.moveaxis(triangles, 1, 0)
+    areas = 0.5 * np.cross(b - a, c - a)
+    shadows = (0.5 * np.abs(areas @ way).sum() for way in (*np.eye(3), *np.column_stack([r * np.cos(turn), r * np.sin(turn), z])))
+    return volume(triangles) / max(shadows)
+
+
 def middle(x):
     """of the box around points (n, 3)"""
     return 0.5 * (x.min(axis=0) + x.max(axis=0))

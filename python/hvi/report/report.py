@@ -106,7 +106,7 @@ class Report:
                  (f"{result.get(f'wall{last}_bulge_over_thickness', 0):.2f}", f"bulge over thickness of wall {last}"),
                  (f"{result.get(f'wall{last}_layers', 0):g}", f"layers of particles in wall {last}"),
                  (f"{errors[worst]:.1e}", f"{worst}, of that of the start"),
-                 (engine.duration(cost), f"core time of {len(self.runs)} run{'s' * (len(self.runs) > 1)}")]
+                 ("unknown" if np.isnan(cost) else engine.duration(cost), f"core time of {len(self.runs)} run{'s' * (len(self.runs) > 1)}")]
         return tag("div", *(tag("div", tag("b", value), tag("span", text), class_="tile") for value, text in found), class_="tiles")
 
     def summary(self, hero):
@@ -147,16 +147,15 @@ class Report:
         return rows
 
     def equations(self):
-        """of verdict.yaml, or of the case as the plan has it"""
+        """of verdict.yaml, or of the case of the run"""
         found = (self.said or {}).get("equations") or ble.beside(ble.predictions, self.case)
         titles = {name: f"{equation.title} [{equation.source}]" for name, equation in ble.EQUATIONS.items()}
         if isinstance(found, str):
             return section("Ballistic-limit equations", tag("p", found))
-        strength = "" if self.said else " Of the strength of the last wall a run knows nothing: it is that of the table for this material, whatever yield_ksi says in a case."
         rows = [(f"{name}: {titles[name]}" if name in titles else name, of["critical_diameter_mm"], of["d_over_critical"], word(of["predicted"]), "; ".join(of["outside"]) or "-")
                 for name, of in found.items()]
         return section("Ballistic-limit equations", tag("p", f"What the equations of engineers say of a sphere of {self.case.diameter_mm:.4g} mm, beside the simulation: ", word(self.verdict)),
-                        table(("equation", "critical diameter, mm", "projectile over it", "says", "outside of its range of validity"), rows), tag("p", f"Sources in brackets: Howto_ble.{strength}", class_="note"))
+                        table(("equation", "critical diameter, mm", "projectile over it", "says", "outside of its range of validity"), rows), tag("p", "Sources in brackets: Howto_ble.", class_="note"))
 
     def all_runs(self):
         keys = ["verdict", *(f"hole{k}_diameter_mm" for k in range(1, self.run.walls + 1)), f"wall{self.run.walls}_spall_mass_mg", f"wall{self.run.walls}_apart_mass_mg", "particles", "steps",

@@ -10,12 +10,11 @@ from ..errors import HVIError, needed
 from ..jobs import engine
 from ..material import library
 from . import case as cases
-from . import quantity
+from . import decision, quantity
 from .run import runs_of, texts
 
 NOT_RUN = "not run"
 MARGINS = ("hole_mm", "apart_mass_mg", "bulge_over_thickness", "deepest_failed_layer", "layers", "rear_plastic_strain")  # of a run; the largest is the worst, layers are the same in all of a spacing
-NOT_OF_THE_SHOT = "spacings_mm", "shifts", "file"  # keys of a case that differ between its runs: each has one spacing, and the file of that, which is compared by its checksum
 
 
 @dataclasses.dataclass(frozen=True)
@@ -79,21 +78,30 @@ class Answer:
         return pandas.DataFrame.from_dict(rows, orient="index").rename_axis("run")
 
 
-def shot_of(mapping):
-    """a mapping of Case.mapping() without the keys in which runs of a case differ"""
-    def plain(value):
-        if isinstance(value, dict):
-            return {key: plain(inside) for key, inside in value.items() if key not in NOT_OF_THE_SHOT}
-        return [plain(inside) for inside in value] if isinstance(value, list) else value
-
-    found = plain(mapping)
-    found["settings"] = {key: value for key, value in found.get("settings", {}).items() if key != "film"}
-    return found
+def state_of(mapping):
+    """a mapping of Case.mapping() without what changes no answer: frames, the order of shifts, and the names of files of the projectile, which are compared by their checksums"""
+    body, settings = ({key: value for key, value in mapping.get(of, {}).items() if key != leave} for of, leave in (("projectile", "file"), ("settings", "film")))
+    return {**mapping, "projectile": body, "settings": settings, "shifts": sorted(mapping.get("shifts", []))}
 
 
 def is_of(case, mapping, files):
-    """is the case the same shot as a Case.mapping(), and are all its files among those Case.checksums()? A run has one of the particle files of its case"""
-    return shot_of(case.mapping()) == shot_of(mapping) and case.checksums().items() <= files.items()
+    """is the case that of a Case.mapping(), and are all its files among those Case.checksums()? A run has one of the particle files of its case"""
+    return state_of(case.mapping()) == state_of(mapping) and case.checksums().items() <= files.items()
+
+
+def whole(runs, name):
+    """the Case of all these runs"""
+    of = {run.dx: run.case for run in sorted(runs, key=lambda run: -run.dx)}
+    first = runs[0].case
+    walls = tuple(dataclasses.replace(wall, spacings_mm=wall.spacings_mm and tuple(case.walls[k].spacings_mm[0] for case in of.values())) for k, wall in enumerate(first.walls))
+    return dataclasses.replace(first, name=name, walls=walls, spacings_mm=tuple(of), shifts=tuple(sorted({run.case.shifts[0] for run in runs})))
+
+
+def are_all_of(runs, case):
+    """are these the runs of a case, those of all its spacings and shifts and no others?"""
+    members = {(case.spacings_mm[which], shift): case.one(which, shift).mapping() for which, shift in decision.members(case)}
+    each, files = {(run.dx, run.case.shifts[0]): run.case for run in runs}, case.checksums()
+    return members.keys() == each.keys() and all(is_of(of, members[key], files) for key, of in each.items())
 
 
 def searched(folder, kind, case):
@@ -140,9 +148,9 @@ def read(path, runs="runs"):
     if case is None:
         if not found:
             raise HVIError(f"{folder} has limits or curves only: give the case itself, CASE.yaml, and --runs {folder.parent}")
-        case = dataclasses.replace(found[0].case, name=folder.resolve().name)
-    elif not all(is_of(run.case, case.mapping(), case.checksums()) for run in found):
-        raise HVIError(f"{folder} is of another state of {path}, or of files that it names: call python3 -m hvi shield {path} again, or give the folder itself")
+        case = whole(found, folder.resolve().name)
+    elif found and not are_all_of(found, case):
+        raise HVIError(f"{folder} is of another state of {path} (its runs are {', '.join(run.name for run in found)}), or of files that it names: call python3 -m hvi shield {path} again, or give the folder itself")
     limits, curves = (searched(folder, kind, case) for kind in ("limit", "curve"))
     return Answer(case.name, folder, case, str(said.get("verdict", NOT_RUN)), tuple(texts(said, "reasons")), tuple(texts(said, "notes")), tuple(found), said, limits[0], curves[0],
                   tuple(limits[1] + curves[1]))

@@ -204,8 +204,9 @@ class Case:
         if self.setting("quarter") == "yes" and not geometry.may_be_quarter(self):
             wrong("settings: quarter", f"yes needs angle_deg of 0, not {self.angle_deg:g}" if self.angle_deg else f"yes needs mirror planes, and a {self.projectile} has none")
         for k, (wall, reach) in enumerate(zip(self.walls, geometry.reaches(self)), 1):
-            if self.setting("edge") != "free" and self.setting("rim") >= (wall.radius_mm or reach):
-                wrong("settings: rim", f"{self.setting('rim'):g} mm is no narrower than wall {k}, whose radius is {wall.radius_mm or reach:.4g} mm")
+            wide = wall.radius_mm or reach if wall.method == "sph" else elements.half_side(self, k)
+            if self.setting("edge") != "free" and self.setting("rim") >= wide:
+                wrong("settings: rim", f"{self.setting('rim'):g} mm is no narrower than wall {k}, whose {'radius' if wall.method == 'sph' else 'half side'} is {wide:.4g} mm")
         self.check_materials(wrong)
         self.check_refined(wrong)
         if "layers" in self.settings and len(self.settings["layers"]) != len(self.walls):
@@ -234,7 +235,7 @@ class Case:
         body = self.projectile
         for dx in self.spacings_mm:
             if dx > body.least_mm / ACROSS:
-                wrong("spacings_mm", f"{dx:g} mm leaves fewer than {ACROSS} particles across the projectile of {body.least_mm:g} mm")
+                wrong("spacings_mm", f"{dx:g} mm leaves fewer than {ACROSS} particles across the projectile of {body.least_mm:.4g} mm")
             if body.shape == "hollow sphere" and dx > 0.5 * body.thickness_mm:
                 wrong("spacings_mm", f"{dx:g} mm leaves fewer than 2 particles through the shell of {body.thickness_mm:g} mm")
         if body.files and not projectile.is_surface(body.files[0]):

@@ -28,6 +28,7 @@ FRAMES, BUDGET = 30, 5e8  # intervals between the frames of a film, and bytes th
 ROW = 150  # bytes of a particle in a dump,
 RECORD = 600  # in a restart file,
 BYTES = 6100  # in memory: 8,218 MB were measured for 1.35e6 particles, of a single plate at 0.125 mm
+HELD = 3000  # of a node, or a particle embedded in an element: 840 MB for 2.7e5 of these
 OF_THE_CASE = 0.02  # of the energy of the projectile: a run that begins with another has another case
 STEPS = 1.6  # of script.Shield.steps(), in runs of 600 to 4,000 steps
 SPEED = 6e5  # particle-steps per second of a core, in the same runs
@@ -51,7 +52,7 @@ class Written:
 def shield_of(case, which, shift):
     """the script.Shield of a run, with all its settings"""
     found = script.Shield(case, which, shift, {name: case.setting(name) for name in cases.SETTINGS})
-    if found.particles() > MOST:
+    if found.particles() + found.nodes() > MOST:
         raise HVIError(f"{case.name}: spacings_mm: {case.spacings_mm[which]:g} mm makes some {found.particles():.3g} particles, more than LAMMPS can number: are lengths in mm?")
     if found.settings["film"] == 0:
         found.settings["film"] = film_of(found)
@@ -70,7 +71,7 @@ def film_of(shield):
 
 def legs(shield):
     """calls of the chain: the same for the same case, whatever the machine"""
-    return max(1, min(LEGS, round(shield.particles() * shield.steps() / LEG)))
+    return max(1, min(LEGS, round((shield.particles() + shield.nodes()) * shield.steps() / LEG)))
 
 
 class Job(engine.Job):
@@ -190,12 +191,14 @@ def write_plan(shield, folder):
 
 def size_of(shield):
     """about what a run takes: from geometry alone, before anything is made or read"""
-    count, steps, film = shield.particles(), STEPS * shield.steps(), shield.settings["film"]
+    count, nodes, embedded, steps, film = shield.particles(), shield.nodes(), shield.embedded(), STEPS * shield.steps(), shield.settings["film"]
+    atoms = count + nodes
     until = shield.latest_us if shield.case.setting("film") else shield.geometry.tstop_us  # those of a case go on to the end
     frames = (math.floor(until / film) + 1 if film else 0) + 1  # and shield.dump
-    return {"particles": round(count), "steps": round(steps), "core_s": float(f"{count * steps / SPEED:.3g}"), "memory_MB": round(35 + BYTES * count / 1e6),
+    return {"particles": round(count), **({"nodes": round(nodes)} if nodes else {}), "steps": round(steps), "core_s": float(f"{atoms * steps / SPEED:.3g}"),
+            "memory_MB": round(35 + (BYTES * (count - embedded) + HELD * (embedded + nodes)) / 1e6),
             "frames": frames, "frames_MB": round(frames * ROW * count / 1e6, 1), "frames_in_report": min(frames, packed.frames_of(count)),
-            "disk_MB": round((frames * ROW + 4 * RECORD) * count / 1e6, 1)}
+            "disk_MB": round((frames * ROW * count + 4 * RECORD * atoms) / 1e6, 1)}
 
 
 def plan_of(shield):
@@ -204,7 +207,7 @@ def plan_of(shield):
     found = {"dx_mm": case.spacings_mm[shield.which], "projectile_particles": round(shield.in_projectile() / shield.images), "projectile_across": round(2 * g.R / g.a, 1)}
     for k, (wall, of) in enumerate(zip(g.walls, case.walls), 1):
         found.update({f"wall{k}_{name}": value for name, value in {
-            "particles": round(wall.particles / shield.images), "elements": int(of.method != "sph"), "layers": wall.layers,
+            "particles": round(sum(shield.of_walls[k - 1][:2])), "elements": int(of.method != "sph"), "layers": wall.layers,
             "radius_mm": round(1e3 * wall.radius, 1), "middle_mm": round(1e3 * wall.middle, 1), "struck_at_mm": round(1e3 * wall.struck, 1),
             "front_mm": float(f"{1e3 * wall.front:.6g}"), "thickness_mm": float(f"{1e3 * wall.thickness:.6g}"), "spacing_mm": float(f"{1e3 * wall.spacing:.6g}"),
             **({"core_mm": float(f"{1e3 * wall.core:.6g}"), "outer_type": shield.outer_type(k)} if wall.core else {})}.items()})

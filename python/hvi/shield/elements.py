@@ -25,13 +25,19 @@ def fitting(thickness, number):
     return [math.ceil(1e4 * thickness / n) / 1e4 for n in found if n]
 
 
+def half_side(case, k):
+    """of wall k, mm"""
+    reach = geometry.reaches(case)[k - 1]
+    return case.walls[k - 1].radius_mm or (reach if k == 1 else MARGIN * reach)
+
+
 def radii(case, k, element):
     """(core, hold, half) of wall k in mm: free particles up to core, elements with particles up to hold, the side is twice half
 
     Debris meets nothing where elements hold no particles. So they do wherever it can arrive; only wall 1 is struck in its middle alone.
     """
     wall, reach, R = case.walls[k - 1], geometry.reaches(case)[k - 1], case.projectile.radius_mm / math.cos(math.radians(case.angle_deg))
-    half = wall.radius_mm or (reach if k == 1 else MARGIN * reach)
+    half = half_side(case, k)
     core = wall.core_mm if wall.core_mm is not None else CORE * R if k == 1 else 0.5 * min(reach, half)
     hold = wall.hold_mm or (max(2 / 3 * reach, core + 4 * element) if k == 1 else reach)
     return core, hold, half
@@ -58,6 +64,12 @@ def of_wall(case, k, which):
     if graded:
         words.update(hold=1e-3 * hold, growth=GROWTH, largest=LARGEST * 1e-3 * element)
     return {**words, "type": 1 + k, "node_type": 1 + len(case.walls) + k, "material": wall.material}
+
+
+def size(case, k, which):
+    """(free particles, embedded particles, nodes) of wall k in the model, about"""
+    words = of_wall(case, k, which)
+    return mesh_plate.size(**{name: words[name] for name in ("side", "element", "n", "layers", "core", "hold", "growth", "largest", "quarter") if name in words})
 
 
 def of_case(case, which):

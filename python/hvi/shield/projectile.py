@@ -23,7 +23,8 @@ SHAPES = {"sphere": (("diameter_mm",), ()), "cylinder": (("diameter_mm", "length
           "hollow sphere": (("diameter_mm", "thickness_mm"), ()), "file": (("file",), ())}
 FILLS = ("lattice", "glass")
 OURS = r"(in|log)\..*|wall\d+\.data|.*\.(yaml|dat|hvi|dump|txt)"  # files that folders of runs have
-LEAST = 8  # particles of a body of a file
+LEAST = 8  # particles of a body of a file,
+SAME = 0.01  # by how much their masses, and their density and that of the material, may differ
 LENGTHS = ("diameter_mm", "length_mm", "side_mm", "thickness_mm")
 
 
@@ -56,8 +57,8 @@ KEYS = {
 class Projectile:
     """Lengths in mm, pitch in degrees: by how much its axis is turned about y from the direction normal to the walls
 
-    files: absolute paths, one STL file, in mm, or particle files, one for each spacing; of_files: what they say, [(extent, volume), ...]: that of the sphere around
-    it, mm, and mm^3
+    files: absolute paths, one STL file, in mm, or particle files, one for each spacing; of_files: what they say, [(extent, volume, least), ...]: that of the sphere around
+    it, mm, mm^3, and the least extent, mm
     """
 
     material: str
@@ -75,7 +76,7 @@ class Projectile:
     def radius_mm(self):
         """of the sphere around it, whose center is that of the body"""
         if self.shape == "file":
-            return 0.5 * max(extent for extent, _ in self.of_files)
+            return 0.5 * max(extent for extent, *_ in self.of_files)
         return {"sphere": lambda: 0.5 * self.diameter_mm, "hollow sphere": lambda: 0.5 * self.diameter_mm, "cube": lambda: 0.5 * math.sqrt(3) * self.side_mm,
                 "cylinder": lambda: 0.5 * math.hypot(self.diameter_mm, self.length_mm)}[self.shape]()
 
@@ -94,7 +95,7 @@ class Projectile:
     @property
     def least_mm(self):
         """the least of its extents"""
-        return min(value for value in (self.diameter_mm, self.length_mm, self.side_mm, self.equivalent_mm) if value)
+        return min(value for value in (self.diameter_mm, self.length_mm, self.side_mm, self.equivalent_mm, *(least for *_, least in self.of_files)) if value)
 
     @property
     def in_data(self):
@@ -152,18 +153,20 @@ class Projectile:
     def regions(self, number):
         """lines of LAMMPS that define the region ball, its center R before wall 1; number: of a length or angle, as text"""
         R, z = 1e-3 * self.radius_mm, number(-1e-3 * self.radius_mm)
-        turn = f" rotate v_pitch 0 0 {z} 0 1 0" if self.pitch_deg else ""
-        lines = [("variable", f"pitch equal {number(math.radians(self.pitch_deg))}")] if self.pitch_deg else []
         if self.shape == "sphere":
             return [("region", f"ball sphere 0 0 {z} {number(R)} units box")]
         if self.shape == "hollow sphere":
             return [("region", f"outer sphere 0 0 {z} {number(R)} units box"), ("region", f"inner sphere 0 0 {z} {number(R - 1e-3 * self.thickness_mm)} side out units box"),
                     ("region", "ball intersect 2 outer inner")]
-        if self.shape == "cylinder":
-            half = 0.5e-3 * self.length_mm
-            return [*lines, ("region", f"ball cylinder z 0 0 {number(0.5e-3 * self.diameter_mm)} {number(-R - half)} {number(-R + half)} units box{turn}")]
-        half = 0.5e-3 * self.side_mm
-        return [*lines, ("region", f"ball block {number(-half)} {number(half)} {number(-half)} {number(half)} {number(-R - half)} {number(-R + half)} units box{turn}")]
+        half = 0.5e-3 * (self.length_mm or self.side_mm)
+        high = f"{number(-R - half)} {number(-R + half)}"
+        straight = f"cylinder z 0 0 {number(0.5e-3 * self.diameter_mm)} {high}" if self.shape == "cylinder" else f"block {number(-half)} {number(half)} {number(-half)} {number(half)} {high}"
+        if not self.pitch_deg:
+            return [("region", f"ball {straight} units box")]
+        # create_atoms looks at the box that a region had before it was turned; one that is the outside of something has none
+        return [("variable", f"pitch equal {number(math.radians(self.pitch_deg))}"), ("region", f"outside {straight} side out units box rotate v_pitch 0 0 {z} 0 1 0"),
+                ("region", "turned union 2 outside outside side out"), ("region", f"around block {number(-R)} {number(R)} {number(-R)} {number(R)} {number(-2 * R)} 0 units box"),
+                ("region", "ball intersect 2 turned around")]
 
 
 def read(reader, node, key):
@@ -193,14 +196,21 @@ def read(reader, node, key):
 
 
 def measured(path, density):
-    """(diameter of the sphere around its middle, volume) in mm, mm^3: of an STL file, in mm, or of a particle file, in m, of this density"""
+    """(diameter of the sphere around its middle, volume, least extent) in mm, mm^3: of an STL file, in mm, or of a particle file, in m, of this density
+
+    least: along an axis, or twice the thickness of a surface, as of a plate that lies askew, or a hollow body: two particles are across a shell, and four across the projectile
+    """
     if is_surface(path):
         triangles = stl.read(path)
         x, volume = triangles.reshape(-1, 3), stl.volume(triangles)
+        least = min(np.ptp(x, axis=0).min(), 2 * stl.thickness(triangles))
     else:
-        x, mass = particles(path)
+        x, mass, rho = particles(path)
+        if abs(rho / density - 1) > SAME:
+            raise HVIError(f"{path} has a density of {rho:g} kg/m^3, and the material of the projectile {density:g}: python3 -m hvi body --material FILE.hvi makes one of it")
         x, volume = 1e3 * x, 1e9 * mass / density
-    return float(2 * np.linalg.norm(x - stl.middle(x), axis=1).max()), volume
+        least = np.ptp(x, axis=0).min() + (volume / len(x)) ** (1 / 3)
+    return float(2 * np.linalg.norm(x - stl.middle(x), axis=1).max()), volume, float(least)
 
 
 def spacing_of(path, volume_mm3):
@@ -213,12 +223,14 @@ def is_surface(path):
 
 
 def particles(path):
-    """(places (n, 3) in m, mass in kg) of a particle file of atom_style sph, as hvi body writes it"""
+    """(places (n, 3) in m, mass in kg, density in kg/m^3) of a particle file of atom_style sph, as hvi body writes it"""
     data = DataFile(path)
     frame = data.frame()
-    if not frame.type_masses or data.mirror:
-        raise HVIError(f"{path} must have a section Masses and no mirror plane: python3 -m hvi body makes such files")
-    return frame.x, float(frame.m.sum())
+    if not frame.type_masses or data.mirror or data.rho is None:
+        raise HVIError(f"{path} must be of atom_style sph, with a section Masses and no mirror plane: python3 -m hvi body makes such files")
+    if np.ptp(frame.m) > SAME * frame.m.min() or np.ptp(data.rho) > SAME * data.rho.min():
+        raise HVIError(f"{path} has particles of several masses or densities, and those of a projectile are all alike: python3 -m hvi body makes such files")
+    return frame.x, float(frame.m.sum()), float(data.rho[0])
 
 
 def write(path, spacing, shift, density, quarter, file=None, checksum=None, **of):
@@ -244,7 +256,7 @@ def write(path, spacing, shift, density, quarter, file=None, checksum=None, **of
 def from_file(source, spacing, shift, density):
     """(places (n, 3), their middle at 0; mass): m, kg"""
     if not is_surface(source):
-        x, mass = particles(source)
+        x, mass, _ = particles(source)
         x = x - stl.middle(x)
     else:
         triangles = 1e-3 * stl.read(source)

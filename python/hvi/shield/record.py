@@ -27,8 +27,9 @@ UNITS = {**dict.fromkeys("""coming_mass passed_mass missed_mass mass held_mass c
          **dict.fromkeys("tip failed_depth missed_reach far_free cloud_length cloud_diameter bulge hole_diameter hole_min hole_max plane_diameter plane_x plane_y".split(), "m")}
 OF_THE_MODEL = {"kg", "kg m/s", "J", "N", "W"}  # of a quarter model these are a quarter, except of a single piece
 OF_A_PIECE = {"largest_mass", "largest_apart_mass"}
-BOOK = 32  # entries of compute hvi/energy
-ARRIVE = 6  # widest spacings before a wall: what comes so near has arrived
+BOOK, FEM = 32, 12  # entries of compute hvi/energy, and of fix hvi/fem
+ARRIVE = 6  # widest spacings before a wall, half of the gap at most: what comes so near has arrived
+TOUCHED = 1e-6  # of the momentum of the projectile: what has not given a wall more has not reached it
 NOTHING = 1e-99
 
 
@@ -60,6 +61,9 @@ def rows_of(path):
     if not found:
         raise HVIError(f"{path} has no rows: has the run begun?")
     steps = sorted(found)
+    bad = next((step for step in steps if np.isnan(found[step]).any()), None)
+    if bad is not None:
+        raise HVIError(f"{path}: a value at step {bad} is no number: the run has gone wrong there")
     return np.array(steps), np.array([found[step] for step in steps])
 
 
@@ -81,7 +85,7 @@ class Record:
         self.walls, self.pieces = named(walls), named(pieces)
         self.us = np.interp(self.steps, self.history_steps, self.history[:, 0])
         self.seldom_us = np.interp(self.seldom, self.history_steps, self.history[:, 0])
-        self.loops = loops(folder)
+        self.loops, self.ball, self.lammps = logs(folder)
 
     @property
     def time_us(self):
@@ -96,14 +100,15 @@ class Record:
         return float(self.history[row, 2 + BOOK + k]) if self.history.shape[1] > 2 + BOOK else None
 
 
-def loops(folder):
-    """[(seconds, ranks, particles), ...] of the runs in the logs of a folder, and LAMMPS's version as a number, 20250204"""
-    found, said = [], ""
+def logs(folder):
+    """([(seconds, ranks, particles, steps), ...] of the runs in the logs of a folder, particles of the projectile, or NaN if the log of the begin is gone, LAMMPS's version as a number, 20250204)"""
+    found, ball, said = [], math.nan, ""
     for path in sorted(pathlib.Path(folder).glob("log*.lammps"), key=lambda path: int(re.sub(r"\D", "", path.name) or 0)):
         text = path.read_text(errors="replace")
-        found += [(float(s), int(p), int(n)) for s, p, n in re.findall(r"^Loop time of (\S+) on (\d+) procs for [1-9]\d* steps with (\d+) atoms", text, re.M)]
+        found += [(float(s), int(p), int(n), int(steps)) for s, p, steps, n in re.findall(r"^Loop time of (\S+) on (\d+) procs for ([1-9]\d*) steps with (\d+) atoms", text, re.M)]
+        ball = next(map(int, re.findall(r"^(\d+) atoms in group ball$", text, re.M)), ball)
         said = next(iter(re.findall(r"^LAMMPS \((\d+ \w+ \d+)", text, re.M)), said)
-    return found, int(time.strftime("%Y%m%d", time.strptime(said, "%d %b %Y"))) if said else 0
+    return found, ball, int(time.strftime("%Y%m%d", time.strptime(said, "%d %b %Y"))) if said else 0
 
 
 def measure(shield, folder):
@@ -112,16 +117,16 @@ def measure(shield, folder):
     n, q, v0 = shield.n, shield.images, 1e3 * case.speed_km_s
     if record.walls.tip.shape[1] != n:
         raise HVIError(f"{folder}: walls.dat is of {record.walls.tip.shape[1]} walls, the case has {n}")
+    columns = 2 + BOOK + (FEM if shield.elements else 0)
+    if record.history.shape[1] != columns:
+        raise HVIError(f"{folder}: history.dat must have {columns} columns after the step, as {script.BEGIN} of this case writes them; it has {record.history.shape[1]}: take a file of your own for other values")
     p, mp = record.pieces, shield.mass()
     E0, p0 = shield.energy, mp * v0
-    close = [wall.front - ARRIVE * g.widest for wall in g.walls[1:]]
-    reached = 1
-    while reached < n and (p.tip[:, reached - 1] >= close[reached - 1]).any():
-        reached += 1
+    ends = [before_next(p, k, wall.front - min(ARRIVE * g.widest, 0.5 * (wall.front - before.rear)), TOUCHED * p0 / q) for k, (before, wall) in enumerate(zip(g.walls, g.walls[1:]))]
+    reached = next((k for k, row in enumerate(ends, 1) if row is None), n)
     found = {}
     for k, wall in enumerate(g.walls[:reached]):
-        near = np.flatnonzero(p.tip[:, k] >= close[k]) if k < n - 1 else []
-        row = max(near[0] - 1, 0) if len(near) else len(record.seldom) - 1
+        row = ends[k] if k < reached - 1 else -1
         at = {name: float(getattr(p, name)[row, k]) for name in WALL}
         rho, name, hold = shield.rho[k + 1], f"wall{k + 1}_", shield.hold(k + 1)
         missed = q * at["missed_mass"] / mp
@@ -145,28 +150,37 @@ def measure(shield, folder):
     for k in range(1, n + 1):
         found.setdefault(f"wall{k}_reached", False)
         found.update(hole(record, k, k <= reached))
-    first = {name: float(getattr(p, name)[max(int(np.argmax(p.tip[:, 0] >= close[0])) - 1, 0) if n > 1 and (p.tip[:, 0] >= close[0]).any() else -1, 0]) for name in WALL}
+    first = {name: float(getattr(p, name)[ends[0] if reached > 1 else -1, 0]) for name in WALL}
     error = math.sqrt(sum((record.book(10 + d) + record.book(13 + d) - record.book(16 + d) - record.book(24 + d)) ** 2 for d in range(3)))
     start = math.sqrt(sum(record.book(24 + d) ** 2 for d in range(3)))
-    (runs_, lammps) = record.loops
-    seconds, ranks = sum(s for s, _, _ in runs_), max((r for _, r, _ in runs_), default=1)
-    core = sum(s * r for s, r, _ in runs_)
+    runs_ = record.loops
+    seconds, ranks = sum(s for s, *_ in runs_), max((r for _, r, *_ in runs_), default=1)
+    core, logged = sum(s * r for s, r, *_ in runs_), sum(steps for *_, steps in runs_)
     elements = record.fem(0, 0)
     atoms, left = runs_[-1][2] if runs_ else 0, int(record.book(21))
     step = int(record.history_steps[-1])
+    known = 1.0 if logged >= step else math.nan  # a call by hand writes over the log of the one before, unless its -log has another name
     found.update({
         "perforated": found[f"wall{n}_perforated"], "front_velocity_m_s": first["front_velocity"], "cloud_length_mm": 1e3 * first["cloud_length"],
         "cloud_diameter_mm": 1e3 * first["cloud_diameter"], "length_ratio": first["cloud_ratio"], "axial_velocity_ratio": first["front_velocity"] / v0,
         "walls": n, "walls_reached": reached, "quarter": "yes" if g.quarter else "no", "v0_m_s": v0, "dx_mm": 1e3 * g.a, "method": case.method() or "sph",
         "elements": int(elements or 0), "elements_left": int(record.fem(0) or 0), "elements_failed_without_particles": int(record.fem(9) or 0),
         "conversion_heat_ratio": q * (record.fem(7) or 0.0) / E0, "hourglass_energy_ratio": q * (record.fem(8) or 0.0) / E0,
+        "projectile_particles": record.ball, "projectile_particles_planned": round(shield.in_projectile() / q),
         "particles": (matter(folder, atoms) if elements else atoms) + left, "particles_left_the_box": left, "steps": step, "time_us": record.time_us,
         "ended_by": "time" if record.time_us >= shield.latest_us else "event" if over(shield, record) else "until",
         "energy_ratio": record.book(9), "energy_missed_ratio": record.book(30) * record.book(9) / record.book(8), "energy_start_J": q * record.book(8) / record.book(9),
         "momentum_error": error / start, "momentum_left_ratio": q * record.book(15) / p0, "mass_error": (record.book(19) + record.book(20)) / record.book(27) - 1,
-        "areal_density_kg_m2": round(sum(wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])), 3), "wall_s": round(seconds, 2), "ranks": ranks, "core_s": round(core, 1), "particle_steps_per_s": round(step * (atoms + left) / max(seconds, 1e-9)),
-        "lammps_version": lammps, "package_version": version()})
+        "areal_density_kg_m2": round(sum(wall.thickness * rho for wall, rho in zip(g.walls, shield.rho[1:])), 3), "wall_s": round(known * seconds, 2), "ranks": ranks, "core_s": round(known * core, 1),
+        "particle_steps_per_s": round(logged * (atoms + left) / max(seconds, 1e-9)),
+        "lammps_version": record.lammps, "package_version": version()})
     return found
+
+
+def before_next(p, k, close, least):
+    """row of pieces before the cloud of wall k, from 0 on, comes close to the next wall, none of the begin; None if nothing has reached that, which has least momentum then"""
+    near = np.flatnonzero(p.tip[:, k] >= close)
+    return max(near[0] - 1, 1) if len(near) and abs(p.momentum[near[0]:, k + 1]).max() >= least else None
 
 
 def matter(folder, atoms):

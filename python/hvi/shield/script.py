@@ -129,10 +129,22 @@ class Shield:
         g = self.geometry
         return 1e-6 * g.tstop_us * (5300 + 1e3 * self.case.speed_km_s) / min([g.a, *(wall.spacing for wall in g.walls)])
 
+    @functools.cached_property
+    def of_walls(self):
+        """[(free particles, embedded particles, nodes), ...] of the model, about"""
+        return [elements.size(self.case, k, self.which) if k in self.elements else (wall.particles / self.images, 0.0, 0.0) for k, wall in enumerate(self.walls, 1)]
+
+    def embedded(self):
+        """about, of the model"""
+        return sum(held for _, held, _ in self.of_walls)
+
+    def nodes(self):
+        """about, of the model"""
+        return sum(nodes for *_, nodes in self.of_walls)
+
     def particles(self):
-        """about, of the model; walls of elements are left out, which hold few or none"""
-        g = self.geometry
-        return (self.in_projectile() + sum(wall.particles for k, wall in enumerate(g.walls, 1) if k not in self.elements)) / self.images
+        """about, of the model, embedded ones, too, which may become free; no nodes"""
+        return self.in_projectile() / self.images + sum(free + held for free, held, _ in self.of_walls)
 
     def outer_type(self, k):
         """of the particles in the outer part of wall k; None: it has none"""
@@ -297,7 +309,9 @@ class Shield:
         if kind == "clamp":
             text("fix", "rim rim setforce 0 0 0")
         elif kind == "absorb":
-            text("fix", f"rim rim viscous $({number(FRICTION / rim)}*mass(rim)/count(rim))", "absorbs waves")
+            for x in "xyz":
+                text("variable", f"drag{x} atom -{number(FRICTION / rim)}*mass*v{x}", "absorbs waves, the same in particles and nodes of any mass" if x == "x" else "")
+            text("fix", "rim rim addforce v_dragx v_dragy v_dragz")
 
     def debris(self, text):
         """what flies becomes as many particles as fragments; rims, which do not, stay as they are"""
@@ -308,9 +322,14 @@ class Shield:
         text("fix", f"debris {'flies' if self.settings['edge'] == 'free' else 'loose'} hvi/debris", "what fails into fragments smaller than particles flies on as these")
 
     def rim(self, text, rim):
-        """the group of what is no farther than that from the edge of a wall"""
+        """the group of what is no farther than that from the edge of a wall, of elements a square"""
         for k, wall in enumerate(self.walls, 1):
-            text("region", f"rim{k} cylinder z {number(wall.middle)} 0 {number(wall.radius - rim)} {number(wall.front - wall.thickness)} {number(wall.rear + wall.thickness)} side out units box")
+            if k in self.elements:
+                half = 0.5 * elements.of_wall(self.case, k, self.which)["side"] - rim
+                inner = f"block {number(wall.middle - half)} {number(wall.middle + half)} {number(-half)} {number(half)}"
+            else:
+                inner = f"cylinder z {number(wall.middle)} 0 {number(wall.radius - rim)}"
+            text("region", f"rim{k} {inner} {number(wall.front - wall.thickness)} {number(wall.rear + wall.thickness)} side out units box")
             text("group", f"beyond region rim{k}")
             text("group", f"wall type {1 + k}" + (f" {1 + self.n + k}" if k in self.elements else "") + (f" {self.outer_type(k)}" if k in self.outers else ""))
             text("group", f"rim{k} intersect beyond wall")

@@ -22,6 +22,7 @@ FINER = 1.05  # particles that much finer than those of a wall slip through betw
 BEYOND = 0.5  # of the plastic strain of a wall's rear, in the coarse particles of its outer part: then these may decide, too
 COARSER = 1.2  # a wall of particles that much coarser than those of what strikes it holds what a finer one does not
 HEAT = 1e-3  # of the energy of the shot
+FILLED = 0.1  # of the particles that have the volume of the projectile
 
 ALWAYS, UNLESS, FAILS, HOLDS, NOTE = "undecided", "undecided unless it fails", "fails", "holds", "note"
 
@@ -171,6 +172,10 @@ RULES = (
     Rule("hourglass", NOTE, lambda m: m.r["hourglass_energy_ratio"] > HEAT, "energy that is not of the impact",
          lambda m: f"{100 * m.r['hourglass_energy_ratio']:.2g} percent of the energy are in hourglass forces of elements, and 0.1 are no matter",
          lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
+    Rule("filled", NOTE, lambda m: abs(m.r["projectile_particles"] / m.r["projectile_particles_planned"] - 1) > FILLED, "they share its mass, and each has the volume of its cell",
+         lambda m: f"the projectile has {m.r['projectile_particles']} particles, and {m.r['projectile_particles_planned']} have its volume: "
+                   f"each is {m.r['projectile_particles_planned'] / m.r['projectile_particles']:.2g} times as dense",
+         lambda m: ({"spacings_mm": None}, "take smaller spacings_mm, or fill: glass")),
     Rule("ball", NOTE, lambda m: m.ball_whole, "what cannot fail stays in one piece", lambda m, lack: lacks(f"the projectile is of {m.case.material}", *lack), each=True),
     Rule("coarse", NOTE, lambda m: m.coarse, "the cloud is that of this wall, too",
          lambda m, k: f"wall {k}, which does not decide, has {m.of('layers', k)} layer(s) of particles, and {NEEDED} are better for its cloud",
