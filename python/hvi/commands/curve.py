@@ -39,7 +39,10 @@ def row(value, over, limit):
 
 
 def equations(case, over, values):
-    """{equation: [(critical size in mm, as limits have it, is it within its ranges), ...]} over values, or why there are none; equations have that of a sphere of the same mass"""
+    """{equation: [(critical size in mm, is it within its ranges), ...]} over values, or why there are none
+
+    The size is that of limits; equations have the diameter of a sphere of the same mass.
+    """
     def curves():
         found = {}
         for at in (over.at(case, value) for value in values):
@@ -97,7 +100,8 @@ def report(case, on, over, limits, folder, jobs):
     known = equations(case, over, [*limits]) if on == "D" else f"none: the equations are for a diameter, not for {on}"
     names = [] if isinstance(known, str) else list(known)
     columns = (over.name, f"limit_{unit}", "low", "high", "holds", "fails", "runs", *names)
-    cells = [(line[over.name], *(line[key] for key in ("limit", "low", "high", "holds", "fails", "runs")), *(known[name][k][0] for name in names)) for k, line in enumerate(rows)]
+    values = ("limit", "low", "high", "holds", "fails", "runs")
+    cells = [(line[over.name], *(line[key] for key in values), *(known[name][k][0] for name in names)) for k, line in enumerate(rows)]
     shown = [[value if value == value else "-" for value in line] for line in cells]
     print(tables.text(columns, shown))
     for line in rows:

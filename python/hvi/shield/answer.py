@@ -79,8 +79,9 @@ class Answer:
 
 
 def state_of(mapping):
-    """a mapping of Case.mapping() without what changes no answer: frames, the order of shifts, and the names of files of the projectile, which are compared by their checksums"""
-    body, settings = ({key: value for key, value in mapping.get(of, {}).items() if key != leave} for of, leave in (("projectile", "file"), ("settings", "film")))
+    """a mapping of Case.mapping() without what changes no answer: frames, the order of shifts, and names of files of the projectile, whose checksums are compared"""
+    body = {key: value for key, value in mapping.get("projectile", {}).items() if key != "file"}
+    settings = {key: value for key, value in mapping.get("settings", {}).items() if key != "film"}
     return {**mapping, "projectile": body, "settings": settings, "shifts": sorted(mapping.get("shifts", []))}
 
 
@@ -93,7 +94,8 @@ def whole(runs, name):
     """the Case of all these runs"""
     of = {run.dx: run.case for run in sorted(runs, key=lambda run: -run.dx)}
     first = runs[0].case
-    walls = tuple(dataclasses.replace(wall, spacings_mm=wall.spacings_mm and tuple(case.walls[k].spacings_mm[0] for case in of.values())) for k, wall in enumerate(first.walls))
+    walls = tuple(dataclasses.replace(wall, spacings_mm=wall.spacings_mm and tuple(case.walls[k].spacings_mm[0] for case in of.values()))
+                  for k, wall in enumerate(first.walls))
     return dataclasses.replace(first, name=name, walls=walls, spacings_mm=tuple(of), shifts=tuple(sorted({run.case.shifts[0] for run in runs})))
 
 
@@ -150,7 +152,8 @@ def read(path, runs="runs"):
             raise HVIError(f"{folder} has limits or curves only: give the case itself, CASE.yaml, and --runs {folder.parent}")
         case = whole(found, folder.resolve().name)
     elif found and not are_all_of(found, case):
-        raise HVIError(f"{folder} is of another state of {path} (its runs are {', '.join(run.name for run in found)}), or of files that it names: call python3 -m hvi shield {path} again, or give the folder itself")
+        raise HVIError(f"{folder} is of another state of {path} (its runs are {', '.join(run.name for run in found)}), or of files that it names: "
+                       f"call python3 -m hvi shield {path} again, or give the folder itself")
     limits, curves = (searched(folder, kind, case) for kind in ("limit", "curve"))
     return Answer(case.name, folder, case, str(said.get("verdict", NOT_RUN)), tuple(texts(said, "reasons")), tuple(texts(said, "notes")), tuple(found), said, limits[0], curves[0],
                   tuple(limits[1] + curves[1]))

@@ -206,7 +206,8 @@ class Case:
         for k, (wall, reach) in enumerate(zip(self.walls, geometry.reaches(self)), 1):
             wide = wall.radius_mm or reach if wall.method == "sph" else elements.half_side(self, k)
             if self.setting("edge") != "free" and self.setting("rim") >= wide:
-                wrong("settings: rim", f"{self.setting('rim'):g} mm is no narrower than wall {k}, whose {'radius' if wall.method == 'sph' else 'half side'} is {wide:.4g} mm")
+                wrong("settings: rim", f"{self.setting('rim'):g} mm is no narrower than wall {k}, "
+                      f"whose {'radius' if wall.method == 'sph' else 'half side'} is {wide:.4g} mm")
         self.check_materials(wrong)
         self.check_refined(wrong)
         if "layers" in self.settings and len(self.settings["layers"]) != len(self.walls):

@@ -69,7 +69,8 @@ def of_wall(case, k, which):
 def size(case, k, which):
     """(free particles, embedded particles, nodes) of wall k in the model, about"""
     words = of_wall(case, k, which)
-    return mesh_plate.size(**{name: words[name] for name in ("side", "element", "n", "layers", "core", "hold", "growth", "largest", "quarter") if name in words})
+    names = "side", "element", "n", "layers", "core", "hold", "growth", "largest", "quarter"
+    return mesh_plate.size(**{name: words[name] for name in names if name in words})
 
 
 def of_case(case, which):

@@ -57,8 +57,8 @@ KEYS = {
 class Projectile:
     """Lengths in mm, pitch in degrees: by how much its axis is turned about y from the direction normal to the walls
 
-    files: absolute paths, one STL file, in mm, or particle files, one for each spacing; of_files: what they say, [(extent, volume, least), ...]: that of the sphere around
-    it, mm, mm^3, and the least extent, mm
+    files: absolute paths, one STL file, in mm, or particle files, one for each spacing; of_files: what they say,
+    [(extent, volume, least), ...]: that of the sphere around it, mm, mm^3, and the least extent, mm
     """
 
     material: str
@@ -160,12 +160,16 @@ class Projectile:
                     ("region", "ball intersect 2 outer inner")]
         half = 0.5e-3 * (self.length_mm or self.side_mm)
         high = f"{number(-R - half)} {number(-R + half)}"
-        straight = f"cylinder z 0 0 {number(0.5e-3 * self.diameter_mm)} {high}" if self.shape == "cylinder" else f"block {number(-half)} {number(half)} {number(-half)} {number(half)} {high}"
+        straight = f"block {number(-half)} {number(half)} {number(-half)} {number(half)} {high}"
+        if self.shape == "cylinder":
+            straight = f"cylinder z 0 0 {number(0.5e-3 * self.diameter_mm)} {high}"
         if not self.pitch_deg:
             return [("region", f"ball {straight} units box")]
         # create_atoms looks at the box that a region had before it was turned; one that is the outside of something has none
-        return [("variable", f"pitch equal {number(math.radians(self.pitch_deg))}"), ("region", f"outside {straight} side out units box rotate v_pitch 0 0 {z} 0 1 0"),
-                ("region", "turned union 2 outside outside side out"), ("region", f"around block {number(-R)} {number(R)} {number(-R)} {number(R)} {number(-2 * R)} 0 units box"),
+        return [("variable", f"pitch equal {number(math.radians(self.pitch_deg))}"),
+                ("region", f"outside {straight} side out units box rotate v_pitch 0 0 {z} 0 1 0"),
+                ("region", "turned union 2 outside outside side out"),
+                ("region", f"around block {number(-R)} {number(R)} {number(-R)} {number(R)} {number(-2 * R)} 0 units box"),
                 ("region", "ball intersect 2 turned around")]
 
 
@@ -198,7 +202,7 @@ def read(reader, node, key):
 def measured(path, density):
     """(diameter of the sphere around its middle, volume, least extent) in mm, mm^3: of an STL file, in mm, or of a particle file, in m, of this density
 
-    least: along an axis, or twice the thickness of a surface, as of a plate that lies askew, or a hollow body: two particles are across a shell, and four across the projectile
+    least: along an axis, or twice the mean thickness of a surface, as of a plate that lies askew, or a shell: two particles are across a shell, four across the projectile
     """
     if is_surface(path):
         triangles = stl.read(path)
@@ -207,7 +211,8 @@ def measured(path, density):
     else:
         x, mass, rho = particles(path)
         if abs(rho / density - 1) > SAME:
-            raise HVIError(f"{path} has a density of {rho:g} kg/m^3, and the material of the projectile {density:g}: python3 -m hvi body --material FILE.hvi makes one of it")
+            raise HVIError(f"{path} has a density of {rho:g} kg/m^3, and the material of the projectile {density:g}: "
+                           "python3 -m hvi body --material FILE.hvi makes one of it")
         x, volume = 1e3 * x, 1e9 * mass / density
         least = np.ptp(x, axis=0).min() + (volume / len(x)) ** (1 / 3)
     return float(2 * np.linalg.norm(x - stl.middle(x), axis=1).max()), volume, float(least)

@@ -101,11 +101,15 @@ class Record:
 
 
 def logs(folder):
-    """([(seconds, ranks, particles, steps), ...] of the runs in the logs of a folder, particles of the projectile, or NaN if the log of the begin is gone, LAMMPS's version as a number, 20250204)"""
+    """([(seconds, ranks, particles, steps), ...] of the runs in the logs of a folder, particles of the projectile, LAMMPS's version as a number, 20250204)
+
+    The projectile's are NaN if the log of the begin is gone.
+    """
     found, ball, said = [], math.nan, ""
     for path in sorted(pathlib.Path(folder).glob("log*.lammps"), key=lambda path: int(re.sub(r"\D", "", path.name) or 0)):
         text = path.read_text(errors="replace")
-        found += [(float(s), int(p), int(n), int(steps)) for s, p, steps, n in re.findall(r"^Loop time of (\S+) on (\d+) procs for ([1-9]\d*) steps with (\d+) atoms", text, re.M)]
+        found += [(float(s), int(p), int(n), int(steps)) for s, p, steps, n in
+                  re.findall(r"^Loop time of (\S+) on (\d+) procs for ([1-9]\d*) steps with (\d+) atoms", text, re.M)]
         ball = next(map(int, re.findall(r"^(\d+) atoms in group ball$", text, re.M)), ball)
         said = next(iter(re.findall(r"^LAMMPS \((\d+ \w+ \d+)", text, re.M)), said)
     return found, ball, int(time.strftime("%Y%m%d", time.strptime(said, "%d %b %Y"))) if said else 0
@@ -119,10 +123,12 @@ def measure(shield, folder):
         raise HVIError(f"{folder}: walls.dat is of {record.walls.tip.shape[1]} walls, the case has {n}")
     columns = 2 + BOOK + (FEM if shield.elements else 0)
     if record.history.shape[1] != columns:
-        raise HVIError(f"{folder}: history.dat must have {columns} columns after the step, as {script.BEGIN} of this case writes them; it has {record.history.shape[1]}: take a file of your own for other values")
+        raise HVIError(f"{folder}: history.dat must have {columns} columns after the step, as {script.BEGIN} of this case writes them; "
+                       f"it has {record.history.shape[1]}: take a file of your own for other values")
     p, mp = record.pieces, shield.mass()
     E0, p0 = shield.energy, mp * v0
-    ends = [before_next(p, k, wall.front - min(ARRIVE * g.widest, 0.5 * (wall.front - before.rear)), TOUCHED * p0 / q) for k, (before, wall) in enumerate(zip(g.walls, g.walls[1:]))]
+    close = [wall.front - min(ARRIVE * g.widest, 0.5 * (wall.front - before.rear)) for before, wall in zip(g.walls, g.walls[1:])]
+    ends = [before_next(p, k, place, TOUCHED * p0 / q) for k, place in enumerate(close)]
     reached = next((k for k, row in enumerate(ends, 1) if row is None), n)
     found = {}
     for k, wall in enumerate(g.walls[:reached]):
@@ -178,7 +184,10 @@ def measure(shield, folder):
 
 
 def before_next(p, k, close, least):
-    """row of pieces before the cloud of wall k, from 0 on, comes close to the next wall, none of the begin; None if nothing has reached that, which has least momentum then"""
+    """row of pieces before the cloud of wall k, from 0 on, comes close to the next wall, not that of the begin; None if nothing has reached that wall
+
+    least: momentum of a wall that was reached
+    """
     near = np.flatnonzero(p.tip[:, k] >= close)
     return max(near[0] - 1, 1) if len(near) and abs(p.momentum[near[0]:, k + 1]).max() >= least else None
 

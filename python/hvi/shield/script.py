@@ -132,7 +132,8 @@ class Shield:
     @functools.cached_property
     def of_walls(self):
         """[(free particles, embedded particles, nodes), ...] of the model, about"""
-        return [elements.size(self.case, k, self.which) if k in self.elements else (wall.particles / self.images, 0.0, 0.0) for k, wall in enumerate(self.walls, 1)]
+        return [elements.size(self.case, k, self.which) if k in self.elements else (wall.particles / self.images, 0.0, 0.0)
+                for k, wall in enumerate(self.walls, 1)]
 
     def embedded(self):
         """about, of the model"""
@@ -309,8 +310,9 @@ class Shield:
         if kind == "clamp":
             text("fix", "rim rim setforce 0 0 0")
         elif kind == "absorb":
+            text("variable", f"rate equal {number(FRICTION / rim)}", "absorbs waves, the same in particles and nodes of any mass")
             for x in "xyz":
-                text("variable", f"drag{x} atom -{number(FRICTION / rim)}*mass*v{x}", "absorbs waves, the same in particles and nodes of any mass" if x == "x" else "")
+                text("variable", f"drag{x} atom -v_rate*mass*v{x}")
             text("fix", "rim rim addforce v_dragx v_dragy v_dragz")
 
     def debris(self, text):

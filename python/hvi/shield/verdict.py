@@ -172,7 +172,8 @@ RULES = (
     Rule("hourglass", NOTE, lambda m: m.r["hourglass_energy_ratio"] > HEAT, "energy that is not of the impact",
          lambda m: f"{100 * m.r['hourglass_energy_ratio']:.2g} percent of the energy are in hourglass forces of elements, and 0.1 are no matter",
          lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
-    Rule("filled", NOTE, lambda m: abs(m.r["projectile_particles"] / m.r["projectile_particles_planned"] - 1) > FILLED, "they share its mass, and each has the volume of its cell",
+    Rule("filled", NOTE, lambda m: abs(m.r["projectile_particles"] / m.r["projectile_particles_planned"] - 1) > FILLED,
+         "they share its mass, and each has the volume of its cell",
          lambda m: f"the projectile has {m.r['projectile_particles']} particles, and {m.r['projectile_particles_planned']} have its volume: "
                    f"each is {m.r['projectile_particles_planned'] / m.r['projectile_particles']:.2g} times as dense",
          lambda m: ({"spacings_mm": None}, "take smaller spacings_mm, or fill: glass")),
