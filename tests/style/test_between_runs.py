@@ -312,7 +312,11 @@ def test_commands_that_find_no_bonds(lmp, nranks):
     said = "Compute stock (fragment/atom) finds no bonds of bond style hvi/spring in a run: use compute hvi/fragment/atom"
     assert said in lmp(FREE + "compute stock all fragment/atom\nrun 0\n", nranks=nranks, expect_fail=True).error
     r = lmp(FREE + "run 2\ngroup some id 400:405\ndelete_atoms group some compress no\nreset_atoms mol all\n", nranks=nranks, expect_fail=True)
-    assert re.search(r"there are bonds to particle 40\d, which is gone: use delete_atoms with bond yes", r.error)
+    said = r"there are bonds to particle 40\d, which is gone: use delete_atoms with bond yes"
+    assert re.search(said, r.error)
+    r = lmp(FREE + "thermo_modify lost/bond ignore\nrun 2\ngroup some id 400:405\ndelete_atoms group some compress no\n"
+            "write_restart one\nwrite_restart two\nrun 2\n", nranks=nranks)
+    assert len(re.findall(said + ", without which reset_atoms mol finds no bonds", r.log)) == 1
 
 
 @pytest.mark.parametrize("nranks", [1, 2])
