@@ -28,11 +28,14 @@
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "output.h"
 #include "special.h"
+#include "thermo.h"
 #include "update.h"
 
 #include <cmath>
 #include <cstring>
+#include <string>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -43,7 +46,7 @@ static constexpr int RESTART_FORMAT = 1;
 
 BondHVISpring::BondHVISpring(LAMMPS *lmp) :
     Bond(lmp), kappa(nullptr), r_eq(nullptr), r_cut(nullptr), law(nullptr), ledger(nullptr),
-    dropped(false), exact_images(0), nmax(0), xowner(nullptr)
+    dropped(false), warned(false), exact_images(0), nmax(0), xowner(nullptr)
 {
   partial_flag = 1;
   born_matrix_enable = 1;
@@ -375,11 +378,17 @@ void BondHVISpring::restore_special()
   if (!dropped && total[1] == total[0] * (force->newton_bond ? 2 : 1)) return;
 
   const std::vector<char> none(atom->ntypes + 1, 0);
-  if (const tagint gone = HVITagExchange(lmp).connect(partners, none, false))
-    error->all(FLERR,
-               "Bond style hvi/spring: there are bonds to particle {}, which is gone: use "
-               "delete_atoms with bond yes",
-               gone);
+  if (const tagint gone = HVITagExchange(lmp).connect(partners, none, false)) {
+    const std::string said = fmt::format(
+        "Bond style hvi/spring: there are bonds to particle {}, which is gone: use delete_atoms "
+        "with bond yes",
+        gone);
+    if (output->thermo->lostbond == Thermo::ERROR) error->all(FLERR, said);
+    if (comm->me == 0 && !warned)
+      error->warning(FLERR, said + ", without which reset_atoms mol finds no bonds");
+    warned = true;
+    return;
+  }
   Special(lmp).build();
   dropped = false;
 }

@@ -49,6 +49,7 @@ class BondHVISpring : public Bond, public HVI::TimeStepSource, public HVI::Energ
   class FixHVILedger *ledger;
 
   bool dropped;        // lists of special neighbors are not those of the bonds
+  bool warned;         // that they cannot be made again
   int exact_images;    // 1 if bonds are measured between coordinates as their owners hold them
   int nmax;
   double **xowner;    // coordinates of ghosts without periodic shifts, only if exact_images

@@ -116,8 +116,8 @@ ComputeHVIHole::ComputeHVIHole(LAMMPS *lmp, int narg, char **arg, bool keeps) :
       dynamic_cast<FixStoreGlobal *>(
           modify->add_fix(fmt::format("{} all STORE/GLOBAL {} 1", id_fix, (int) NKEPT)))
           ->vstore;
-  placed =
-      kept[PLACED] != 0.0 && kept[AT] == center[0] && kept[AT + 1] == center[1] && kept[AT + 2] == plane;
+  placed = kept[PLACED] != 0.0 && kept[AT] == center[0] && kept[AT + 1] == center[1] &&
+      kept[AT + 2] == plane;
 }
 
 /* ---------------------------------------------------------------------- */

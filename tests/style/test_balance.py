@@ -97,8 +97,10 @@ def test_restart(lmp, root, tmp_path, first, second):
 @pytest.mark.parametrize("steps", [0, 10])
 def test_each_run_looks_at_its_start(lmp, root, tmp_path, steps):
     """also at a step at which the last run has looked, when a command has taken particles away since"""
-    text = (root / "tests/inputs/in.solid").read_text().replace("boundary s s s", "boundary s s s\ncomm_style tiled").replace("run 30", "fix share all hvi/balance 5 1.0\n")
-    text += f"thermo_style custom step f_share f_share[*]\nrun {steps}\nregion half block INF $(bound(all,xmin)+0.4*(bound(all,xmax)-bound(all,xmin))) INF INF INF INF units box\ndelete_atoms region half\n" + OUT.format("d") + "run 0\n"
+    text = (root / "tests/inputs/in.solid").read_text().replace("boundary s s s", "boundary s s s\ncomm_style tiled")
+    text = text.replace("run 30", "fix share all hvi/balance 5 1.0\n") + f"thermo_style custom step f_share f_share[*]\nrun {steps}\n"
+    text += "region half block INF $(bound(all,xmin)+0.4*(bound(all,xmax)-bound(all,xmin))) INF INF INF INF units box\ndelete_atoms region half\n"
+    text += OUT.format("d") + "run 0\n"
     r = lmp(text, nranks=2, cwd=tmp_path, env={"LAMMPS_POTENTIALS": str(root / "potentials")})
     cost = loads(read_dump(tmp_path / "d"))
     assert len(cost) == 2 and cost.max() < 1.1 * cost.mean()

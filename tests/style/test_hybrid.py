@@ -99,12 +99,13 @@ def test_restart(lmp, tmp_path, material):
 def test_contacts_that_outgrow_lists(lmp, style, nranks, newton):
     """by fix adapt: an error, also through hybrid; from a sigma of pair_coeff that is large enough they are all there"""
     coeff = "pair_coeff * * " + ("hvi/contact " if style else "") + "0.1 {}\n" + ("pair_coeff * * zero\n" if "zero" in style else "")
-    text = f"units lj\nnewton {newton}\natom_style atomic\nlattice sc 1.0\nregion box block 0 6 0 6 0 6\ncreate_box 1 box\ncreate_atoms 1 box\nmass * 1.0\npair_style {style} hvi/contact\n{coeff}" \
-        "variable s equal 0.890898718+0.06*step\nfix grow all adapt 1 pair hvi/contact sigma * * v_s\nthermo_style custom step pe\nthermo_modify norm no\n{}run 10\n"
-    assert "as sigma has grown: give pair_coeff the largest sigma" in lmp(text.format(0.890898718, ""), nranks=nranks, expect_fail=True).error
-    assert lmp(text.format(1.6, ""), nranks=nranks).thermo["PotEng"][-1] == pytest.approx(7218.7017, rel=1e-6)
-    # lists of a later run are those of what sigma is at its start
-    assert lmp(text.format(1.6, "unfix grow\nfix grow all adapt 5 pair hvi/contact sigma * * v_s\n"), nranks=nranks).thermo["PotEng"][-1] == pytest.approx(7218.7017, rel=1e-6)
+    grow = "fix grow all adapt {} pair hvi/contact sigma * * v_s\n"
+    text = f"units lj\nnewton {newton}\natom_style atomic\nlattice sc 1.0\nregion box block 0 6 0 6 0 6\ncreate_box 1 box\ncreate_atoms 1 box\n" \
+        f"mass * 1.0\npair_style {style} hvi/contact\n{coeff}variable s equal 0.890898718+0.06*step\n{grow}thermo_style custom step pe\n" \
+        "thermo_modify norm no\nrun 10\n"
+    assert "as sigma has grown: give pair_coeff the largest sigma" in lmp(text.format(0.890898718, 1), nranks=nranks, expect_fail=True).error
+    for every in 1, 5:
+        assert lmp(text.format(1.6, every), nranks=nranks).thermo["PotEng"][-1] == pytest.approx(7218.7017, rel=1e-6), every
 
 
 def test_scaled_is_refused(lmp, tmp_path, material):

@@ -203,12 +203,16 @@ def test_a_wall_that_is_drilled_between_runs(walls):
     assert [row["hole_found"] for row in found[1::2]] == [0, 1] and found[3]["hole_diameter"] == pytest.approx(3.8e-3, rel=0.1)
 
 
+DRILLED = HEAD.format(newton="on", low=-8e-3, edge=-8e-3, mirror="").replace(
+    "change_box all", "region drill cylinder z 0 0 1.8e-3 -1e-3 2e-3 units box\ndelete_atoms region drill\nchange_box all")
+
+
 @pytest.mark.parametrize("struck, found", [("0 0", 1), ("30e-3 0", -1)])
 def test_a_drilled_wall_that_flies_before_a_restart(walls, struck, found):
     """by more than its depth: the hole is still where the wall was struck, if that was on the wall"""
-    drilled = HEAD.format(newton="on", low=-8e-3, edge=-8e-3, mirror="").replace("change_box all", "region drill cylinder z 0 0 1.8e-3 -1e-3 2e-3 units box\ndelete_atoms region drill\nchange_box all")
     model = MODEL.replace("wall 2 0 1.2e-3", f"wall 2 0 1.2e-3 struck {struck}")
-    begun = walls(drilled.replace("velocity ball set 0 0 3000", "velocity all set 0 0 500") + "timestep 5e-8\n" + model.replace("fix step", "# fix step") + "run 100\n" + PRINT + "write_restart half\n")
+    start = DRILLED.replace("velocity ball set 0 0 3000", "velocity all set 0 0 500") + "timestep 5e-8\n" + model.replace("fix step", "# fix step")
+    begun = walls(start + "run 100\n" + PRINT + "write_restart half\n")
     again = walls("read_restart half\n" + model + PRINT)
     assert [row["hole_found"] for row in (begun[0], again[0])] == [found, found]
     if found == 1:
@@ -218,9 +222,10 @@ def test_a_drilled_wall_that_flies_before_a_restart(walls, struck, found):
 
 def test_fluids(walls):
     """pieces of matter without fix hvi/johnson-cook: what has none of its values counts as sound"""
-    text = HEAD.format(newton="on", low=-8e-3, edge=-8e-3, mirror="").replace("change_box all", "region drill cylinder z 0 0 1.8e-3 -1e-3 2e-3 units box\ndelete_atoms region drill\nchange_box all")
-    row = walls(text.replace("h 7.2e-4", "h 7.2e-4 strength none") + re.sub("^(fix solid|compute state).*\n", "", MODEL, flags=re.M) + PRINT)[0]
-    assert row["hole_found"] == 1 and row["hole_diameter"] == pytest.approx(3.8e-3, rel=0.1) and row["body_mass"] == pytest.approx(row["mass"]) and row["rear_strain"] == 0
+    model = re.sub("^(fix solid|compute state).*\n", "", MODEL, flags=re.M)
+    row = walls(DRILLED.replace("h 7.2e-4", "h 7.2e-4 strength none") + model + PRINT)[0]
+    assert row["hole_found"] == 1 and row["hole_diameter"] == pytest.approx(3.8e-3, rel=0.1)
+    assert row["body_mass"] == pytest.approx(row["mass"]) and row["rear_strain"] == 0
 
 
 def test_hybrid(walls):
