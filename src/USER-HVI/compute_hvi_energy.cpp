@@ -46,7 +46,7 @@ static constexpr double LARGE_DRIFT = 0.01;    // of the energy in a run: is war
 
 ComputeHVIEnergy::ComputeHVIEnergy(LAMMPS *lmp, int narg, char **arg) :
     Compute(lmp, narg, arg), ledger(nullptr), clampbit(0), run_start(HUGE_VAL), last(0.0),
-    before(0.0), warned(false)
+    before(0.0), warned(false), warned_of_missed(false)
 {
   if (igroup != 0)
     error->all(FLERR, "Compute hvi/energy is the ledger of the whole system: group must be all");
@@ -220,4 +220,17 @@ void ComputeHVIEnergy::compute_vector()
   for (int n = KINETIC; n <= SPRING; n++) scale = std::max(scale, std::fabs(vector[n]));
   const double drift = before + last - run_start;
   if (!warned && std::fabs(drift) > LARGE_DRIFT * scale) warn(drift / scale);
+
+  // of solids alone: their total does not drift
+
+  const double missed = std::fabs(vector[MISSED]);
+  if (!warned_of_missed && missed > LARGE_DRIFT * scale) {
+    warned_of_missed = true;
+    if (comm->me == 0)
+      error->warning(
+          FLERR,
+          "Compute hvi/energy: {:.3g} of the energy is work that the time step has missed "
+          "(entry 30), up to step {}, booked as heat of solids: use a smaller C",
+          missed / scale, update->ntimestep);
+  }
 }

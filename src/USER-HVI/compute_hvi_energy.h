@@ -33,7 +33,7 @@ class ComputeHVIEnergy : public Compute {
   int clampbit;        // groups named by clamps
   double run_start, last;    // total when this run began, and at the last look
   double before;             // what has come in earlier runs; not what commands between them have done
-  bool warned;
+  bool warned, warned_of_missed;
 
   void warn(double drift);
 };

@@ -386,7 +386,7 @@ def test_inactive_particles_after_a_command_that_takes_some_away(lmp, value, nra
     said = "asleep or cost: a command since the last run has moved, made or taken away particles, and ghosts are not there: use run 0 first"
     assert said in lmp(text.format(""), nranks=nranks, expect_fail=True).error
     lmp(text.format("run 0\n"), nranks=nranks)
-    assert list(read_dump("now")["c_s"]) == 768 * [{"asleep": 1, "cost": 0.17}[value]]
+    assert list(read_dump("now")["c_s"]) == 768 * [{"asleep": 1, "cost": 0.4}[value]]
 
 
 @pytest.mark.parametrize("pair", ["hvi/sph cubic", "hvi/contact"])

@@ -263,3 +263,51 @@ def test_liquids_cavitate(lmp, tmp_path, section, alone):
     (tmp_path / "water.hvi").write_text(f"# UNITS: si\n# water\neos tait\nrho0 1000\nc0 1480\n{section}spall limit\nsigma_p 1e5\n")
     last = {key: of[-1] for key, of in lmp(LIQUID.replace("pair_coeff 2 2 file Al2024-T3.hvi spacing 1e-3\n", "").replace("create_box 2", "create_box 1") if alone else LIQUID).thermo.items()}
     assert last["c_p"] == 0.0 and last["c_q"] == 512 and last["f_liquid[1]"] == 1
+
+
+# ---------------------------------------------------------------------- the time step
+FOAM = """units si
+boundary f p p
+atom_style sph
+lattice sc 5e-4 origin 0.5 0.5 0.5
+region box block -40 40 0 3 0 3
+create_box 2 box
+region slab block -8 0 INF INF INF INF
+region foam block 0 16 INF INF INF INF
+create_atoms 1 region slab
+create_atoms 2 region foam
+pair_style hvi/sph cubic ${style}
+pair_coeff 1 1 file tungsten.hvi spacing 5e-4
+pair_coeff 2 2 file foam.hvi spacing 5e-4
+pair_coeff 1 2 tension ${tension}
+group slab type 1
+velocity slab set 500 0 0 units box
+fix move all hvi/sph
+if "${solid} == yes" then "fix solids all hvi/johnson-cook strength perfect damage no spall none"
+fix step all hvi/dt ${C}
+compute book all hvi/energy
+compute s all hvi/atom e
+compute hot slab reduce ave c_s
+variable missed equal c_book[30]/c_book[8]
+variable left equal 3e-6-time
+fix end all halt 1 v_left < 0 error continue message no
+thermo_style custom step c_book[9] v_missed c_hot
+thermo 20
+thermo_modify lost ignore
+run 100000
+"""
+
+
+@pytest.mark.parametrize("style, solid, tension, C, most", [("dissipation riemann", "yes", "no", 0.6, 60.0), ("dissipation riemann", "yes", "yes", 0.6, 150.0), ("viscosity 1 2", "no", "no", 0.3, 30.0)])
+def test_light_matter_beside_dense_matter(lmp, tmp_path, style, solid, tension, C, most):
+    """foam is held by the stiffness of tungsten: steps for the sound of either heat the tungsten, J/kg, a hundred times too much"""
+    for name, rho0, c0, G, Y in (("tungsten", 19300, 4030, 160e9, 1e9), ("foam", 100, 1000, 3e7, 1e6)):
+        (tmp_path / f"{name}.hvi").write_text(f"# UNITS: si\\n# {name}\\neos tait\\nrho0 {rho0}\\nc0 {c0}\\ngamma 4\\nstrength perfect\\nG {G}\\nY {Y}\\n".replace("\\n", "\n"))
+    t = lmp(FOAM, vars={"style": style, "solid": solid, "tension": tension, "C": C}).thermo
+    assert abs(t["c_hot"][-1]) < most and abs(t["v_missed"][-1]) < 1e-3 and t["c_book[9]"][-1] == pytest.approx(1.0, abs=1e-3)
+
+
+def test_missed_work_is_warned_of(lmp, scene):
+    """the total of solids does not show a step that is too long"""
+    r = lmp(scene("solid", ("fix step all hvi/dt 0.5", "timestep 2.2e-7")) + "run 30\n")
+    assert "of the energy is work that the time step has missed (entry 30)" in r.log

@@ -107,7 +107,7 @@ class SphFields {
   bool is_idle(int i) const { return !idle.empty() && idle[i]; }
   double cost(int i) const    // in a step, of an owned particle over an active one
   {
-    return asleep(i) || is_idle(i) ? 0.17 : 1.0;
+    return asleep(i) || is_idle(i) ? 0.4 : 1.0;
   }
   std::vector<char> sleepers;    // owned particles that nothing happens to; empty: there are none
   double viscous_power = 0.0;    // heat of viscosity, of particles that fix hvi/sph integrates

@@ -13,6 +13,8 @@
 #include "hvi_stress.h"
 #include "hvi_vector.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -78,6 +80,17 @@ struct alignas(64) SphState {
     if (label() & op) body = code(type(), -1 - label(), is_rubble());
   }
 };
+
+/* ----------------------------------------------------------------------
+   A particle of light matter beside one of dense matter is held by the stiffness of that, K = rho c^2, and
+   swings as if its speed of sound were sqrt(K/rho_light), of which half is counted: it matters where
+   densities differ by more than 4
+------------------------------------------------------------------------- */
+
+static inline double sph_swing(double c_i, double rho_i, double c_j, double rho_j)
+{
+  return 0.5 * std::sqrt(std::max(rho_i * c_i * c_i, rho_j * c_j * c_j) / std::min(rho_i, rho_j));
+}
 
 // the forces: what its neighbors do to it; drho of solids is written between the sweeps, too
 

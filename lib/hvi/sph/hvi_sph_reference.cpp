@@ -260,7 +260,12 @@ namespace {
   double Reference::signal_rate(const Pair &pair) const
   {
     if (!(pair.vx < 0.0)) return 0.0;
-    const double c = std::max(pair.si.c, pair.sj.c);
+    const SphState &si = pair.si, &sj = pair.sj;
+    double c = std::max(si.c, sj.c);
+    // the pressure between fluids of Riemann problems goes with the smaller impedance
+    if ((!has(SPH_RIEMANN) || has(SPH_SOLID)) && si.type() != sj.type() &&
+        std::max(si.rho, sj.rho) > 4.0 * std::min(si.rho, sj.rho))
+      c = std::max(c, sph_swing(si.c, si.rho, sj.c, sj.rho));
     const double viscous = has(SPH_RIEMANN) ? c + 0.6 * pair.closing()
                                             : pair.a * c - pair.b * mu(pair);
     return (c + pair.closing() + 0.6 * viscous) / pair.h;
