@@ -375,7 +375,7 @@ void BondHVISpring::restore_special()
   }
   owned[0] = partners.size();
   MPI_Allreduce(owned, total, 2, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (!dropped && total[1] == total[0] * (force->newton_bond ? 2 : 1)) return;
+  if (total[0] == 0) return;
 
   const std::vector<char> none(atom->ntypes + 1, 0);
   if (const tagint gone = HVITagExchange(lmp).connect(partners, none, false)) {
@@ -389,6 +389,7 @@ void BondHVISpring::restore_special()
     warned = true;
     return;
   }
+  if (!dropped && total[1] == total[0] * (force->newton_bond ? 2 : 1)) return;
   Special(lmp).build();
   dropped = false;
 }

@@ -102,7 +102,7 @@ double ComputeHVIAtom::value_of(Value value, int i) const
   if (value == BONDS) return nbonds[i];
   if (value == ASLEEP) return store->fields.asleep(i) ? 1.0 : 0.0;
   if (value == BODY) return integrator->body(i);
-  if (value == COST) return store->fields.cost(i);
+  if (value == COST) return are_others ? 1.0 : store->fields.cost(i);
 
   const int itype = atom->type[i];
   const HVI::Material *const material = store->materials.of(itype);
@@ -193,8 +193,7 @@ void ComputeHVIAtom::compute_peratom()
   const auto asks_for = [this](Value value) {
     return std::find(values.begin(), values.end(), value) != values.end();
   };
-  if ((asks_for(ASLEEP) || asks_for(COST)) && update->whichflag == 0)
-    check_ghosts("asleep or cost");
+  if (asks_for(ASLEEP) || asks_for(COST)) check_inactive(asks_for(ASLEEP));
   if (asks_for(BONDS)) count_bonds();
   for (int i = 0; i < atom->nlocal; i++)
     for (int n = 0; n < ncols; n++)
@@ -202,8 +201,24 @@ void ComputeHVIAtom::compute_peratom()
 }
 
 /* ----------------------------------------------------------------------
-   as in compute hvi/fragment/atom; also whether owned particles are those of the last forces
+   between runs there may be others than in the last forces.  The command balance, which moves particles
+   before it asks for weights, takes all as active then.
 ------------------------------------------------------------------------- */
+
+void ComputeHVIAtom::check_inactive(bool asks_for_asleep)
+{
+  const std::size_t seen = store ? store->fields.sleepers.size() : 0;
+  int here = update->whichflag == 0 && seen && seen != (std::size_t) atom->nlocal, any;
+  MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
+  are_others = any;
+  if (any && asks_for_asleep)
+    error->all(
+        FLERR,
+        "Compute hvi/atom asleep: a command since the last run has moved, made or taken away "
+        "particles: use run 0 first");
+}
+
+// as in compute hvi/fragment/atom
 
 void ComputeHVIAtom::check_ghosts(const std::string &value)
 {
@@ -211,9 +226,7 @@ void ComputeHVIAtom::check_ghosts(const std::string &value)
   sent = 0;
   comm->reverse_comm(this);
   checking = false;
-  const std::size_t seen = store ? store->fields.sleepers.size() : 0;
-  const bool is_old = update->whichflag == 0 && seen && seen != (std::size_t) atom->nlocal;
-  int here = sent != atom->nghost || is_old, any;
+  int here = sent != atom->nghost, any;
   MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
   if (any)
     error->all(FLERR,

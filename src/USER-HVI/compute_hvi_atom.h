@@ -65,6 +65,7 @@ class ComputeHVIAtom : public Compute {
   int nmax;
   double **table;
   std::vector<double> nbonds;    // of owned and ghost particles
+  bool are_others = false;       // particles, than those of the last forces
   bool checking = false;         // reverse communication says whether ghosts are there
   int sent = 0;
 
@@ -80,6 +81,7 @@ class ComputeHVIAtom : public Compute {
   double solid_value(Value, int, double) const;
 
   void check_ghosts(const std::string &value);
+  void check_inactive(bool asks_for_asleep);
   void count_bonds();
 };
 

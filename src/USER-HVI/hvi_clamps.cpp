@@ -13,8 +13,10 @@
 #include "hvi_clamps.h"
 
 #include "atom.h"
+#include "domain.h"
 #include "fix_hvi_store.h"
 #include "force.h"
+#include "hvi_compat.h"
 #include "math_extra.h"
 #include "memory.h"
 #include "update.h"
@@ -72,7 +74,11 @@ void HVIClamps::post_integrate()
   if (!clampbit) return;
   dt = update->dt;
   for (int i = 0; i < atom->nlocal; i++)
-    for (int k = 0; k < 3 && !is_newcomer(i); k++) dx[i][k] = atom->x[i][k] - xold[i][k];
+    if (!is_newcomer(i)) {
+      for (int k = 0; k < 3; k++) dx[i][k] = atom->x[i][k] - xold[i][k];
+      HVI::minimum_image(domain, dx[i][0], dx[i][1],
+                         dx[i][2]);    // put back into the box between runs
+    }
   look();
   book_half();
 }

@@ -248,7 +248,7 @@ void HVIScheme::no_answer(int i, double rho) const
              "Pair hvi/sph: equation of state {} of particle {} (type {}) has no answer at "
              "density {} and energy per mass {} at step {}{}",
              eos.name(), atom->tag[i], itype, rho, atom->esph[i] / mass(i), update->ntimestep,
-             rho < eos.rho_max() ? "" : fmt::format(": it ends at density {:.6g}", eos.rho_max()));
+             rho >= eos.rho_max() ? fmt::format(": it ends at density {:.6g}", eos.rho_max()) : "");
 }
 
 /* ----------------------------------------------------------------------

@@ -411,6 +411,7 @@ void PairHVIContact::init_style()
   }
   uniform = -1;
   made.clear();
+  reach.assign((atom->ntypes + 1) * (atom->ntypes + 1), 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -434,7 +435,11 @@ double PairHVIContact::init_one(int i, int j)
   } else if (law[i][j].depth != common.depth || law[i][j].cutsq != common.cutsq)
     uniform = 0;
 
-  return HVI::Contact::r_eq(MAX(sigma[i][j], widest[i][j]));    // that fix adapt may come back to
+  const double cut =
+      HVI::Contact::r_eq(MAX(sigma[i][j], widest[i][j]));    // that fix adapt may come back to
+  double &listed = reach[i * (atom->ntypes + 1) + j];
+  if (listed == 0.0) listed = cut;
+  return cut;
 }
 
 /* ----------------------------------------------------------------------
@@ -444,8 +449,7 @@ double PairHVIContact::init_one(int i, int j)
 void PairHVIContact::check_reach()
 {
   for (const auto &[i, j] : made) {
-    const double listed = std::sqrt(neighbor->cutneighsq[i][j]) - neighbor->skin;
-    if (std::sqrt(law[i][j].cutsq) > listed + 1.0e-12 * neighbor->cutneighmax)
+    if (std::sqrt(law[i][j].cutsq) > (1.0 + 1.0e-12) * reach[i * (atom->ntypes + 1) + j])
       error->all(FLERR,
                  "Pair style hvi/contact: contacts of types {} and {} reach farther than those "
                  "of pair_coeff, as sigma has grown: give pair_coeff the largest sigma, and let "

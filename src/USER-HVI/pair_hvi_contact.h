@@ -58,6 +58,7 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::Ener
   double **widest;    // sigma of pair_coeff
   HVI::Contact **law;
   std::vector<std::pair<int, int>> made;    // types whose law is new since the last forces
+  std::vector<double> reach;                // of pairs of types, in the lists of the run
   bool looked;                              // for pairs that are deep in each other
 
   // pairs in touch, a batch of them; NROW at most from a row of the list before there is a look at

@@ -379,9 +379,19 @@ def test_time_of_a_run_whose_log_is_gone(tmp_path):
     (tmp_path / "log.lammps").write_text(log)
     found = record.measure(shield, tmp_path)
     assert math.isnan(found["wall_s"]) and math.isnan(found["core_s"]) and found["particle_steps_per_s"] == 80 * 900 / 2
-    (tmp_path / "log.1.lammps").write_text(log.replace("80", "120"))
+    (tmp_path / "log.1.lammps").write_text(log.replace("80", "120").replace("900", "950"))  # of the begin: those that have left since are not in the other
     found = record.measure(shield, tmp_path)
-    assert (found["wall_s"], found["core_s"], found["particle_steps_per_s"]) == (4.0, 12.0, 200 * 900 / 4)
+    assert (found["wall_s"], found["core_s"], found["particle_steps_per_s"], found["particles"]) == (4.0, 12.0, 200 * 900 / 4, 900)
+
+
+def test_a_wall_that_debris_misses(tmp_path):
+    """what flies past wall 2 has not reached it, and leaves the verdict undecided all the same"""
+    shield = chain.shield_of(read(tmp_path / "c.yaml"), 0, 0.0)
+    write_record(tmp_path, 2, [0, 1, 2], {(1, "tip"): [0, 8e-3, 9e-3], (2, "missed_mass"): [0, 0, 0.3 * shield.mass() / shield.images]})
+    found = record.measure(shield, tmp_path)
+    assert found["walls_reached"] == 1 and not found["wall2_reached"] and found["wall2_missed_fraction"] == pytest.approx(0.3)
+    said = verdict.of_run(shield, found)
+    assert said["verdict"] == "undecided" and "missed" in said["rules"]
 
 
 def test_push_does_not_go_with_the_end_that_is_asked_for(tmp_path):

@@ -95,7 +95,7 @@ def test_restart(lmp, tmp_path, material):
 
 
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "off"), (3, "on")])
-@pytest.mark.parametrize("style", ["", "hybrid", "hybrid/overlay zero 0.5"])
+@pytest.mark.parametrize("style", ["", "hybrid", "hybrid/overlay zero 0.5", "hybrid/overlay zero 3.0"])
 def test_contacts_that_outgrow_lists(lmp, style, nranks, newton):
     """by fix adapt: an error, also through hybrid; from a sigma of pair_coeff that is large enough they are all there"""
     coeff = "pair_coeff * * " + ("hvi/contact " if style else "") + "0.1 {}\n" + ("pair_coeff * * zero\n" if "zero" in style else "")

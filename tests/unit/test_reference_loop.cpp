@@ -96,7 +96,8 @@ State::State(const std::string &kernel, int scene, int dim, bool planes, bool el
     s.vx = between(random, -1, 1);
     s.vy = dim > 1 ? between(random, -1, 1) : 0.0;
     s.vz = dim > 2 ? between(random, -1, 1) : 0.0;
-    s.rho = between(random, 0.8, 2.0);
+    s.rho =
+        between(random, 0.8, 2.0) * (between(random, 0, 1) < 0.2 ? 8.0 : 1.0);    // some are dense
     s.w = between(random, 0.7, 1.3);
     s.p = between(random, -1, 1.5);
     s.c = between(random, 1, 3);

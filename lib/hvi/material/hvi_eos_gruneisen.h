@@ -24,8 +24,8 @@ namespace HVI {
      p = rho0 C^2 mu + (g0 + a mu/(1 - k mu)) E                           mu <= 0, less where p > 0:
                                                                           hvi_eos_expansion.h
 
-   LS-DYNA has k = 0.  With a > g0, as water has, hot vapor would pull then, so k = 2 a/g0 - 1 where that is
-   above 0: g0/2 is left at density 0, and c has no jump at rho0.
+   LS-DYNA has k = 0.  With a > g0, as water has, hot vapor would pull then.  Here at least g0/2 is left at density
+   0, with k = 2 a/g0 - 1 where that is above 0, and c has no jump at rho0.
      D = 1 - (S1-1) mu - S2 mu^2/(mu+1) - S3 mu^3/(mu+1)^2
 
    LS-DYNA Keyword User's Manual, vol II, EOS 4; Steinberg, UCRL-MA-106439

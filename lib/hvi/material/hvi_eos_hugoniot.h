@@ -21,7 +21,7 @@ namespace HVI {
    The law gives rho0, ratio(eta) = C/Us, and g(eta) = dp/de/rho0.  It ends
    at the lowest density where one of these is true:
    - C/Us has fallen to 1/100; it is 0 on the pole of the Hugoniot,
-   - C/Us no longer falls, so that a cubic Hugoniot turns back,
+   - C/Us no longer falls: beyond, Us falls as a cubic Hugoniot is compressed,
    - g eta = 2: beyond, matter without energy pulls the harder the more it
      is compressed, and collapses.
 ------------------------------------------------------------------------- */

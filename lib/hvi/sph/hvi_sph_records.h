@@ -84,11 +84,15 @@ struct alignas(64) SphState {
 /* ----------------------------------------------------------------------
    A particle of light matter beside one of dense matter is held by the stiffness of that, K = rho c^2, and
    swings as if its speed of sound were sqrt(K/rho_light), of which half is counted: it matters where
-   densities differ by more than 4
+   densities, and masses rho w, differ by more than 4.  0: they do not
 ------------------------------------------------------------------------- */
 
-static inline double sph_swing(double c_i, double rho_i, double c_j, double rho_j)
+static inline double sph_swing(double c_i, double rho_i, double w_i, double c_j, double rho_j,
+                               double w_j)
 {
+  const double m_i = rho_i * w_i, m_j = rho_j * w_j;
+  if (!(rho_i > 4.0 * rho_j && m_i > 4.0 * m_j) && !(rho_j > 4.0 * rho_i && m_j > 4.0 * m_i))
+    return 0.0;
   return 0.5 * std::sqrt(std::max(rho_i * c_i * c_i, rho_j * c_j * c_j) / std::min(rho_i, rho_j));
 }
 

@@ -263,9 +263,8 @@ namespace {
     const SphState &si = pair.si, &sj = pair.sj;
     double c = std::max(si.c, sj.c);
     // the pressure between fluids of Riemann problems goes with the smaller impedance
-    if ((!has(SPH_RIEMANN) || has(SPH_SOLID)) && si.type() != sj.type() &&
-        std::max(si.rho, sj.rho) > 4.0 * std::min(si.rho, sj.rho))
-      c = std::max(c, sph_swing(si.c, si.rho, sj.c, sj.rho));
+    if (!has(SPH_RIEMANN) || has(SPH_SOLID))
+      c = std::max(c, sph_swing(si.c, si.rho, si.w, sj.c, sj.rho, sj.w));
     const double viscous = has(SPH_RIEMANN) ? c + 0.6 * pair.closing()
                                             : pair.a * c - pair.b * mu(pair);
     return (c + pair.closing() + 0.6 * viscous) / pair.h;

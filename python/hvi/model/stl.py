@@ -27,21 +27,36 @@ def read(path):
     return (known * (1e-6 * unit))[cells]
 
 
+CONVEX = 1.1  # times the shadow of the hull: a body with more is hollow or bent
+
+
 def volume(triangles):
     """that is enclosed, by the divergence theorem"""
     a, b, c = np.moveaxis(triangles, 1, 0)
     return float(abs((a * np.cross(b, c)).sum()) / 6)
 
 
-def thickness(triangles, directions=500):
-    """in the mean, where it is thinnest: the volume over the area of the largest shadow; what lies one behind the other counts in that as often"""
+def least(triangles, directions=500):
+    """the least width over directions and normals of large faces; of a hollow or bent body, what lies behind each other in the direction of the largest shadow, in the mean: twice the wall of a shell"""
+    from scipy.spatial import ConvexHull
+
     k = np.arange(directions) + 0.5
     z, turn = k / directions, np.pi * (1 + 5**0.5) * k
     r = np.sqrt(1 - z**2)
+    ways = np.concatenate([np.eye(3), np.column_stack([r * np.cos(turn), r * np.sin(turn), z])])
+    hull = ConvexHull(np.unique(triangles.reshape(-1, 3), axis=0))
+    points, faces = hull.points[hull.vertices], hull.points[hull.simplices]
+    large = np.argsort(-np.linalg.norm(np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]), axis=1))[:directions]
+    found = min(float(np.ptp(points @ way)) for way in (*ways, *hull.equations[large, :3]))
+    around, own = (shadows(of, ways) for of in (faces, triangles))
+    most = own.argmax()
+    return min(found, volume(triangles) / own[most]) if own[most] > CONVEX * around[most] else found
+
+
+def shadows(triangles, ways):
+    """areas that a closed surface shades along directions; what lies behind each other counts each time"""
     a, b, c = np.moveaxis(triangles, 1, 0)
-    areas = 0.5 * np.cross(b - a, c - a)
-    shadows = (0.5 * np.abs(areas @ way).sum() for way in (*np.eye(3), *np.column_stack([r * np.cos(turn), r * np.sin(turn), z])))
-    return volume(triangles) / max(shadows)
+    return 0.25 * np.abs(np.cross(b - a, c - a) @ ways.T).sum(axis=0)
 
 
 def middle(x):

@@ -202,12 +202,12 @@ def read(reader, node, key):
 def measured(path, density):
     """(diameter of the sphere around its middle, volume, least extent) in mm, mm^3: of an STL file, in mm, or of a particle file, in m, of this density
 
-    least: along an axis, or twice the mean thickness of a surface, as of a plate that lies askew, or a shell: two particles are across a shell, four across the projectile
+    least: width over all directions, of a shell twice its wall: four particles are across the projectile, two across a shell
     """
     if is_surface(path):
         triangles = stl.read(path)
         x, volume = triangles.reshape(-1, 3), stl.volume(triangles)
-        least = min(np.ptp(x, axis=0).min(), 2 * stl.thickness(triangles))
+        least = stl.least(triangles)
     else:
         x, mass, rho = particles(path)
         if abs(rho / density - 1) > SAME:

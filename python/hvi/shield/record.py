@@ -106,7 +106,7 @@ def logs(folder):
     The projectile's are NaN if the log of the begin is gone.
     """
     found, ball, said = [], math.nan, ""
-    for path in sorted(pathlib.Path(folder).glob("log*.lammps"), key=lambda path: int(re.sub(r"\D", "", path.name) or 0)):
+    for path in sorted(pathlib.Path(folder).glob("log*.lammps"), key=lambda path: float(re.sub(r"\D", "", path.name) or math.inf)):  # a part that was begun by hand is the last
         text = path.read_text(errors="replace")
         found += [(float(s), int(p), int(n), int(steps)) for s, p, steps, n in
                   re.findall(r"^Loop time of (\S+) on (\d+) procs for ([1-9]\d*) steps with (\d+) atoms", text, re.M)]
@@ -130,14 +130,18 @@ def measure(shield, folder):
     close = [wall.front - min(ARRIVE * g.widest, 0.5 * (wall.front - before.rear)) for before, wall in zip(g.walls, g.walls[1:])]
     ends = [before_next(p, k, place, TOUCHED * p0 / q) for k, place in enumerate(close)]
     reached = next((k for k, row in enumerate(ends, 1) if row is None), n)
+    beside = q * record.book(20) / mp if record.book(15) > 0 else 0.0  # left the box forward on the whole, through its sides
     found = {}
+    for k in range(reached, n):
+        found[f"wall{k + 1}_missed_fraction"] = max(q * float(p.missed_mass[-1, k]) / mp, beside)
+        found[f"wall{k + 1}_missed_reach_mm"] = 1e3 * float(p.missed_reach[-1, k])
     for k, wall in enumerate(g.walls[:reached]):
         row = ends[k] if k < reached - 1 else -1
         at = {name: float(getattr(p, name)[row, k]) for name in WALL}
         rho, name, hold = shield.rho[k + 1], f"wall{k + 1}_", shield.hold(k + 1)
         missed = q * at["missed_mass"] / mp
-        if k == n - 1 and record.book(15) > 0:  # left the box forward on the whole, through its sides
-            missed = max(missed, q * record.book(20) / mp)
+        if k == n - 1:
+            missed = max(missed, beside)
         found[name + "reached"] = True
         found.update({name + key: value for key, value in {
             "until_us": float(record.seldom_us[row]), "passed_mass_mg": 1e6 * q * at["cloud_mass"], "cloud_velocity_ratio": at["cloud_momentum"] / (at["cloud_mass"] + NOTHING) / v0,

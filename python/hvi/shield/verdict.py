@@ -75,7 +75,7 @@ def measured(shield, result):
     m.plugged = m.last and m.hole > 0 and m.parts == 0 and result["momentum_left_ratio"] < 1e-3
     m.few = m.last and m.hole == 0 and 0 < m.parts < FEW
     m.off = abs(result["energy_ratio"] - 1)
-    m.missed, m.beside = max((m.of("missed_fraction", k), k) for k in range(1, d + 1))
+    m.missed, m.beside = max((m.of("missed_fraction", k), k) for k in range(1, n + 1) if f"wall{k}_missed_fraction" in result)
     walls = shield.geometry.walls
     finest = min([shield.geometry.a, *(wall.spacing for wall in walls[:d - 1])])
     m.sieve = walls[d - 1].spacing / finest
@@ -172,11 +172,10 @@ RULES = (
     Rule("hourglass", NOTE, lambda m: m.r["hourglass_energy_ratio"] > HEAT, "energy that is not of the impact",
          lambda m: f"{100 * m.r['hourglass_energy_ratio']:.2g} percent of the energy are in hourglass forces of elements, and 0.1 are no matter",
          lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
-    Rule("filled", NOTE, lambda m: abs(m.r["projectile_particles"] / m.r["projectile_particles_planned"] - 1) > FILLED,
-         "they share its mass, and each has the volume of its cell",
-         lambda m: f"the projectile has {m.r['projectile_particles']} particles, and {m.r['projectile_particles_planned']} have its volume: "
-                   f"each is {m.r['projectile_particles_planned'] / m.r['projectile_particles']:.2g} times as dense",
-         lambda m: ({"spacings_mm": None}, "take smaller spacings_mm, or fill: glass")),
+    Rule("filled", NOTE, lambda m: abs(m.r["projectile_particles"] / m.r["projectile_particles_planned"] - 1) > FILLED, "they share its mass, so each has another than its cell has room for",
+         lambda m: f"the projectile has {m.r['projectile_particles']} particles where {m.r['projectile_particles_planned']} fit: "
+                   f"each has {m.r['projectile_particles_planned'] / m.r['projectile_particles']:.2g} times the mass of its cell",
+         lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
     Rule("ball", NOTE, lambda m: m.ball_whole, "what cannot fail stays in one piece", lambda m, lack: lacks(f"the projectile is of {m.case.material}", *lack), each=True),
     Rule("coarse", NOTE, lambda m: m.coarse, "the cloud is that of this wall, too",
          lambda m, k: f"wall {k}, which does not decide, has {m.of('layers', k)} layer(s) of particles, and {NEEDED} are better for its cloud",
