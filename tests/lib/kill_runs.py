@@ -112,7 +112,7 @@ class Shield(Killed):
         walls, words = CASES[name]
         self.at, self.folder = folder, folder / f"runs/{name}/dx-{words['dx']}_shift-0.0"
         made = chain.shield_of(read(folder / f"{name}.yaml", *walls, **words), 0, 0)
-        leg = made.particles() * made.steps() / LEGS
+        leg = (made.particles() + made.nodes()) * made.steps() / LEGS
         self.words = [sys.executable, "-c", SCRIPT, repr(leg), "shield", f"{name}.yaml"]
         self.environment = {**os.environ, "PYTHONPATH": str(root / "python"), "HVI_LMP": str(lmp_exe)}
 

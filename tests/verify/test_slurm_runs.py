@@ -115,7 +115,7 @@ class Scene:
         path = self.folder / "plate.yaml"
         path.write_text(yaml.safe_dump(text))
         made = chain.shield_of(cases.read(path), 0, shifts[0])
-        self.leg = made.particles() * made.steps() / LEGS
+        self.leg = (made.particles() + made.nodes()) * made.steps() / LEGS
 
     def hold(self, name, pattern):
         (self.folder / f"hold.{name}").write_text(pattern)
