@@ -219,12 +219,12 @@ void ComputeHVIEnergy::compute_vector()
   double scale = std::fabs(run_start);
   for (int n = KINETIC; n <= SPRING; n++) scale = std::max(scale, std::fabs(vector[n]));
   const double drift = before + last - run_start;
-  if (!warned && std::fabs(drift) > LARGE_DRIFT * scale) warn(drift / scale);
+  if (!warned && scale > 0.0 && std::fabs(drift) > LARGE_DRIFT * scale) warn(drift / scale);
 
   // of solids alone: their total does not drift
 
   const double missed = std::fabs(vector[MISSED]);
-  if (!warned_of_missed && missed > LARGE_DRIFT * scale) {
+  if (!warned_of_missed && scale > 0.0 && missed > LARGE_DRIFT * scale) {
     warned_of_missed = true;
     if (comm->me == 0)
       error->warning(
