@@ -16,7 +16,7 @@ HOOK = "import sys, setuptools.build_meta as backend; print(getattr(backend, sys
 @pytest.fixture
 def python(tmp_path):
     """runs Python away from the source tree, without its paths and without a network"""
-    env = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "HVI_ROOT", "LAMMPS_POTENTIALS")}
+    env = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "HVI_ROOT", "LAMMPS_POTENTIALS", "PYTHONPYCACHEPREFIX")}
     env.update(PIP_NO_INDEX="1", PYTHONDONTWRITEBYTECODE="1", no_proxy="", http_proxy="http://127.0.0.1:9", https_proxy="http://127.0.0.1:9")
 
     def run(*words, cwd=tmp_path, path=""):
