@@ -193,7 +193,8 @@ void FixHVILists::set_bins(double least, double least_sort)
     given = {neighbor->binsizeflag, bin, given.sort_bin};
   if (atom->userbinsize != put.sort_bin) given.sort_bin = atom->userbinsize;
 
-  const double half = force->pair ? 0.5 * (force->pair->cutforce + neighbor->skin) : 0.0;
+  const bool any = least > 0.0 || least_sort > 0.0;    // else it may be before cutforce is set
+  const double half = any && force->pair ? 0.5 * (force->pair->cutforce + neighbor->skin) : 0.0;
   if (half == 0.0) least = least_sort = 0.0;    // LAMMPS has no bins then
   const bool wider = least > (given.wide ? given.bin : half);
   const bool sorts = least_sort > (given.sort_bin > 0.0 ? given.sort_bin : half);
