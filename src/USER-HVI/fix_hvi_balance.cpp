@@ -168,6 +168,14 @@ void FixHVIBalance::balance()
     high[k] = domain->boxhi[order[k]];
   }
   rcb->compute(2, n, x.data(), costs.data(), low, high);
+
+  // particles in one plane are cut in it: with domains of no width, ranks disagree on who is beside whom, and hang
+
+  static constexpr double NARROW = 0.01;
+  double width = BIG, narrowest;
+  for (int k = 0; k < 2; k++) width = std::min(width, rcb->hi[k] - rcb->lo[k]);
+  MPI_Allreduce(&width, &narrowest, 1, MPI_DOUBLE, MPI_MIN, world);
+  if (!(narrowest > NARROW * neighbor->skin)) return;
   rcb->invert(SORTED);
 
   comm->layout = Comm::LAYOUT_TILED;
