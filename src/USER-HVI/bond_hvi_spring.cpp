@@ -347,8 +347,8 @@ void BondHVISpring::init_style()
 /* ----------------------------------------------------------------------
    with all weights 1 nothing reads the lists of special neighbors, which
    breaking bonds would leave stale: empty them, they cost memory, migration
-   and a search per pair in every rebuild.  Rows keep their width, as fixes and
-   commands bring molecules that fit into it; rows that nobody writes take no memory.
+   and a search per pair in every rebuild.  Rows keep their width, into which molecules
+   of fixes and commands must fit.
 ------------------------------------------------------------------------- */
 
 void BondHVISpring::drop_special()

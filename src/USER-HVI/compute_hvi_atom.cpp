@@ -201,14 +201,16 @@ void ComputeHVIAtom::compute_peratom()
 }
 
 /* ----------------------------------------------------------------------
-   between runs there may be others than in the last forces.  The command balance, which moves particles
-   before it asks for weights, takes all as active then.
+   between runs particles may not be those of the last forces.  All cost the same then: the command balance moves
+   particles before it asks for weights.
 ------------------------------------------------------------------------- */
 
 void ComputeHVIAtom::check_inactive(bool asks_for_asleep)
 {
-  const std::size_t seen = store ? store->fields.sleepers.size() : 0;
-  int here = update->whichflag == 0 && seen && seen != (std::size_t) atom->nlocal, any;
+  are_others = false;
+  if (update->whichflag || !store) return;
+  const std::size_t seen = store->fields.sleepers.size();
+  int here = seen && seen != (std::size_t) atom->nlocal, any;
   MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
   are_others = any;
   if (any && asks_for_asleep)

@@ -169,7 +169,8 @@ void FixHVIBalance::balance()
   }
   rcb->compute(2, n, x.data(), costs.data(), low, high);
 
-  // particles in one plane are cut in it: with domains of no width, ranks disagree on who is beside whom, and hang
+  // particles that lie in one plane are cut in it, into domains without width: there ranks do not agree about
+  // their neighbors, and hang
 
   static constexpr double NARROW = 0.01;
   double width = BIG, narrowest;

@@ -304,9 +304,12 @@ void FixHVIJohnsonCook::make_models()
   bool anywhere = false, here = false, liquids = false;
   for (int itype = 1; itype <= atom->ntypes; itype++) {
     const HVI::Material *const material = store->materials.of(itype);
-    if (!material || material->liquid)
-      continue;    // with strength none, files say no more than we do
-    if (options.strength != "none" && material->is_liquid()) continue;
+    if (!material) continue;
+
+    // a section strength none keeps a material out of the solids; with the keyword strength none there are no solids,
+    // and liquids by their files spall, too
+
+    if (options.strength == "none" ? material->liquid : material->is_liquid()) continue;
     if (options.strength != "none" && !material->section("strength", options.strength)) {
       liquids = liquids || inside[itype];
       continue;

@@ -57,7 +57,7 @@ class PairHVIContact : public Pair, public HVI::TimeStepSource, public HVI::Ener
   double **epsilon, **sigma;
   double **widest;    // sigma of pair_coeff
   HVI::Contact **law;
-  std::vector<std::pair<int, int>> made;    // types whose law is new since the last forces
+  std::vector<std::pair<int, int>> made;    // pairs of types whose law is new since the last forces
   std::vector<double> reach;                // of pairs of types, in the lists of the run
   bool looked;                              // for pairs that are deep in each other
 

@@ -298,12 +298,13 @@ run 100000
 """
 
 
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "off"), (3, "on")])
 @pytest.mark.parametrize("style, solid, tension, C, most", [("dissipation riemann", "yes", "no", 0.6, 60.0), ("dissipation riemann", "yes", "yes", 0.6, 150.0), ("viscosity 1 2", "no", "no", 0.3, 30.0)])
-def test_light_matter_beside_dense_matter(lmp, tmp_path, style, solid, tension, C, most):
+def test_light_matter_beside_dense_matter(lmp, tmp_path, style, solid, tension, C, most, nranks, newton):
     """foam is held by the stiffness of tungsten: steps for the sound of either heat the tungsten, J/kg, a hundred times too much"""
     for name, rho0, c0, G, Y in (("tungsten", 19300, 4030, 160e9, 1e9), ("foam", 100, 1000, 3e7, 1e6)):
-        (tmp_path / f"{name}.hvi").write_text(f"# UNITS: si\\n# {name}\\neos tait\\nrho0 {rho0}\\nc0 {c0}\\ngamma 4\\nstrength perfect\\nG {G}\\nY {Y}\\n".replace("\\n", "\n"))
-    t = lmp(FOAM, vars={"style": style, "solid": solid, "tension": tension, "C": C}).thermo
+        (tmp_path / f"{name}.hvi").write_text(f"# UNITS: si\n# {name}\neos tait\nrho0 {rho0}\nc0 {c0}\ngamma 4\nstrength perfect\nG {G}\nY {Y}\n")
+    t = lmp(f"newton {newton}\n{FOAM}", nranks=nranks, vars={"style": style, "solid": solid, "tension": tension, "C": C}).thermo
     assert abs(t["c_hot"][-1]) < most and abs(t["v_missed"][-1]) < 1e-3 and t["c_book[9]"][-1] == pytest.approx(1.0, abs=1e-3)
 
 

@@ -256,8 +256,8 @@ TEST(Eos, PolesAreFlagged)
   // a slope below 1 has no pole
   EXPECT_EQ(eos("mie-gruneisen", {1000, 1000, 0.9, 1, 0})->rho_max(), HVI::NO_LIMIT);
   EXPECT_EQ(eos("gruneisen", {1000, 1000, 0.9, 1, 0, 0})->rho_max(), HVI::NO_LIMIT);
-  // where (g0 + a mu) eta is 2: lead, whose Hugoniot has no pole, and aluminum, before its pole;
-  // cold matter pushes until then
+  // lead, whose Hugoniot has no pole, and aluminum, before its pole, end where (g0 + a mu) eta is 2;
+  // at lower densities cold matter has a pressure above 0
   auto ends = [](const Eos &law, double g0, double a) {
     const double mu = law.rho_max() / law.rho0() - 1;
     EXPECT_NEAR((g0 + a * mu) * mu / (mu + 1), 2.0, 1e-9);

@@ -23,13 +23,13 @@ namespace HVI {
      p = rho0 C^2 mu [1 + (1 - g0/2) mu - a/2 mu^2]/D^2 + (g0 + a mu) E   mu > 0
      p = rho0 C^2 mu + (g0 + a mu/(1 - k mu)) E                           mu <= 0, less where p > 0:
                                                                           hvi_eos_expansion.h
-
-   LS-DYNA has k = 0.  With a > g0, as water has, hot vapor would pull then.  Here at least g0/2 is left at density
-   0, with k = 2 a/g0 - 1 where that is above 0, and c has no jump at rho0.
      D = 1 - (S1-1) mu - S2 mu^2/(mu+1) - S3 mu^3/(mu+1)^2
 
    LS-DYNA Keyword User's Manual, vol II, EOS 4; Steinberg, UCRL-MA-106439
-   (1996), whose b is a.  With eta = mu/(mu+1),
+   (1996), whose b is a.  LS-DYNA has k = 0, with which hot vapor pulls where a > g0, as in water.  Here
+   k = 2 a/g0 - 1 where that is above 0: at least g0/2 is left at density 0, and c has no jump at rho0.
+
+   With eta = mu/(mu+1),
 
      D = (mu+1) d,   d = 1 - S1 eta - S2 eta^2 - S3 eta^3 = C/Us,
 
@@ -58,19 +58,9 @@ struct EosGruneisen {
   static EosGruneisen make(const double *v)
   {
     const double g0 = v[3], a = v[4];
-    EosGruneisen law = {v[0],
-                        v[1],
-                        v[2],
-                        g0,
-                        a,
-                        v[5],
-                        v[6],
-                        v[7],
-                        v[8],
-                        NO_LIMIT,
-                        std::max(2.0 * a / std::max(g0, 1e-30) - 1.0, 0.0),
-                        HotExpansion(std::max(g0 - a, 0.5 * g0)),
-                        {}};
+    const double k = std::max(2.0 * a / std::max(g0, 1e-30) - 1.0, 0.0);
+    const HotExpansion hot(std::max(g0 - a, 0.5 * g0));
+    EosGruneisen law = {v[0], v[1], v[2], g0, a, v[5], v[6], v[7], v[8], NO_LIMIT, k, hot, {}};
     law.rho_max = end_of_hugoniot(law);
     law.thermal.fill(law);
     return law;

@@ -105,7 +105,7 @@ class SphFields {
   std::vector<int> embedded;
   std::vector<char> idle;
   bool is_idle(int i) const { return (std::size_t) i < idle.size() && idle[i]; }
-  double cost(int i) const    // in a step, of an owned particle over an active one
+  double cost(int i) const    // in a step, of an owned particle over an active one: bench/README.md
   {
     return asleep(i) || is_idle(i) ? 0.4 : 1.0;
   }
