@@ -50,9 +50,12 @@ void HVIScheme::choose(int terms, bool may_be_inactive)
                atom->ntypes);
   if (set.variable) terms |= HVI::SPH_OWN_H;
   int first = 0;
+  double lightest = HUGE_VAL, densest = 0.0;    // at rest; gases have no such density
   for (int i = 1; i <= atom->ntypes; i++) {
     if (!pairs.is_ours[i]) continue;
     if (!first) first = i;
+    lightest = MIN(lightest, store->materials.of(i)->eos->rho0());
+    densest = MAX(densest, store->materials.of(i)->eos->rho0());
     if (set.h[i] != set.h[first]) terms |= HVI::SPH_OWN_H;
     for (int j = 1; j <= atom->ntypes; j++)
       if (pairs.is_ours[j] &&
@@ -64,6 +67,7 @@ void HVIScheme::choose(int terms, bool may_be_inactive)
     set.laws.h = set.h[first];
     set.laws.a = pairs.visc_a[first][first];
     set.laws.b = pairs.visc_b[first][first];
+    set.laws.unlike = densest > 2.0 * lightest;
   }
   asked = terms;
   sweeps = HVI::make_sph_sweeps(set.kernel, terms);

@@ -36,6 +36,7 @@ struct SphLaws {
   int automatic;            // or from the states on both sides
   int symmetric, stock;     // words: what the loops go by are SPH_SYMMETRIC and SPH_STOCK
   double art_eps, art_n;    // artificial stress
+  bool unlike = true;       // types may differ so much in density that sph_swing() matters
 };
 
 }    // namespace HVI

@@ -79,7 +79,7 @@ static inline bool sph_fluid(int i, const SphPlace &pi, const SphState *state, i
     const Vec soft = rsq + 0.01 * h * h;
     const Vec Pi = sph_viscosity(h, soft, rdotv, c_i + c_j, rho_i + rho_j, a, b);
     const Vec visc = V_i * rho_i * V_j * rho_j * Pi;
-    sph_signal(h, r, soft, rdotv, sph_speed(si, c_j, rho_j, V_j), a, b, fastest);
+    sph_signal(h, r, soft, rdotv, sph_speed(laws.unlike, si, c_j, rho_j, V_j), a, b, fastest);
 
     const Vec VV = acts * V_i * V_j;
     const Vec press_i = VV * p_i, press_j = VV * p_j;

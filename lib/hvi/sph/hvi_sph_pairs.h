@@ -60,11 +60,11 @@ static inline int sph_fill_up(int i, const SphPlace &pi, int n, SphNear &near)
 // for the time step, of a pair: the larger speed of sound, or that of a swing.  What is thin and large, as vapor
 // of the same matter, has no less mass.
 
-HVI_INLINE Vec sph_speed(const SphState &si, const Vec &c_j, const Vec &rho_j, const Vec &w_j)
+HVI_INLINE Vec sph_speed(bool unlike, const SphState &si, const Vec &c_j, const Vec &rho_j,
+                         const Vec &w_j)
 {
   Vec c = si.c > c_j ? Vec{} + si.c : c_j;
-  const Bits unlike = (si.rho > 4.0 * rho_j) | (rho_j > 4.0 * si.rho);
-  if (any(unlike))
+  if (unlike && any((si.rho > 4.0 * rho_j) | (rho_j > 4.0 * si.rho)))
     for (int k = 0; k < LANES; k++)
       c[k] = std::max(c[k], sph_swing(si.c, si.rho, si.w, c_j[k], rho_j[k], w_j[k]));
   return c;

@@ -121,7 +121,7 @@ namespace {
                            double V_j, Change &) const;
     double bonded(const Pair &) const;
     double touching(const Pair &) const;
-    double signal_rate(const Pair &) const;
+    double signal_rate(const SphLaws &, const Pair &) const;
   };
 
   // W(r, h), h dW/dh, and F of grad W = F x_ij
@@ -231,7 +231,7 @@ namespace {
       };
       add(rates[pair.i], 1.0, change.de_i, change.drho_i);
       add(rates[pair.j], -1.0, change.de_j, change.drho_j);
-      work.fastest = std::max(work.fastest, signal_rate(pair));
+      work.fastest = std::max(work.fastest, signal_rate(work.laws, pair));
       if (work.tally) work.watcher->tally(pair.i, pair.j, pair.x.data(), change.force.data());
     });
   }
@@ -257,13 +257,13 @@ namespace {
      Riemann problems are as viscous as a = 1 and, in shocks that are faster by 1.2 |U|, b |mu| = 0.6 |U|.
   ------------------------------------------------------------------------- */
 
-  double Reference::signal_rate(const Pair &pair) const
+  double Reference::signal_rate(const SphLaws &laws, const Pair &pair) const
   {
     if (!(pair.vx < 0.0)) return 0.0;
     const SphState &si = pair.si, &sj = pair.sj;
     double c = std::max(si.c, sj.c);
     // the pressure between fluids of Riemann problems goes with the smaller impedance
-    if (!has(SPH_RIEMANN) || has(SPH_SOLID))
+    if (laws.unlike && (!has(SPH_RIEMANN) || has(SPH_SOLID)))
       c = std::max(c, sph_swing(si.c, si.rho, si.w, sj.c, sj.rho, sj.w));
     const double viscous = has(SPH_RIEMANN) ? c + 0.6 * pair.closing()
                                             : pair.a * c - pair.b * mu(pair);

@@ -255,7 +255,7 @@ static inline bool sph_solid(int i, const SphPlace &pi, const SphView &records, 
     *(Vec *) (near.weight_j + m) = share * ww * F_j;
 
     const Vec h = pi.h - 0.5 * d[3], soft = rsq + 0.01 * h * h;
-    const Vec c_most = sph_speed(si, c_j, rho_j, first[3]);
+    const Vec c_most = sph_speed(laws.unlike, si, c_j, rho_j, first[3]);
     if (SCENE & SPH_RIEMANN)
       sph_signal(h, r, rdotv, c_most, fastest);
     else
