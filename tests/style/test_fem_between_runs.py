@@ -1,10 +1,11 @@
 """What commands and fixes between runs of elements once made wrong without a word, and what their measures left out."""
 
+import pathlib
 import re
 
 import numpy as np
 import pytest
-from fem_scenes import EDGE, STATE, plate, read_state, start, strike_plate
+from fem_scenes import ALUMINUM, EDGE, STATE, plate, read_state, start, strike_plate
 from hvi.model.mesh import block
 
 ELASTIC = "convert no viscosity 0 0"
@@ -114,3 +115,22 @@ def test_state_after_all_this(lmp):
     one, three = read_state("one"), read_state("three")
     for name in ("X", "V", "c_state[2]"):
         np.testing.assert_allclose(three[name], one[name], rtol=1e-9, atol=1e-9 * np.abs(one[name]).max())
+
+
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (3, "off")])
+@pytest.mark.parametrize("scene", ["modulus", "spalled"])
+def test_forces_of_a_new_run(lmp, scene, nranks, newton):
+    """are those of the end of the last one, also where the modulus has changed, or elements have failed that stay"""
+    weak = pathlib.Path("weak.hvi").absolute()
+    weak.write_text(re.sub(r"sigma_p +1.2e9", "sigma_p 0.05e9", ALUMINUM.read_text()))
+    spalls = scene == "spalled"
+    mesh, strike_it = strike_plate(**(dict(v=600.0) if spalls else dict(v=5000.0, core=0)))
+    text = start(mesh, every=1, newton=newton, **(dict(fem="convert no", spall="principal", material=weak) if spalls else {}))
+    text = text.replace("hvi/johnson-cook damage no", f"hvi/johnson-cook strength {'johnson-cook' if spalls else 'steinberg-guinan'} damage no")
+    text = text.replace("szz sxy sxz syz damage voids", "szz sxy sxz syz spalled voids" if spalls else "szz sxy sxz syz damage voids")
+    lmp(text + strike_it + f"run {30 if spalls else 10}\n" + STATE.format("end.dump") + "run 0\n" + STATE.format("begin.dump"), nranks=nranks)
+    end, begin = read_state("end.dump"), read_state("begin.dump")
+    if spalls:
+        assert (end["c_state[10]"] > 0).sum() > 10
+    assert np.array_equal(end["X"], begin["X"]) and np.array_equal(end["V"], begin["V"])
+    assert begin["F"] == pytest.approx(end["F"], abs=1e-9 * np.abs(end["F"]).max())

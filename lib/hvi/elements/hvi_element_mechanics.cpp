@@ -42,6 +42,7 @@ bool ElementMechanics::start(Element &one, const Corners &x) const
 }
 
 /* ----------------------------------------------------------------------
+   The step begins, as for particles with fix hvi/johnson-cook: by what of the solid the next forces go.
    Half of a step's energy.  Forces on nodes work on the velocity v of the middle of the step, in both
    halves: that is what kinetic energy changes by, but for dt^2/8 f^2/m, which cancels between a
    step and the next if they are as long; what is left, the kick, is given back.  Of pairs particles have gained
@@ -50,6 +51,8 @@ bool ElementMechanics::start(Element &one, const Corners &x) const
 
 void ElementMechanics::first_half(Element &one, const ElementNodes &nodes, double dt) const
 {
+  const SolidModel &solid = *law(one).solid;
+  solid.begin_step(one.solid, solid.own_limit() ? input(one) : SolidInput());
   double work = 0.0, kick = 0.0;
   for (int a = 0; a < CORNERS; a++) {
     for (int k = 0; k < 3; k++) work += (one.force[a][k] + one.pair_force[a][k]) * nodes[a]->v[k];
@@ -113,7 +116,6 @@ double ElementMechanics::let_go(Element &one, const ElementNodes &nodes, const C
   const double heat = 0.5 * (of_nodes - of_particles);
   one.e += heat;
   one.ahead += heat;
-  law(one).solid->begin_step(one.solid, input(one));
   return heat;
 }
 

@@ -75,7 +75,7 @@ int shared_corners(const ElementNodes &);    // that other elements have, too
 /* ----------------------------------------------------------------------
    Elements over a step, from places and velocities of their nodes:
 
-     first_half()     of the energy, when nodes have moved
+     first_half()     begins the step; of the energy, when nodes have moved
      failure()        whether an element becomes particles
      advance()        state to the end of the step: density, stress, pressure, viscosity, stable step
      forces()         on nodes
