@@ -399,7 +399,8 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
       if (!set.solid) e.step = 0.0;    // else the last half kick was one of that step
     }
     if (!integrates(i)) continue;
-    if (!anew) longest = std::max(longest, e.step);
+    longest =
+        std::max(longest, e.step);    // of those that begin anew, too: all pairs take one step
     if (anew) {
       e.rates_rho = atom->rho[i];
       e.rates_esph = atom->esph[i];
