@@ -349,7 +349,7 @@ void FixHVIFEM::advance()
       one.kick = 0.0;
       if (one.stable_at_start > 0.0) continue;
       one.stable_at_start = one.stable;
-      one.shared = HVI::shared_corners(nodes_of(e + lane));
+      one.shared = mechanics.shared_corners(nodes_of(e + lane));
     }
     if (!paired(e) && !goes_on) mechanics.forces(batch, dt_forces);
   }
@@ -421,7 +421,7 @@ void FixHVIFEM::bring_forces()
                    "Fix hvi/fem: node {} has gone through the mirror plane {} at step {}: walls "
                    "of elements do not bounce off mirror planes",
                    atom->tag[i], "xyz"[k], update -> ntimestep);
-      if (mirror.has(k) && atom->x[i][k] == mirror.at[k])
+      if (mirror.passes(k, atom->x[i]))
         fields.plane_force[k] -= f[k];
       else
         atom->f[i][k] += f[k];
@@ -511,6 +511,7 @@ void FixHVIFEM::tighten(HVI::TimeStepBounds &bounds)
 
 void FixHVIFEM::find_laws()
 {
+  mechanics.mirror = coupling.store->fields.settings.mirror;
   mechanics.laws.assign(atom->ntypes + 1, {nullptr, nullptr});
   for (int itype = 1; itype <= atom->ntypes; itype++)
     if (const HVI::Material *const material = coupling.store->materials.of(itype))
@@ -787,7 +788,7 @@ void FixHVIFEM::join(HVI::Components &components, const std::vector<std::int64_t
           double planes = 0.0;    // rows are of doubles
           for (int d = 0; d < 3 && holds[e]; d++)
             for (int a = 0; a < CORNERS; a++)
-              if (mirror.has(d) && nodes[number(e, a)].x[d] == mirror.at[d]) {
+              if (mirror.passes(d, nodes[number(e, a)].x)) {
                 planes += 1 << d;
                 break;
               }

@@ -134,3 +134,17 @@ def test_forces_of_a_new_run(lmp, scene, nranks, newton):
         assert (end["c_state[10]"] > 0).sum() > 10
     assert np.array_equal(end["X"], begin["X"]) and np.array_equal(end["V"], begin["V"])
     assert begin["F"] == pytest.approx(end["F"], abs=1e-9 * np.abs(end["F"]).max())
+
+
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_orphans_at_a_mirror_plane(lmp, nranks):
+    """the inner elements of a row hang together across the plane, and stay when the outer ones have failed"""
+    found = []
+    for n, low in ((4, -2), (2, 0)):
+        mesh = block(n, 1, 1, map=lambda x: (x + [low, 0, 0]) * EDGE, n=2, type=2, node_type=3)
+        box = " ".join(f"{a * EDGE:.17g} {5 * EDGE}" for a in (-5 if low else 0, -5, -5))
+        text = start(mesh, boundary="f f f", box=box, pair="cubic" + ("" if low else " mirror x 0 lo"), fem="strain 0.05")
+        text += f"group nodes type 3\nvariable outer atom 1000*((x>{1.5 * EDGE})+(x<-{1.5 * EDGE}))\nvelocity nodes set NULL NULL v_outer units box\n"
+        t = lmp(text + "thermo_style custom step f_wall f_wall[1] f_wall[6]\nrun 60\n", nranks=nranks).thermo
+        found.append([t[name][-1] for name in ("f_wall", "f_wall[1]", "f_wall[6]")])
+    assert found == [[2, 2, 0], [1, 1, 0]]

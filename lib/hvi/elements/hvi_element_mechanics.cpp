@@ -75,10 +75,10 @@ void ElementMechanics::second_half(Element &one, const ElementStep &step, double
    The material has failed, or the element's shape
 ------------------------------------------------------------------------- */
 
-int shared_corners(const ElementNodes &nodes)
+int ElementMechanics::shared_corners(const ElementNodes &nodes) const
 {
-  return std::count_if(nodes.begin(), nodes.end(), [](const Node *node) {
-    return node->valence > 1.0;
+  return std::count_if(nodes.begin(), nodes.end(), [this](const Node *node) {
+    return node->valence > 1.0 || mirror.passes(node->x);
   });
 }
 

@@ -10,6 +10,7 @@
 #define LMP_HVI_ELEMENT_MECHANICS_H
 
 #include "hvi_element.h"
+#include "hvi_mirror.h"
 
 #include <array>
 #include <vector>
@@ -70,8 +71,6 @@ struct ElementBatch {
   Vec V;
 };
 
-int shared_corners(const ElementNodes &);    // that other elements have, too
-
 /* ----------------------------------------------------------------------
    Elements over a step, from places and velocities of their nodes:
 
@@ -103,6 +102,7 @@ class ElementMechanics {
     const SolidModel *solid;
   };
   std::vector<Law> laws;    // of types of particles
+  MirrorPlanes mirror;
 
   enum Failure { NONE = -1, STRAIN, DAMAGE, SPALL, SHAPE, STEP, ORPHAN, NFAILURE };
 
@@ -115,6 +115,7 @@ class ElementMechanics {
   void first_half(Element &, const ElementNodes &, double dt) const;
   void second_half(Element &, const ElementStep &, double dt) const;
 
+  int shared_corners(const ElementNodes &) const;    // that other elements have, too, or the image
   Failure failure(const Element &, const ElementNodes &, const Corners &x) const;
   bool is_distorted(const Corners &) const;    // by jacobian or edges
 

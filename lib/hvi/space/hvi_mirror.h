@@ -31,6 +31,8 @@ struct MirrorPlanes {
   bool has(int k) const { return planes >> k & 1; }
   bool is_operation(int op) const { return op && (op & ~planes) == 0; }
   double depth(int k, const double *x) const { return side[k] * (x[k] - at[k]); }
+  bool passes(int k, const double *x) const { return has(k) && x[k] == at[k]; }    // through x
+  bool passes(const double *x) const { return passes(0, x) || passes(1, x) || passes(2, x); }
 
   // square of the distance from what an operation leaves in place
 
