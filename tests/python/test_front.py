@@ -499,8 +499,12 @@ def test_included_files_are_inputs(folder):
     assert set(first.known) == {"D", "t"}
     first.copy_to(folder / "there")
     assert (folder / "there/more/in.part").read_text() == "variable t index 1\n"
+    (folder / "in.whole").write_text(f"include {folder}/more/in.part\n")  # stays where it is
+    whole = engine.Input(folder / "in.whole")
+    whole.copy_to(folder / "whole")
+    assert set(whole.known) == {"t"} and [path.name for path in (folder / "whole").iterdir()] == ["in.whole"]
     (folder / "more/in.part").write_text("variable t index 2\n")
-    assert engine.Input(folder / "in.main").checksum() != first.checksum()
+    assert engine.Input(folder / "in.main").checksum() != first.checksum() and engine.Input(folder / "in.whole").checksum() != whole.checksum()
     (folder / "in.main").write_text("include in.lost\n")
     with pytest.raises(HVIError, match="cannot read .*in.lost"):
         engine.Input(folder / "in.main")

@@ -280,13 +280,23 @@ def test_files_that_the_input_names(folder):
     assert files() == {"../../plate.data": engine.digest(b"c")}
     (folder / "in.tiny").write_text((folder / "in.tiny").read_text().replace("mine.hvi", "Cu-OFHC.hvi"))
     assert set(files()) == {"../../plate.data", "Cu-OFHC.hvi"}
-    (folder / "tabled.hvi").write_text("eos table bilinear some.table  # sesame\nstrength perfect\n")
+    (folder / "tabled.hvi").write_text("# UNITS: si\neos table\n  file ../../../some.table  # sesame\nstrength perfect\n")
     (folder / "some.table").write_text("1")
     (folder / "in.tiny").write_text(INPUT + "variable plate index x.data\nvariable material index other.hvi\nread_data '${plate}'\npair_coeff * * file ${material}\n")
     (folder / "s.yaml").write_text(yaml.safe_dump({**STUDY, "variables": {"plate": "../../plate.data", "material": str(folder / "tabled.hvi")}}))
-    assert set(files()) == {"../../plate.data", str(folder / "tabled.hvi"), "some.table"}
+    assert set(files()) == {"../../plate.data", str(folder / "tabled.hvi"), "../../../some.table"}
     (folder / "s.yaml").write_text(yaml.safe_dump({**STUDY, "variables": {"mode": "../../plate.data"}, "grid": {"speed": [1.0]}}))
     assert files() is None  # what is not read may be written
+    (folder / "in.tiny").write_text(INPUT + "pair_coeff 1 1 eos table ../../../some.table &\n  h 1\n")
+    assert files() == {"../../../some.table": engine.digest(b"1")}
+
+
+def test_comments_are_no_commands(folder):
+    """LAMMPS joins lines before it looks for comments, and # in quotes is none"""
+    (folder / "in.tiny").write_text("# variable a index 1\nvariable b index '#' 2\nprint '#' # &\nvariable c index 3\nvariable d index 4 &\n 5 # 6\nread_data x # y\n")
+    assert engine.Input(folder / "in.tiny").known == {"b": True, "d": True}
+    (folder / "in.tiny").write_text("variable a index 1\nhvi/variables known a # b\n")
+    assert engine.Input(folder / "in.tiny").known == {"a": False}
 
 
 def test_variables_without_a_value(folder):
