@@ -96,6 +96,13 @@ def test_failed_job_is_reported_and_others_finish(sweep, folder):
     assert table(folder)["mode-good_speed-1.0"]["particles"] == "125"
 
 
+def test_point_of_a_grid_without_variables(sweep, folder):
+    """has a folder of its own, not that of all runs; what makes a run done is never removed"""
+    process = sweep({**STUDY, "grid": {"shot": [{"speed": 2.0}, {}]}, "remove": ["*.yaml", "log.*"]})
+    assert process.returncode == 0 and "2 of 2 jobs are done" in process.text and set(table(folder)) == {"speed-2.0", "as-is"}
+    assert (folder / "runs/tiny/.study").is_file() and not log_times(folder)
+
+
 def test_what_an_input_says_is_not_hidden(sweep):
     """an input that ends itself has said why; mpirun's many lines come after that"""
     process = sweep({**STUDY, "grid": {"mode": ["refused"]}})
@@ -237,6 +244,7 @@ def test_full_size_and_dry_run(sweep, folder):
     ({**STUDY, "grid": {}}, "nothing to vary"),
     ({**STUDY, "variables": {"spede": 1.0}}, "in.tiny has no variable 'spede'"),
     ({**STUDY, "grid": {"speed": [1.0, 1.0]}}, "the same job twice"),
+    ({**STUDY, "grid": {"shot": [{"speed": 1.0, "n": 5}, {"speed": 2.0}], "speed": [3.0]}}, "tiny.yaml: grid: more than one axis sets speed: set it in one of them"),
 ])
 def test_wrong_study(sweep, study, message):
     process = sweep(study)

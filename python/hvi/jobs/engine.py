@@ -163,7 +163,7 @@ def words(value):
 
 def job_name(case):
     """a folder name from what varies: tD-0.1_v0-5000"""
-    return "_".join(re.sub(r"[^\w.+-]", "-", f"{name}-{'+'.join(words(value))}") for name, value in case.items())
+    return "_".join(re.sub(r"[^\w.+-]", "-", f"{name}-{'+'.join(words(value))}") for name, value in case.items()) or "as-is"
 
 
 class Job:
@@ -375,7 +375,8 @@ class Job:
                 path.unlink()
         for pattern in [] if self.problem else self.remove:
             for path in self.folder.glob(pattern):
-                path.unlink()
+                if path.name not in (RESULT, "job.yaml"):  # without them it would not be done
+                    path.unlink()
         self.process = None
         self.leave()
         return True
