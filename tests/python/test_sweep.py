@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+import types
 
 import hvi
 import pytest
@@ -101,6 +102,16 @@ def test_point_of_a_grid_without_variables(sweep, folder):
     process = sweep({**STUDY, "grid": {"shot": [{"speed": 2.0}, {}]}, "remove": ["*.yaml", "log.*"]})
     assert process.returncode == 0 and "2 of 2 jobs are done" in process.text and set(table(folder)) == {"speed-2.0", "as-is"}
     assert (folder / "runs/tiny/.study").is_file() and not log_times(folder)
+
+
+def test_variable_and_result_of_one_name(folder):
+    """the table has both where they differ, as the table on the screen has the result"""
+    jobs = [types.SimpleNamespace(name=f"steps-{steps}", variables={"steps": steps, "job": 7, "n": [1, 2]}, result=lambda steps=steps: {"steps": min(steps, 310), "n": [1, 2], "p": 5})
+            for steps in (100, 1000)]
+    engine.write_table(jobs, folder / "runs/tiny.csv")
+    assert list(table(folder).values()) == [
+        {"job": "steps-100", "steps_variable": "100", "job_variable": "7", "n": "1; 2", "steps": "100", "p": "5"},
+        {"job": "steps-1000", "steps_variable": "1000", "job_variable": "7", "n": "1; 2", "steps": "310", "p": "5"}]
 
 
 def test_what_an_input_says_is_not_hidden(sweep):

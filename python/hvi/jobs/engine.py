@@ -475,9 +475,15 @@ def cell(value):
 
 
 def write_table(jobs, path):
-    """A CSV file: job, variables, results of all jobs that are done."""
-    rows = [{"job": job.name, **result, **job.variables} for job in jobs if (result := job.result())]
-    columns = list(dict.fromkeys(["job", *(n for j in jobs for n in j.variables), *(n for row in rows for n in row)]))
+    """A CSV file: job, variables, results of all jobs that are done; a variable that is another than the result of its name has the column NAME_variable"""
+    done = [(job, {**result, "job": job.name}) for job in jobs if (result := job.result())]
+    other = {name for job, result in done for name, value in job.variables.items() if str(result.get(name, value)) != str(value)}
+
+    def variables(job):
+        return {f"{name}_variable" if name in other else name: value for name, value in job.variables.items()}
+
+    rows = [{**variables(job), **result} for job, result in done]
+    columns = list(dict.fromkeys(["job", *(n for j in jobs for n in variables(j)), *(n for row in rows for n in row)]))
     path.parent.mkdir(parents=True, exist_ok=True)
     tables.write_csv(path, columns, [[cell(row.get(name, "")) for name in columns] for row in rows])
 
