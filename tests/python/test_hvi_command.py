@@ -1,5 +1,6 @@
 """python3 -m hvi: every command, its figures and tables, and what it says about wrong input."""
 
+import argparse
 import csv
 import importlib
 import os
@@ -331,6 +332,17 @@ def test_wrong_options(capsys, words, message):
     with pytest.raises(SystemExit) as end:
         cli.main(words)
     assert end.value.code == 2 and message in capsys.readouterr().err
+
+
+def test_lists_add_up():
+    """no word is lost of an option that takes several and is given twice"""
+    for command in cli.COMMANDS:
+        parser = next(action for action in cli.options(command)._actions if isinstance(action, argparse._SubParsersAction)).choices[command]
+        for option in (action for action in parser._actions if action.option_strings and action.nargs == "+"):
+            said = argparse.Namespace(**{option.dest: option.default})
+            for word in "xy":
+                option(parser, said, [word], option.option_strings[0])
+            assert getattr(said, option.dest) == ["x", "y"], (command, option.option_strings)
 
 
 def test_errors_leave_no_traceback(command, files):
