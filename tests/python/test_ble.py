@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import re
+import shutil
 
 import pytest
 import yaml
@@ -173,13 +174,15 @@ def read(folder, text):
     return cases.read("emi.yaml")
 
 
-def test_shield_of_a_case(folder):
+def test_shield_of_a_case(folder, root):
     found = ble.from_case(read(folder, CASE))
     assert (found.wall_thickness_cm, found.bumper_thickness_cm, found.standoff_cm) == pytest.approx((0.12, 0.08, 6.0))
     assert (found.wall_density, found.bumper_density, found.projectile_density) == pytest.approx((2.703, 2.785, 2.785))
     assert found.wall_yield_ksi == 40 and found.aluminum and ble.equations(found) == DOUBLE
     assert ble.from_case(read(folder, CASE.replace("gap_mm: 60", "gap_mm: 60\n    yield_ksi: 35"))).wall_yield_ksi == 35
     assert not ble.from_case(read(folder, CASE.replace("material: Al6061-T6", "material: steel-1020\n    yield_ksi: 50"))).aluminum
+    shutil.copy(root / "potentials/Al2024-T3.hvi", folder / "Al2O3.hvi")
+    assert not ble.from_case(read(folder, CASE.replace("Al2024-T3", "Al2O3", 1))).aluminum
     assert ble.properties("Al2024-T3-Esposito2024") == ble.PROPERTIES["Al2024-T3"] != ble.properties("Al2024-T351")
     assert ble.properties("steel-4340") == (None,) * 4
     one = ble.from_case(read(folder, re.sub(r"  - thickness_mm: 1.2.*?60\n", "", CASE, flags=re.S)))

@@ -369,6 +369,14 @@ def test_particles_in_files(folder, ball):
     assert all((begun(folder)[name] == first[name]) == ("glass" in ball) for name in first)
 
 
+def test_particles_of_a_file_do_not_touch_the_wall(folder):
+    """half of a spacing belongs to each, as to those of a glass of a sphere"""
+    made = bodies.make(bodies.sphere(2.5e-3), 5e-4, "glass", 1)
+    bodies.write_data(folder / "ball.data", made.x, 1, [2785 * made.volume] * len(made.x), 2785, made.x.min(axis=0) - 5e-4, made.x.max(axis=0) + 5e-4, (), "ball")
+    extent, *_ = projectile.measured(str(folder / "ball.data"), 2785.0)
+    assert 0.25 < 0.5 * extent - 1e3 * (made.x[:, 2] - stl.middle(made.x)[2]).max() < 0.35
+
+
 @pytest.mark.parametrize("name, sides, turn, refused", [("plate.stl", (10, 10, 1.9), 0, "1.9 mm"), ("plate.stl", (10, 10, 2.1), 0, ""), ("plate.stl", (10, 10, 1.9), 45, "1.9 mm"), ("plate.stl", (10, 10, 2.1), 45, ""),
                                                         ("plate.data", (5, 5, 1.5), 0, "1.5 mm"), ("plate.data", (5, 5, 2.0), 0, "")])
 def test_plates_of_files_have_layers(folder, name, sides, turn, refused):
@@ -499,8 +507,12 @@ def test_included_files_are_inputs(folder):
     assert set(first.known) == {"D", "t"}
     first.copy_to(folder / "there")
     assert (folder / "there/more/in.part").read_text() == "variable t index 1\n"
+    (folder / "in.whole").write_text(f"include {folder}/more/in.part\n")  # stays where it is
+    whole = engine.Input(folder / "in.whole")
+    whole.copy_to(folder / "whole")
+    assert set(whole.known) == {"t"} and [path.name for path in (folder / "whole").iterdir()] == ["in.whole"]
     (folder / "more/in.part").write_text("variable t index 2\n")
-    assert engine.Input(folder / "in.main").checksum() != first.checksum()
+    assert engine.Input(folder / "in.main").checksum() != first.checksum() and engine.Input(folder / "in.whole").checksum() != whole.checksum()
     (folder / "in.main").write_text("include in.lost\n")
     with pytest.raises(HVIError, match="cannot read .*in.lost"):
         engine.Input(folder / "in.main")

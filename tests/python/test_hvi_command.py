@@ -1,5 +1,6 @@
 """python3 -m hvi: every command, its figures and tables, and what it says about wrong input."""
 
+import argparse
 import csv
 import importlib
 import os
@@ -252,6 +253,9 @@ def test_compare_lists_in_results(files):
     found = compare.read_result("a.yaml")
     assert found == {"verdict": "fails", "reasons": "a hole of 4 mm; spall", "margins.hole_mm": 4, "margins.layers": 3, "steps": 5}
     assert cli.main(["compare", "a.yaml", "b.yaml", "--keys", "margins.hole_mm", "--rtol", "0.2"]) == 1
+    engine.write_yaml(files / "r.yaml", {"remedies": [{"settings": {"tstop": 12.2}}, {"spacings_mm": 0.2, "C": [1, 2]}], "rules": [], "quarter": True, "hole_mm": float("nan")})
+    assert compare.read_result("r.yaml") == {"remedies": "settings: tstop: 12.2; spacings_mm: 0.2; C: 1; 2", "rules": "", "quarter": "true", "hole_mm": ".nan"}
+    assert cli.main(["compare", "r.yaml", "r.yaml", "--rtol", "0"]) == 0
     assert cli.main(["compare", "a.yaml", "b.yaml", "--keys", "margins.layers", "verdict", "--rtol", "0"]) == 0
 
 
@@ -309,7 +313,7 @@ WRONG = [
     (["compare", "a.dump", "none"], "none does not exist"),
     (["compare", "a.dump", "a.data"], "cannot compare a dump with a result.yaml"),
     (["compare", "a.dump", "a.dump", *MASS], "to compare two dumps give --plane"),
-    (["compare", "a.data", "a.data", "--keys", "front"], "not key: value"),
+    (["compare", "a.data", "a.data", "--keys", "front"], "a.data, line 14: not YAML"),
 ]
 
 
@@ -331,6 +335,17 @@ def test_wrong_options(capsys, words, message):
     with pytest.raises(SystemExit) as end:
         cli.main(words)
     assert end.value.code == 2 and message in capsys.readouterr().err
+
+
+def test_lists_add_up():
+    """no word is lost of an option that takes several and is given twice"""
+    for command in cli.COMMANDS:
+        parser = next(action for action in cli.options(command)._actions if isinstance(action, argparse._SubParsersAction)).choices[command]
+        for option in (action for action in parser._actions if action.option_strings and action.nargs == "+"):
+            said = argparse.Namespace(**{option.dest: option.default})
+            for word in "xy":
+                option(parser, said, [word], option.option_strings[0])
+            assert getattr(said, option.dest) == ["x", "y"], (command, option.option_strings)
 
 
 def test_errors_leave_no_traceback(command, files):

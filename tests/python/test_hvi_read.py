@@ -187,6 +187,23 @@ def test_a_run_that_was_resumed(written):
         assert all(np.array_equal(frame.v, [[1, 2, 3], [4, 5, 6]]) for frame in dump), cut
 
 
+def test_parts_of_frames_are_refused(tmp_path):
+    """one file for each rank (%): other particles at the same step; the frame that a resumed run has written again has the same ones, and is read as ever"""
+    names = [tmp_path / name for name in "abc"]
+    rows = [f"{k} 1 0 0 0 0 0 0" for k in range(1, 5)]
+    for first, second in ((rows[:2], rows[2:]), (rows[:3], rows[3:]), (rows, [])):
+        for name, steps, own in zip(names, ((0, 10), (0, 10), (20,)), (first, second, rows)):
+            name.write_text(dump_text(steps=steps, rows=own))
+        with pytest.raises(hvi.HVIError, match=r"/a and \S+/b both have a frame of step 0, of different particles: parts of a frame .* into one file"):
+            hvi.Dump(names)
+    for name, steps in zip(names, ((0, 10), (10, 20), (20,))):
+        name.write_text(dump_text(steps=steps, rows=rows))
+    assert hvi.Dump(names).steps.tolist() == [0, 10, 10, 20, 20]
+    for name, steps in zip(names, ((0, 10), (0, 10), (20,))):
+        name.write_text(dump_text(steps=steps, rows=()))
+    assert len(hvi.Dump(names)) == 5
+
+
 @pytest.mark.parametrize("old, new, message", [
     ("2 1 .5 .5 .5 4 5 6", "2 1 .5 .5 .5 4 5", r"step 10.*columns changed from 8 to 7 at row 2"),
     ("2 1 .5 .5 .5 4 5 6", "2 1 .5 .5 .5 4 5 six", r"step 10.*could not convert string 'six'"),

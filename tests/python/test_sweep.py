@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+import types
 
 import hvi
 import pytest
@@ -94,6 +95,23 @@ def test_failed_job_is_reported_and_others_finish(sweep, folder):
     assert "1 of 4 jobs are done" in process.text
     assert list(table(folder)) == ["mode-good_speed-1.0"]
     assert table(folder)["mode-good_speed-1.0"]["particles"] == "125"
+
+
+def test_point_of_a_grid_without_variables(sweep, folder):
+    """has a folder of its own, not that of all runs; what makes a run done is never removed"""
+    process = sweep({**STUDY, "grid": {"shot": [{"speed": 2.0}, {}]}, "remove": ["*.yaml", "log.*"]})
+    assert process.returncode == 0 and "2 of 2 jobs are done" in process.text and set(table(folder)) == {"speed-2.0", "as-is"}
+    assert (folder / "runs/tiny/.study").is_file() and not log_times(folder)
+
+
+def test_variable_and_result_of_one_name(folder):
+    """the table has both where they differ, as the table on the screen has the result"""
+    jobs = [types.SimpleNamespace(name=f"steps-{steps}", variables={"steps": steps, "job": 7, "n": [1, 2]}, result=lambda steps=steps: {"steps": min(steps, 310), "n": [1, 2], "p": 5})
+            for steps in (100, 1000)]
+    engine.write_table(jobs, folder / "runs/tiny.csv")
+    assert list(table(folder).values()) == [
+        {"job": "steps-100", "steps_variable": "100", "job_variable": "7", "n": "1; 2", "steps": "100", "p": "5"},
+        {"job": "steps-1000", "steps_variable": "1000", "job_variable": "7", "n": "1; 2", "steps": "310", "p": "5"}]
 
 
 def test_what_an_input_says_is_not_hidden(sweep):
@@ -237,6 +255,7 @@ def test_full_size_and_dry_run(sweep, folder):
     ({**STUDY, "grid": {}}, "nothing to vary"),
     ({**STUDY, "variables": {"spede": 1.0}}, "in.tiny has no variable 'spede'"),
     ({**STUDY, "grid": {"speed": [1.0, 1.0]}}, "the same job twice"),
+    ({**STUDY, "grid": {"shot": [{"speed": 1.0, "n": 5}, {"speed": 2.0}], "speed": [3.0]}}, "tiny.yaml: grid: more than one axis sets speed: set it in one of them"),
 ])
 def test_wrong_study(sweep, study, message):
     process = sweep(study)
@@ -280,13 +299,23 @@ def test_files_that_the_input_names(folder):
     assert files() == {"../../plate.data": engine.digest(b"c")}
     (folder / "in.tiny").write_text((folder / "in.tiny").read_text().replace("mine.hvi", "Cu-OFHC.hvi"))
     assert set(files()) == {"../../plate.data", "Cu-OFHC.hvi"}
-    (folder / "tabled.hvi").write_text("eos table bilinear some.table  # sesame\nstrength perfect\n")
+    (folder / "tabled.hvi").write_text("# UNITS: si\neos table\n  file ../../../some.table  # sesame\nstrength perfect\n")
     (folder / "some.table").write_text("1")
     (folder / "in.tiny").write_text(INPUT + "variable plate index x.data\nvariable material index other.hvi\nread_data '${plate}'\npair_coeff * * file ${material}\n")
     (folder / "s.yaml").write_text(yaml.safe_dump({**STUDY, "variables": {"plate": "../../plate.data", "material": str(folder / "tabled.hvi")}}))
-    assert set(files()) == {"../../plate.data", str(folder / "tabled.hvi"), "some.table"}
+    assert set(files()) == {"../../plate.data", str(folder / "tabled.hvi"), "../../../some.table"}
     (folder / "s.yaml").write_text(yaml.safe_dump({**STUDY, "variables": {"mode": "../../plate.data"}, "grid": {"speed": [1.0]}}))
     assert files() is None  # what is not read may be written
+    (folder / "in.tiny").write_text(INPUT + "pair_coeff 1 1 eos table ../../../some.table &\n  h 1\n")
+    assert files() == {"../../../some.table": engine.digest(b"1")}
+
+
+def test_comments_are_no_commands(folder):
+    """LAMMPS joins lines before it looks for comments, and # in quotes is none"""
+    (folder / "in.tiny").write_text("# variable a index 1\nvariable b index '#' 2\nprint '#' # &\nvariable c index 3\nvariable d index 4 &\n 5 # 6\nread_data x # y\n")
+    assert engine.Input(folder / "in.tiny").known == {"b": True, "d": True}
+    (folder / "in.tiny").write_text("variable a index 1\nhvi/variables known a # b\n")
+    assert engine.Input(folder / "in.tiny").known == {"a": False}
 
 
 def test_variables_without_a_value(folder):

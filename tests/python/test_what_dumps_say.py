@@ -168,10 +168,11 @@ def test_options_that_contradict_or_add_up(tmp_path, capsys):
 
 
 # ---------------------------------------------------------------------- results and studies
-def test_mappings_in_mappings_are_not_compared(tmp_path, capsys):
+def test_mappings_in_mappings(tmp_path, capsys):
     for name, hole in (("a", 1), ("b", 9)):
         (tmp_path / f"{name}.yaml").write_text(yaml.safe_dump({"margins": {"wall1": {"hole": hole}, "wall2": {"hole": 5}}}))
-    assert "mappings in mappings are not compared" in said(capsys, "compare", "a.yaml", "b.yaml", "--rtol", "0.01", status=1)
+    assert cli.main(["compare", "a.yaml", "b.yaml", "--rtol", "0.01"]) == 1
+    assert "larger than 0.01: margins.wall1.hole\n" in capsys.readouterr().out
 
 
 def test_studies_of_one_name(tmp_path, capsys):

@@ -100,12 +100,13 @@ def test_what_is_read_off_a_record(shot, n):
     low = top + u[top:rise + 1].argmin()
     du = u[top] - u[low]
     half = top + np.flatnonzero(u[top:] < u[top] - 0.5 * du)[0]
-    tenth = np.flatnonzero(u[:half] >= u[top] - 0.1 * du)[-1]
-    rate = 0.4 * du / (2 * C0 * 1e-6 * (t[half] - t[tenth]))
+    tenth = 1 + np.flatnonzero(u[:half] >= u[top] - 0.1 * du)[-1]
+    passed = [t[k] - (u[k] - u[top] + part * du) / (u[k] - u[k - 1]) * (t[k] - t[k - 1]) for part, k in ((0.1, tenth), (0.5, half))]
+    rate = 0.4 * du / (2 * C0 * 1e-6 * (passed[1] - passed[0]))
     assert r["record"] == "ok" and (r["plate"] == "ok") == (n >= 32)
     assert r["pull_back_m_s"] == pytest.approx(du, rel=1e-4)
     assert r["spall_strength_GPa"] == pytest.approx(0.5e-9 * RHO0 * C0 * du, rel=1e-4)
-    assert r["strain_rate_per_s"] == pytest.approx(rate, rel=0.03)  # a sample of either end
+    assert r["strain_rate_per_s"] == pytest.approx(rate, rel=1e-4)
     assert r["first_failure_us"] == pytest.approx(t[np.flatnonzero(bad > 0)[0]], abs=1.01 * (t[1] - t[0]))
     assert r["failed_particles"] == bad[-1] and r["record_us"] == pytest.approx(t[-1], abs=1.01 * (t[1] - t[0]))
     assert (r["largest_tension_GPa"], r["peak_GPa"]) == pytest.approx((1e-9 * pull.max(), 1e-9 * push.max()), rel=1e-5)

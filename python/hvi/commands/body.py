@@ -20,7 +20,7 @@ def add_arguments(parser):
     parser.add_argument("--inner", type=positive, metavar="R", help="radius inside, of a hollow one")
     parser.add_argument("--length", type=positive, metavar="L", help="of a cylinder")
     parser.add_argument("--size", type=positive, nargs=3, metavar=("X", "Y", "Z"), help="of a box")
-    parser.add_argument("--periodic", nargs="+", choices="xyz", default=[], metavar="D", help="directions of a box in which it goes on periodically")
+    parser.add_argument("--periodic", nargs="+", action="extend", choices="xyz", default=[], metavar="D", help="directions of a box in which it goes on periodically")
     parser.add_argument("--spacing", type=positive, required=True, metavar="S", help="of particles: as many as cubes of it have the volume of the body")
     parser.add_argument("--quarter", action="store_true", help="only x > 0, y > 0, for mirrors")
     filling.add_filling(parser, "glass", "even, without rows, or a cubic lattice about the center")

@@ -26,7 +26,7 @@ RUNS_ONLY = ("keys", "rtol", "plane", "bonds", "column", "distance")  # options 
 def add_arguments(parser):
     parser.add_argument("paths", nargs="+", metavar="PATH", help="of shields: folders of hvi shield, limit and curve, or cases; else two of result.yaml, folder with one, or dump")
     parser.add_argument("--runs", default="runs", metavar="DIR", help="where the folders of cases are (default: runs)")
-    parser.add_argument("--keys", nargs="+", metavar="KEY", help="of two runs only these (default: all)")
+    parser.add_argument("--keys", nargs="+", action="extend", metavar="KEY", help="of two runs only these (default: all)")
     parser.add_argument("--rtol", type=real, metavar="T", help="of two runs: exit status 1 if a relative difference is larger than T")
     parser.add_argument("--out", metavar="FILE.csv", help="write the table with all digits")
     parser.add_argument("--figure", metavar="NAME", help="of shields: draw areal densities with verdicts, and curves: NAME.png and NAME.pdf, or only the one that NAME ends in")

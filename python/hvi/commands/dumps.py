@@ -53,7 +53,7 @@ def add_frame(parser):
 
 
 def add_types(parser, text):
-    parser.add_argument("--type", type=kind, nargs="+", metavar="TYPE", help=f"only particles of these types{text} (default: all)")
+    parser.add_argument("--type", type=kind, nargs="+", action="extend", metavar="TYPE", help=f"only particles of these types{text} (default: all)")
 
 
 def add_reading(parser, several=False):
@@ -86,7 +86,7 @@ def add_rules(parser, several=False):
     group.add_argument("--distance", type=positive, metavar="R", help="particles closer than R hang together")
     group.add_argument("--bond-columns", nargs=2, metavar="NAME", help="columns with the two atom IDs (default: the last two)")
     group.add_argument("--sound", action="store_true", help="with --distance: failed particles stay alone (damage yes); without, what has come apart")
-    group.add_argument("--failed-columns", nargs="+", metavar="NAME", default=pieces.FAILED, help="a particle with 1 or more in one of these has failed (default: damage spalled)")
+    group.add_argument("--failed-columns", nargs="+", action="extend", metavar="NAME", help="a particle with 1 or more in one of these has failed (default: damage spalled)")
 
 
 def add_debris(parser):
@@ -135,7 +135,7 @@ def rule(args, bonds=None):
         raise HVIError("what is a fragment? give --column, --bonds or --distance")
     bonds = bond_sources.source(bonds or args.bonds, args.bond_columns, progress.bar)
     where = {} if args.plane is None else {"axis": args.axis, "plane": args.plane}
-    failed = list(args.failed_columns) if args.sound else None
+    failed = list(args.failed_columns or pieces.FAILED) if args.sound else None
     return {"column": args.column, "bonds": bonds, "distance": args.distance, "failed": failed, **where}
 
 
@@ -149,7 +149,7 @@ def debris(args, frame):
         return None, f"not known: the dump has no column {args.size_column} (compute hvi/atom fragsize)"
     if not args.density:
         return None, "not counted: give --density TYPE=RHO"
-    return below.estimate(frame, pieces.has_failed(frame, args.failed_columns), dict(args.density), args.size_column), None
+    return below.estimate(frame, pieces.has_failed(frame, args.failed_columns or pieces.FAILED), dict(args.density), args.size_column), None
 
 
 def show_debris(summary, missing):

@@ -28,7 +28,7 @@ def add_arguments(parser):
     parser.add_argument("files", nargs="+", metavar="DUMP|DIR", help="dump files of one run, or a folder as of hvi report")
     parser.add_argument("--to", choices=("paraview", "ovito"), default="paraview", help="paraview: a VTU file for each frame and a PVD file; ovito: one dump of all frames (default: paraview)")
     parser.add_argument("--out", metavar="NAME", help="NAME.pvd, and NAME.0000.vtu ... beside it; or NAME.lammpstrj (default: the name of the dump, of X.lammpstrj X.ovito.lammpstrj; in a folder: shield)")
-    parser.add_argument("--names", nargs="+", default=[], metavar="NAME", help="of types 1, 2, ... (default: in a folder projectile, wall 1, ... with their materials)")
+    parser.add_argument("--names", nargs="+", action="extend", default=[], metavar="NAME", help="of types 1, 2, ... (default: in a folder projectile, wall 1, ... with their materials)")
     parser.add_argument("--part", action="store_true", help="of a half or quarter model only the part that was computed, not the whole")
     dumps.add_reading(parser)
 

@@ -16,7 +16,7 @@ SUMMARY = ("", "brackets", "mean |error| %", "mean error %", "least error %")
 
 def add_arguments(parser):
     parser.add_argument("study", metavar="STUDY.yaml", help="which list of brackets, how many particles across, the rule of spacings")
-    parser.add_argument("--only", nargs="+", metavar="NAME", help="run only these brackets; the table has all")
+    parser.add_argument("--only", nargs="+", action="extend", metavar="NAME", help="run only these brackets; the table has all")
     parser.add_argument("--equations", action="store_true", help="the equations alone, nothing is run")
     running.add_runs(parser)
 

@@ -19,6 +19,7 @@ IMPORTED = ("set", "scale", "move")
 
 class OneOrTwo(argparse.Action):
     def __call__(self, parser, namespace, values, option_string=None):
+        values = [*(getattr(namespace, self.dest) or ()), *values]
         if len(values) > 2:
             parser.error(f"{option_string} takes one or two numbers, not {len(values)}")
         setattr(namespace, self.dest, values)

@@ -21,19 +21,19 @@ def add_arguments(parser):
     for name, text in (("radius", "of the plate"), ("thickness", "of the plate"), ("spacing", "of particles in the plane")):
         parser.add_argument("--" + name, type=positive, required=True, metavar=name[0].upper(), help=text)
     parser.add_argument("--layers", type=whole, metavar="N", help="particles through the thickness (default: as wide as in the plane)")
-    parser.add_argument("--angles", type=real, nargs="+", default=[0.0], metavar="DEG",
+    parser.add_argument("--angles", type=real, nargs="+", action="extend", metavar="DEG",
                         help="one for all layers, one per layer, or a set that is stacked symmetric and balanced (default: 0)")
-    parser.add_argument("--zones", type=positive, nargs="+", default=[], metavar="R", help="beyond each of these radii the spacing doubles and the type is the next")
+    parser.add_argument("--zones", type=positive, nargs="+", action="extend", default=[], metavar="R", help="beyond each of these radii the spacing doubles and the type is the next")
     parser.add_argument("--quarter", action="store_true", help="only x > 0, y > 0, for mirrors")
     filling.add_filling(parser, "lattice", "lattice in layers, or glass: without layers, angles and zones")
 
 
 def main(args):
     if args.fill == "glass":
-        if args.layers is not None or args.angles != [0.0] or args.zones:
+        if args.layers is not None or args.angles or args.zones:
             raise HVIError("a plate of glass has no --layers, --angles and --zones: those are of lattices")
         return filling.fill(args, bodies.cylinder(args.radius, args.thickness, quarter=args.quarter, middle=0.5 * args.thickness), "plate")
-    made = plates.make(args.radius, args.thickness, args.spacing, args.layers, args.angles, args.zones, args.quarter)
+    made = plates.make(args.radius, args.thickness, args.spacing, args.layers, args.angles or [0.0], args.zones, args.quarter)
     density, said = filling.density(args)
     plates.write(args.file, made, density, filling.title(args))
     count = np.bincount(made.type, minlength=len(made.volume) + 1)[1:]

@@ -54,7 +54,7 @@ def add_range(parser):
 
 def add_at(parser):
     """values that are not the case's"""
-    parser.add_argument("--at", type=setting, nargs="+", default=[], metavar="WHAT=X", help="these values in place of the case's: D, speed, angle, thickness1, ..., gap2, ... in mm, km/s, degrees")
+    parser.add_argument("--at", type=setting, nargs="+", action="extend", default=[], metavar="WHAT=X", help="these values in place of the case's: D, speed, angle, thickness1, ..., gap2, ... in mm, km/s, degrees")
 
 
 def setting(text):

@@ -14,7 +14,7 @@ EXAMPLES = """  python3 -m hvi shots examples/whipple-shield/shots/chosen.yaml -
 
 def add_arguments(parser):
     parser.add_argument("study", metavar="FILE", help="study (YAML), or a list of shots (CSV) that is run as examples/whipple-shield/shots/all.yaml says")
-    parser.add_argument("--only", nargs="+", metavar="SHOT", help="only these shots of it")
+    parser.add_argument("--only", nargs="+", action="extend", metavar="SHOT", help="only these shots of it")
     parser.add_argument("--equations", action="store_true", help="the equations alone, nothing is run")
     running.add_runs(parser)
 

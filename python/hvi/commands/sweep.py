@@ -54,7 +54,7 @@ def one(study, args):
         print(f"{study.name}: {done} of {len(jobs)} jobs are done, table: {table}", flush=True)
     if failed:
         print(f"{study.name}: {len(failed)} failed: {', '.join(job.name for job in failed)}", flush=True)
-    return not failed
+    return done == len(jobs) and not failed
 
 
 def main(args):

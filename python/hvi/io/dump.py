@@ -96,6 +96,8 @@ class Dump:
             raise HVIError("no complete frame: " + self.problems[0])
         for problem in self.problems:
             warnings.warn(HVIWarning(f"left out frame {problem}"), stacklevel=2)
+        self._packed, self._last = None, None
+        self._refuse_parts()
         self.dt, self.interval = dt, interval
         if interval is not None and np.any(np.diff(self.steps) <= 0):
             back = int(np.flatnonzero(np.diff(self.steps) <= 0)[0]) + 1
@@ -105,8 +107,19 @@ class Dump:
             raise HVIError(f"{self.paths[0]}: the first frame is of step {self.steps[0]}, not 0: its time does not follow from the interval between frames (dump_modify time yes writes it)")
         steps = sorted({h.step for h in found if h.step is not None})  # a frame that was cut off may be there again
         self._place = {step: place for place, step in enumerate(steps)}
-        self._packed, self._last = None, None
         self._fill_in(data, masses, units, mirrors.of_words(mirror))
+
+    def _refuse_parts(self):
+        """of a frame, one for each rank: a frame that a resumed run has written again has particles in common with the one before"""
+        first = {}
+        for k, header in enumerate(self.headers):
+            one, other = self.headers[first.setdefault(header.step, k)], header
+            if one.path == other.path or not one.n + other.n or "id" not in one.columns or "id" not in other.columns:
+                continue
+            if np.isin(self.rows(first[header.step])["id"], self.rows(k)["id"]).any():
+                return
+            raise HVIError(f"{one.path} and {other.path} both have a frame of step {header.step}, of different particles: parts of a frame (dump with %, or of several "
+                           "groups) are not put together: let LAMMPS write all particles of a frame into one file")
 
     def _fill_in(self, data, masses, units, planes):
         data = DataFile(data) if isinstance(data, (str, os.PathLike)) else data

@@ -12,39 +12,32 @@ WIDE = 40  # characters of a text in a table
 
 
 def read_result(path):
-    """{key: value} of a result.yaml, "key: value" per line; numbers as int or float, all else as text.
-
-    A list "- text" belongs to the key before and is joined; so does what is indented: "margins:" and "  hole_mm: 0" are margins.hole_mm.
-    """
+    """{key: value} of a result.yaml; numbers as int or float, all else as text: items of a list are joined, hole_mm of the mapping margins is margins.hole_mm"""
     if os.path.isdir(path):
         path = os.path.join(path, "result.yaml")
-    lines = texts.read(path).splitlines()
-    result, parent, given = {}, None, {}
-    for number, raw in enumerate(lines, 1):
-        line = raw.split(" #")[0].strip()
-        if not line or line.startswith("#") or line == "---":
-            continue
-        inside = (raw[0] == " " or line.startswith("- ")) and parent is not None
-        if inside and line.startswith("- "):
-            result[parent] = "; ".join(filter(None, [result.get(parent), line[2:]]))
-            continue
-        key, found, value = line.partition(":")
-        key, value = key.strip(), value.strip().strip("\"'")
-        if not found:
-            raise HVIError(f"{path}, line {number}: not key: value")
-        if not inside:
-            if key in given:
-                raise HVIError(f"{path}, line {number}: {key} is there twice, first in line {given[key]}")
-            given[key], parent = number, None if value else key
-        if inside:
-            key = f"{parent}.{key}"
-            if key in result or not value:
-                raise HVIError(f"{path}, line {number}: {key} has no value of its own: mappings in mappings are not compared")
-        if value:
-            result[key] = _value(value)
-    if not result:
-        raise HVIError(f"{path} has no values")
+    result, root = {}, texts.compose(path)
+
+    def add(mapping, before):
+        for key, node in mapping.value:
+            name = before + _text(key)
+            if name in result:
+                raise HVIError(f"{path}, line {key.start_mark.line + 1}: {name} is there twice")
+            if node.tag == "tag:yaml.org,2002:map":
+                add(node, f"{name}.")
+            else:
+                result[name] = _value(_text(node))
+
+    if root is None or root.tag != "tag:yaml.org,2002:map":
+        raise HVIError(f"{path} has no values: not a mapping, key: value")
+    add(root, "")
     return result
+
+
+def _text(node):
+    """of a YAML node: a scalar as it is written"""
+    if isinstance(node.value, str):
+        return node.value
+    return "; ".join(": ".join(map(_text, item)) if isinstance(item, tuple) else _text(item) for item in node.value)
 
 
 def _value(text):

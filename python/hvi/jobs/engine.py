@@ -90,11 +90,11 @@ class Input:
         self.name = self.path.name
         self._read(self.name)
         self.known = {}  # variables that -var may set: {name: may it have several values}
-        for text in self.texts.values():
-            for name, values in re.findall(r'\bvariable\s+(\w+)\s+index\b(?=([^"#\n]*))', text):
-                self.known[name] = self.known.get(name, False) or len(values.split()) > 1
         joined = re.sub(r"&[ \t]*\n", " ", "\n".join(self.texts.values()))
-        said = [line.split() for line in re.findall(r"^\s*hvi/variables\s+known\s(.*)", joined, re.M)]
+        self.commands = re.sub(r"""("[^"\n]*"|'[^'\n]*')|#.*""", r"\1", joined)  # without comments
+        for name, values in re.findall(r'\bvariable\s+(\w+)\s+index\b(?=([^"\n]*))', self.commands):
+            self.known[name] = self.known.get(name, False) or len(values.split()) > 1
+        said = [line.split() for line in re.findall(r"^\s*hvi/variables\s+known\s(.*)", self.commands, re.M)]
         if said:  # the input itself says which; what it names as optional may be lists
             named = {name for line in said for name in line} - {"optional"}
             optional = {name for line in said if "optional" in line for name in line[line.index("optional") + 1:]}
@@ -103,9 +103,7 @@ class Input:
     def _read(self, name):
         self.texts[name] = text = texts.read(self.path.parent / name)
         for other in re.findall(r"^\s*include\s+([\w./-]+)\s*(?:#.*)?$", text, re.M):  # names without variables
-            if os.path.isabs(other):
-                continue  # is there for all runs
-            if not inside(other):
+            if not os.path.isabs(other) and not inside(other):
                 raise HVIError(f"{self.path.parent / name}: include {other}: a run has copies of what it includes, in its own folder: put the file beside the input, or give its whole path")
             if other not in self.texts:
                 self._read(other)
@@ -115,14 +113,13 @@ class Input:
 
     def reads(self, variables):
         """names of the files that commands read with these variables, or else their defaults: materials, data, molecules"""
-        joined = re.sub(r"&[ \t]*\n", " ", re.sub(r"#.*", "", "\n".join(self.texts.values())))
-        known = {name: value.strip("\"'") for name, value in re.findall(r"^\s*variable\s+(\w+)\s+(?:index|string|getenv)\s+(\S+)", joined, re.M)}
+        known = {name: value.strip("\"'") for name, value in re.findall(r"^\s*variable\s+(\w+)\s+(?:index|string|getenv)\s+(\S+)", self.commands, re.M)}
         known.update((name, words(value)[0]) for name, value in variables.items())
 
         def filled(word):
             return re.sub(r"\$\{(\w+)\}|\$(\w)", lambda match: str(known.get(match[1] or match[2], "$")), word.strip("\"'"))
 
-        named = re.findall(r"^\s*(?:read_data|read_restart|molecule\s+\S+)\s+(\S+)", joined, re.M) + re.findall(r"^\s*pair_coeff\s.*?\bfile\s+(\S+)", joined, re.M)
+        named = re.findall(r"^\s*(?:read_data|read_restart|molecule\s+\S+|pair_coeff\s.*?\b(?:file|eos\s+table))\s+(\S+)", self.commands, re.M)
         return [word for word in map(filled, named) if "$" not in word and "*" not in word]
 
     def check(self, variables, where):
@@ -137,6 +134,8 @@ class Input:
 
     def copy_to(self, folder):
         for name, text in self.texts.items():  # LAMMPS reads on while it runs
+            if os.path.isabs(name):
+                continue  # is there for all runs
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_text(text)
 
@@ -164,7 +163,7 @@ def words(value):
 
 def job_name(case):
     """a folder name from what varies: tD-0.1_v0-5000"""
-    return "_".join(re.sub(r"[^\w.+-]", "-", f"{name}-{'+'.join(words(value))}") for name, value in case.items())
+    return "_".join(re.sub(r"[^\w.+-]", "-", f"{name}-{'+'.join(words(value))}") for name, value in case.items()) or "as-is"
 
 
 class Job:
@@ -197,8 +196,8 @@ class Job:
             if path is None or self.folder.resolve() in path.resolve().parents:  # what is in the folder was written by the run
                 return
             found[word] = digest(path.read_bytes())
-            for table in re.findall(r"^[ \t]*eos[ \t]+table\b[^\n#]*?([^\s#]+)[ \t]*(?:#.*)?$", path.read_text(errors="replace"), re.M) if path.suffix == ".hvi" else ():
-                note(table, (path.parent, *potentials()))
+            for table in re.findall(r"^[ \t]*file[ \t]+([^\s#]+)", path.read_text(errors="replace"), re.M) if path.suffix == ".hvi" else ():
+                note(table, (*potentials(), self.folder))
 
         for word in (word for value in self.variables.values() for word in words(value)):
             if re.search(r"\.\w*[a-z]\w*$", word):
@@ -376,7 +375,8 @@ class Job:
                 path.unlink()
         for pattern in [] if self.problem else self.remove:
             for path in self.folder.glob(pattern):
-                path.unlink()
+                if path.name not in (RESULT, "job.yaml"):  # without them it would not be done
+                    path.unlink()
         self.process = None
         self.leave()
         return True
@@ -475,9 +475,15 @@ def cell(value):
 
 
 def write_table(jobs, path):
-    """A CSV file: job, variables, results of all jobs that are done."""
-    rows = [{"job": job.name, **result, **job.variables} for job in jobs if (result := job.result())]
-    columns = list(dict.fromkeys(["job", *(n for j in jobs for n in j.variables), *(n for row in rows for n in row)]))
+    """A CSV file: job, variables, results of all jobs that are done; a variable that is another than the result of its name has the column NAME_variable"""
+    done = [(job, {**result, "job": job.name}) for job in jobs if (result := job.result())]
+    other = {name for job, result in done for name, value in job.variables.items() if str(result.get(name, value)) != str(value)}
+
+    def variables(job):
+        return {f"{name}_variable" if name in other else name: value for name, value in job.variables.items()}
+
+    rows = [{**variables(job), **result} for job, result in done]
+    columns = list(dict.fromkeys(["job", *(n for j in jobs for n in variables(j)), *(n for row in rows for n in row)]))
     path.parent.mkdir(parents=True, exist_ok=True)
     tables.write_csv(path, columns, [[cell(row.get(name, "")) for name in columns] for row in rows])
 

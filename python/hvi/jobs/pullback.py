@@ -58,8 +58,9 @@ def find(t, u, ringing):
         if u[top] - u[low] > FALLEN * u[top] and now - u[low] > RISEN * (u[top] - u[low]):
             fall = u[top] - u[low]
             end = top + int(np.flatnonzero(u[top:] < u[top] - TO * fall)[0])
-            begin = int(np.flatnonzero(u[:end] >= u[top] - FROM * fall)[-1])
-            return PullBack(top, low, fall, (TO - FROM) * fall / (t[end] - t[begin]), True)
+            begin = 1 + int(np.flatnonzero(u[:end] >= u[top] - FROM * fall)[-1])
+            first, last = (np.interp(u[top] - part * fall, u[[k, k - 1]], t[[k, k - 1]]) for part, k in ((FROM, begin), (TO, end)))
+            return PullBack(top, low, fall, (TO - FROM) * fall / (last - first), True)
     return None if top is None else PullBack(top, low, u[top] - u[low], math.nan, False)
 
 

@@ -120,6 +120,10 @@ class Study:
             raise HVIError(f"{self.path}: the grid has {math.prod(map(len, axes)):,} points, {MOST:,} at most are run")
         if not axes:
             raise HVIError(f"{self.path}: no grid: nothing to vary")
+        names = [name for axis in axes for name in set().union(*axis)]
+        twice = {name for name in names if names.count(name) > 1}
+        if twice:
+            raise HVIError(f"{self.path}: grid: more than one axis sets {', '.join(sorted(map(str, twice)))}: set it in one of them")
         found = [{n: v for part in point for n, v in part.items()} for point in itertools.product(*axes)]
         names = [engine.job_name(c) for c in found]
         twice = {n for n in names if names.count(n) > 1}

@@ -325,7 +325,7 @@ def from_case(case):
                                               "standoff_cm": 0.1 * wall.gap_mm}
     return Shield(wall_thickness_cm=0.1 * wall.thickness_mm, wall_density=_density(wall.material), projectile_density=_density(case.material),
                   wall_yield_ksi=wall.yield_ksi or strength, wall_brinell=brinell, wall_sound_km_s=sound,
-                  aluminum=all(re.match(r"Al(?=[0-9-])", name) for name in names), **bumper)
+                  aluminum=all(re.match(r"Al(?:-|[0-9]{4}|99)", name) for name in names), **bumper)
 
 
 # ---------------------------------------------------------------------- beside a simulation

@@ -202,8 +202,9 @@ def read(reader, node, key):
 def measured(path, density):
     """(diameter of the sphere around its middle, volume, least extent) in mm, mm^3: of an STL file, in mm, or of a particle file, in m, of this density
 
-    least: width over all directions, of a shell twice its wall: four particles are across the projectile, two across a shell
+    least: width over all directions, of a shell twice its wall: four particles are across the projectile, two across a shell. A particle is one spacing wide.
     """
+    spacing = 0.0
     if is_surface(path):
         triangles = stl.read(path)
         x, volume = triangles.reshape(-1, 3), stl.volume(triangles)
@@ -214,8 +215,9 @@ def measured(path, density):
             raise HVIError(f"{path} has a density of {rho:g} kg/m^3, and the material of the projectile {density:g}: "
                            "python3 -m hvi body --material FILE.hvi makes one of it")
         x, volume = 1e3 * x, 1e9 * mass / density
-        least = np.ptp(x, axis=0).min() + (volume / len(x)) ** (1 / 3)
-    return float(2 * np.linalg.norm(x - stl.middle(x), axis=1).max()), volume, float(least)
+        spacing = (volume / len(x)) ** (1 / 3)
+        least = np.ptp(x, axis=0).min() + spacing
+    return float(2 * np.linalg.norm(x - stl.middle(x), axis=1).max() + spacing), volume, float(least)
 
 
 def spacing_of(path, volume_mm3):

@@ -218,7 +218,7 @@ def of_run(shield, result):
         verdict = "undecided" if texts(UNLESS) else "holds"
     reasons = {"holds": texts(HOLDS), "fails": texts(FAILS), "undecided": texts(ALWAYS, UNLESS) + texts(FAILS, HOLDS)}[verdict]
     notes = (texts(UNLESS) if verdict == "fails" else []) + texts(NOTE)
-    remedies = [f.remedy for f in found if f.remedy and f.effect != NOTE]
+    remedies = list({str(f.remedy): f.remedy for f in found if f.remedy and f.effect != NOTE}.values())
     return {"verdict": verdict, "reasons": reasons, **({"notes": notes} if notes else {}), **({"remedies": remedies} if remedies else {}),
             "rules": [f.name for f in found], "decided_by": "none" if m.late else f"wall{m.d}",
             "margins": {"hole_mm": math.nan if m.unknown else m.hole, "apart_mass_mg": m.apart, "apart_particles": m.parts, "bulge_over_thickness": m.of("bulge_over_thickness"),
