@@ -42,7 +42,8 @@ bool ElementMechanics::start(Element &one, const Corners &x) const
 }
 
 /* ----------------------------------------------------------------------
-   The step begins, as for particles with fix hvi/johnson-cook: by what of the solid the next forces go.
+   The step begins, as fix hvi/johnson-cook begins that of particles: forces tell rubble and signals by it.
+
    Half of a step's energy.  Forces on nodes work on the velocity v of the middle of the step, in both
    halves: that is what kinetic energy changes by, but for dt^2/8 f^2/m, which cancels between a
    step and the next if they are as long; what is left, the kick, is given back.  Of pairs particles have gained
