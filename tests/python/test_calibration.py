@@ -30,14 +30,14 @@ spacings_mm: [0.4, 0.3]
 def run(shield, verdict, margin, test, wall=2.0, **more):
     """a row of a shield whose wall varies; margin: strain where it holds, mass apart where it fails"""
     own = {"shield": shield, "source": f"report of {shield}", "on": "wall", "km_s": 6.5, "D_mm": 4.0, "bumper_mm": 1.0, "gap_mm": 70.0, "wall_mm": wall, "low": 1.8, "high": 2.2,
-           "limit": 2.0, "across": 10.0, "shift": 0.0, "bulge_over_thickness": margin, STRAIN: margin, "failed_share": 0.5, "apart_over_projectile": margin if verdict == "fails" else 0.0}
+           "limit": 2.0, "across": 12.0, "shift": 0.0, "bulge_over_thickness": margin, STRAIN: margin, "failed_share": 0.5, "apart_over_projectile": margin if verdict == "fails" else 0.0}
     return calibration.Run(**{**own, "verdict": verdict, "test": test, **more})
 
 
 def records(*runs, **head):
     known = {"command": "python3 -m hvi calibrate made-up.yaml", "date": "2026-01-01", "rows": len(runs), "shields": len({one.shield for one in runs}), "materials": MATERIALS, "settings": {},
              "model": {name: cases.SETTINGS[name].default for name in calibration.MODEL},
-             "spacing": {"across": [10.0], "bumper_layers": 2, "wall_layers": 3, "ratio": 2}, "margin": STRAIN}
+             "spacing": {"across": [12.0], "bumper_layers": 2, "wall_layers": 3, "ratio": 2}, "margin": STRAIN}
     found = calibration.Records({**known, **head}, runs)
     found.head.update(found.check())
     return found
@@ -83,11 +83,13 @@ def test_votes(case, verdict, strain, mg, held, failed):
     assert (found["margin"], found["value"]) == ((STRAIN, strain) if verdict == "holds" else ("apart_over_projectile", pytest.approx(mg / 93.5, rel=2e-3)))
 
 
-def test_the_worst_of_the_finest_runs_counts(case):
+def test_the_worst_of_runs_as_fine_as_the_records_counts(case):
     found = records(*ROWS).of_verdict(case(), {(0, 0.0): result(strain=0.9), (1, 0.0): result(strain=0.02), (1, 0.25): result(strain=0.2)})
     assert found["value"] == 0.2
     assert calibration.said_of_verdict(found)[0] == ("how sure: with a wall that holds with a plastic strain of 0.2 at its rear, 1 of 3 shields held in tests, 1 failed, of 1 it is not known "
                                                      "(9 runs, records of 2026-01-01)")
+    finer = case(CASE.replace("[0.4, 0.3]", "[0.33, 0.22]"))  # 12 and 18 across
+    assert records(*ROWS).of_verdict(finer, both(result(strain=0.1), result(strain=0.02)))["value"] == 0.1
 
 
 @pytest.mark.parametrize("results, message", [
@@ -119,6 +121,7 @@ OUTSIDE = [
     ("speed_km_s: 6", "speed_km_s: 7.1", "speed in km/s 7.1, of the records 5 to 7"), ("gap_mm: 60", "gap_mm: 90", "gap over diameter 22.5, of the records 12.5 to 17.5"),
     ("  - {thickness_mm: 1.0, material: Al6061-T6}\n", "", "it has 1 wall, not 2"), ("spacings_mm", "  - {thickness_mm: 2.0, material: Al6061-T6, gap_mm: 60}\nspacings_mm", "it has 3 walls, not 2"),
     ("[0.4, 0.3]", "[0.6, 0.5]", "its spacings are coarser than those of the records"), ("gap_mm: 60", "gap_mm: 60, spacings_mm: [1, 0.8]", "coarser"),
+    ("[0.4, 0.3]", "[0.26, 0.2]", "its spacings are finer than those of the records, and answers go with them"),
     ("Al2017-T4", "Cu-OFHC", "Cu-OFHC is in none of them"), ("speed_km_s: 6", "speed_km_s: 6\nnot_modelled: [MLI]", "what is not modelled"), ("speed_km_s: 6", "speed_km_s: 6\nsettings: {eta: 1.3}", "eta is 1.3, not 1.2"),
     ("speed_km_s: 6", "speed_km_s: 6\nsettings: {debris: yes}", "settings: debris is yes, not no"), ("{diameter_mm: 4,", "{fill: glass, diameter_mm: 4,", "projectile: fill is glass, not lattice")]
 
@@ -154,7 +157,7 @@ def test_material_that_has_changed(case):
 
 
 def test_records_of_several_spacings(case):
-    """those count that are no finer than the case; 4 mm at 0.2 are 20 across"""
+    """those count that are as fine as the case; 4 mm at 0.2 are 20 across"""
     fine = [dataclasses.replace(one, across=16.0) for one in ROWS[:5]]
     of = records(*ROWS, *fine)
     assert len(of.for_case(case()).runs) == 9 and len(of.for_case(case(CASE.replace("[0.4, 0.3]", "[0.4, 0.2]"))).runs) == 5 and len(of.finest().runs) == 5

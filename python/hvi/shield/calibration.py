@@ -26,6 +26,7 @@ MARGINS = {"rear_plastic_strain": "a plastic strain of {:.2g} at its rear", "bul
 APART = "apart_over_projectile"  # of one that fails
 ALIKE = 0.02  # lengths and speeds of one shield in two lists
 COARSER = 1.1  # than the records' are spacings of a case that they may judge, at most: that of hvi limit stays while the diameter varies
+FINER = 1.25  # likewise for the projectile's: with 14 across a wall holds that fails with 10, and in tests (examples/whipple-shield/limits)
 HEAD: dict[str, type] = {**dict.fromkeys(("command", "date", "margin", "limits_in_the_band_of_the_others"), str), **dict.fromkeys(("rows", "shields"), int),
         **dict.fromkeys(("spacing", "settings", "model", "materials", "scores", "scores_by_other_reports"), dict)}  # what a file must say
 MODEL = ("kernel", "eta", "pair", "solid", "debris", "C", "edge", "layers")  # settings that change what a run computes
@@ -210,9 +211,9 @@ class Records:
     def for_case(self, case, varied=()):
         """those that may judge a case; HVIError: it is outside of what they cover. varied: attributes of a Run that the question leaves open"""
         why = self.outside(case)
-        across = None if why else self.across(case)
-        if not why and across is None:
-            why = ["its spacings are coarser than those of the records"]
+        found = None if why else self.alike(case)
+        if not why and found is None:
+            why = [f"its spacings are {'coarser' if max(self.over(case, min(run.across for run in self.runs))) > COARSER else 'finer'} than those of the records, and answers go with them"]
         if why:
             raise HVIError(f"the case is outside of what the records cover: {'; '.join(why)}")
 
@@ -220,17 +221,23 @@ class Records:
             free = {*varied, {"wall": "wall_mm", "diameter": "D_mm"}.get(run.on)}
             return all(abs(getattr(run, name) / value - 1) < ALIKE for name, value in lengths(case).items() if name not in free)
 
-        runs = tuple(run for run in self.runs if run.across == across)
+        runs = tuple(run for run in self.runs if run.across == found[0])
         return dataclasses.replace(self, runs=runs).without([run for run in runs if same(run)])
 
-    def across(self, case):
-        """most particles across at which records are no finer than the case, or None"""
-        def fits(across):
-            near, far = shots.spacings({**self.head["spacing"], "across": across}, *(lengths(case)[name] for name in ("D_mm", "bumper_mm", "wall_mm")))
-            given = [case.spacings_mm[-1], *((wall.spacings_mm or case.spacings_mm)[-1] for wall in case.walls)]
-            return all(dx <= COARSER * least for dx, least in zip(given, (near, near, far)))
+    def alike(self, case):
+        """(particles across of records, which of the case's spacings is theirs), the finest that is one, or None"""
+        for which in reversed(range(len(case.spacings_mm))):
+            for across in sorted({run.across for run in self.runs}, reverse=True):
+                over = self.over(case, across, which)
+                if over[0] >= 1 / FINER and max(over) <= COARSER:
+                    return across, which
+        return None
 
-        return next((across for across in sorted({run.across for run in self.runs}, reverse=True) if fits(across)), None)
+    def over(self, case, across, which=-1):
+        """a case's spacings, of the projectile and of walls, over those that the rule of the records makes"""
+        near, far = shots.spacings({**self.head["spacing"], "across": across}, *(lengths(case)[name] for name in ("D_mm", "bumper_mm", "wall_mm")))
+        given = [case.spacings_mm[which], *((wall.spacings_mm or case.spacings_mm)[which] for wall in case.walls)]
+        return [dx / least for dx, least in zip(given, (near, near, far))]
 
     def outside(self, case):
         """in which ways a case is not like the records, as texts"""
@@ -261,8 +268,8 @@ class Records:
         verdicts = {result["verdict"] for result in results.values()}
         if verdicts not in ({"holds"}, {"fails"}):
             raise HVIError("runs that are undecided, or differ, have no margin: hvi limit says how near the limit is")
-        records, finest, by = self.for_case(case), max(which for which, _ in results), self.head["margin"]
-        runs = [of_result(case, result) for (which, _), result in results.items() if which == finest]
+        records, by = self.for_case(case), self.head["margin"]
+        runs = [of_result(case, result) for (which, _), result in results.items() if which == self.alike(case)[1]]
         if None in runs:
             raise HVIError("the last wall does not decide, and records are of last walls")
         if not records.shields:
