@@ -105,7 +105,7 @@ class Input:
         for other in re.findall(r"^\s*include\s+([\w./-]+)\s*(?:#.*)?$", text, re.M):  # names without variables
             if not os.path.isabs(other) and not inside(other):
                 raise HVIError(f"{self.path.parent / name}: include {other}: a run has copies of what it includes, in its own folder: put the file beside the input, or give its whole path")
-            if other not in self.texts:
+            if other not in self.texts and (not os.path.isabs(other) or os.path.isfile(other)):  # a whole path may be that of a file that the run makes
                 self._read(other)
 
     def checksum(self):
