@@ -7,6 +7,7 @@ import warnings
 import hvi
 import numpy as np
 import pytest
+from hvi.io.bonds import BondDump
 from hvi.io.data import DataFile
 from hvi.progress import Silent, bar
 from scenes import cube, scene
@@ -202,6 +203,46 @@ def test_parts_of_frames_are_refused(tmp_path):
     for name, steps in zip(names, ((0, 10), (0, 10), (20,))):
         name.write_text(dump_text(steps=steps, rows=()))
     assert len(hvi.Dump(names)) == 5
+
+
+def test_frames_with_few_particles_are_no_parts(tmp_path):
+    """a group that changes may have none in one of two frames of a step, or others before it has the same; two empty ones beside others are parts"""
+    names, rows = [tmp_path / name for name in "abc"], [f"{k} 1 0 0 0 0 0 0" for k in range(1, 5)]
+
+    def steps_of(*files):
+        for name, frames in zip(names, files):
+            name.write_text("".join(dump_text(steps=(step,), rows=own) for step, own in frames.items()))
+        return sorted(hvi.Dump(names[:len(files)]).steps.tolist())
+
+    assert steps_of({0: [], 10: []}, {10: rows[1:2], 20: rows}) == [0, 10, 10, 20]
+    assert steps_of({0: [], 10: rows[:1], 20: rows}, {10: rows[1:2], 20: rows}) == [0, 10, 10, 20, 20]
+    for files in (({0: rows[:2]}, {0: rows[2:]}), ({0: [], 10: rows[:2]}, {0: rows, 10: rows[2:]}), ({0: []}, {0: rows, 10: rows}, {10: []})):
+        with pytest.raises(hvi.HVIError, match="both have a frame of step .* different particles"):
+            steps_of(*files)
+
+
+def test_parts_without_ids_are_refused(tmp_path):
+    """particles by all their columns, bonds by their pairs"""
+    names = [tmp_path / name for name in "ab"]
+
+    def write(columns, *files):
+        for name, rows in zip(names, files):
+            name.write_text(dump_text(columns, rows=rows))
+        return names
+
+    with pytest.raises(hvi.HVIError, match="different particles: parts of a frame"):
+        hvi.Dump(write("type x y z", ["1 0 0 0", "1 1 0 0"], ["1 2 0 0"]))
+    assert len(hvi.Dump(write("type x y z", ["1 0 0 0", "1 1 0 0"], ["1 1 0 0", "1 0 0 0"]))) == 4
+
+    def bonds(*files):
+        for name in write("index batom1 batom2", *files):
+            name.write_text(name.read_text().replace("ITEM: ATOMS", "ITEM: ENTRIES"))
+        return BondDump(names).at(10).tolist()
+
+    for files in ((["1 1 2", "2 2 3"], ["1 4 5"]), (["1 4 5"], ["1 1 2", "2 2 3"]), (["1 4 5"], [])):
+        with pytest.raises(hvi.HVIError, match="different bonds: parts of a frame .* all bonds of a frame into one file"):
+            bonds(*files)
+    assert bonds(["1 1 2", "2 2 3"], ["1 2 3"]) == [[2, 3]]
 
 
 @pytest.mark.parametrize("old, new, message", [

@@ -114,6 +114,15 @@ def test_variable_and_result_of_one_name(folder):
         {"job": "steps-1000", "steps_variable": "1000", "job_variable": "7", "n": "1; 2", "steps": "310", "p": "5"}]
 
 
+def test_numbers_in_other_digits_do_not_differ(folder):
+    """a number is written by LAMMPS in its own way"""
+    values = {"1e-3": 0.001, 2.0: 2, "x": "x"}
+    jobs = [types.SimpleNamespace(name=f"v-{value}", variables={"v": value, "n": ["1e-3", 2.0]}, result=lambda found=found: {"v": found, "n": [0.001, 2]}) for value, found in values.items()]
+    engine.write_table(jobs, folder / "runs/tiny.csv")
+    assert list(table(folder).values()) == [{"job": job.name, "v": str(found), "n": "0.001; 2"} for job, found in zip(jobs, values.values())]
+    assert engine.same(5, "5.0") and not any(engine.same(*pair) for pair in ((5, 6), ("5", "5 m"), ([1, 2], [1]), ("x", "X"), (1, [1, 1])))
+
+
 def test_what_an_input_says_is_not_hidden(sweep):
     """an input that ends itself has said why; mpirun's many lines come after that"""
     process = sweep({**STUDY, "grid": {"mode": ["refused"]}})

@@ -29,6 +29,7 @@ class BondDump:
         if len(columns) != 2 or not set(columns) <= set(have):
             raise HVIError(f"{self.dump.paths[0]} has no columns {' '.join(columns)}; it has: {' '.join(have)}")
         self.columns = tuple(columns)
+        self.dump.refuse_parts(self.columns, "bonds")
 
     def at(self, step):
         """Pairs of atom IDs at a time step, (m, 2) of int64; HVIError if the dump has no such step."""

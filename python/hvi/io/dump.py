@@ -97,7 +97,7 @@ class Dump:
         for problem in self.problems:
             warnings.warn(HVIWarning(f"left out frame {problem}"), stacklevel=2)
         self._packed, self._last = None, None
-        self._refuse_parts()
+        self.refuse_parts()
         self.dt, self.interval = dt, interval
         if interval is not None and np.any(np.diff(self.steps) <= 0):
             back = int(np.flatnonzero(np.diff(self.steps) <= 0)[0]) + 1
@@ -109,17 +109,33 @@ class Dump:
         self._place = {step: place for place, step in enumerate(steps)}
         self._fill_in(data, masses, units, mirrors.of_words(mirror))
 
-    def _refuse_parts(self):
-        """of a frame, one for each rank: a frame that a resumed run has written again has particles in common with the one before"""
-        first = {}
-        for k, header in enumerate(self.headers):
-            one, other = self.headers[first.setdefault(header.step, k)], header
-            if one.path == other.path or not one.n + other.n or "id" not in one.columns or "id" not in other.columns:
+    def refuse_parts(self, names=(), what="particles"):
+        """of frames, one for each rank: a frame that a resumed run has written again has rows in common with the one before, or one of the two is empty
+
+        names: of the columns that tell rows apart; default: IDs, or all columns of particles without
+        """
+        full, empty, parts = {}, {}, []
+        for header in self.headers:
+            by = names or (("id",) if "id" in header.columns else header.columns if header.label == "ATOMS" else ())
+            if not by:
                 continue
-            if np.isin(self.rows(first[header.step])["id"], self.rows(k)["id"]).any():
+            one = (full if header.n else empty).setdefault(header.step, header)
+            if one.path == header.path or not header.n or not set(by) <= set(one.columns):
+                continue
+            if not set(self._keys(one, by)).isdisjoint(self._keys(header, by)):
                 return
-            raise HVIError(f"{one.path} and {other.path} both have a frame of step {header.step}, of different particles: parts of a frame (dump with %, or of several "
-                           "groups) are not put together: let LAMMPS write all particles of a frame into one file")
+            parts.append((one, header))
+            if len(parts) > 1:
+                break
+        halves = [(full[step], empty[step]) for step in full if step in empty and full[step].path != empty[step].path]
+        if parts or len(halves) > 1:
+            one, other = (parts or halves)[0]
+            raise HVIError(f"{one.path} and {other.path} both have a frame of step {one.step}, of different {what}: parts of a frame (dump with %, or of several groups) "
+                           f"are not put together: let LAMMPS write all {what} of a frame into one file")
+
+    def _keys(self, header, names):
+        columns = self._parsed(header)
+        return zip(*(columns[name].tolist() for name in names))
 
     def _fill_in(self, data, masses, units, planes):
         data = DataFile(data) if isinstance(data, (str, os.PathLike)) else data
@@ -184,7 +200,9 @@ class Dump:
 
     def rows(self, k):
         """Columns of frame k as written, in the order of the file."""
-        header = self.headers[self.number(k)]
+        return self._parsed(self.headers[self.number(k)])
+
+    def _parsed(self, header):
         return parse(self._read(header), header.n, header.columns, header.where)
 
     def __getitem__(self, k):

@@ -15,21 +15,22 @@ def read_result(path):
     """{key: value} of a result.yaml; numbers as int or float, all else as text: items of a list are joined, hole_mm of the mapping margins is margins.hole_mm"""
     if os.path.isdir(path):
         path = os.path.join(path, "result.yaml")
-    result, root = {}, texts.compose(path)
+    result, first, root = {}, {}, texts.compose(path)
 
     def add(mapping, before):
         for key, node in mapping.value:
-            name = before + _text(key)
-            if name in result:
-                raise HVIError(f"{path}, line {key.start_mark.line + 1}: {name} is there twice")
+            name, line = before + _text(key), key.start_mark.line + 1
+            if first.setdefault(name, key) is not key:
+                raise HVIError(f"{path}, line {line}: {name} is there twice, first in line {first[name].start_mark.line + 1}")
             if node.tag == "tag:yaml.org,2002:map":
                 add(node, f"{name}.")
             else:
                 result[name] = _value(_text(node))
 
-    if root is None or root.tag != "tag:yaml.org,2002:map":
-        raise HVIError(f"{path} has no values: not a mapping, key: value")
-    add(root, "")
+    if root is not None and root.tag == "tag:yaml.org,2002:map":
+        add(root, "")
+    if not result:
+        raise HVIError(f"{path} has no values, key: value")
     return result
 
 

@@ -10,6 +10,7 @@ import collections
 import contextlib
 import fcntl
 import hashlib
+import itertools
 import json
 import math
 import os
@@ -105,7 +106,7 @@ class Input:
         for other in re.findall(r"^\s*include\s+([\w./-]+)\s*(?:#.*)?$", text, re.M):  # names without variables
             if not os.path.isabs(other) and not inside(other):
                 raise HVIError(f"{self.path.parent / name}: include {other}: a run has copies of what it includes, in its own folder: put the file beside the input, or give its whole path")
-            if other not in self.texts:
+            if other not in self.texts and (not os.path.isabs(other) or os.path.isfile(other)):  # a whole path may be that of a file that the run makes
                 self._read(other)
 
     def checksum(self):
@@ -474,10 +475,16 @@ def cell(value):
     return "; ".join(map(str, value)) if isinstance(value, list) else value
 
 
+def same(one, other):
+    """words that are equal, or the same numbers"""
+    pairs = list(itertools.zip_longest(words(one), words(other), fillvalue=""))
+    return all(a == b or number(a) and number(b) and float(a) == float(b) for a, b in pairs)
+
+
 def write_table(jobs, path):
     """A CSV file: job, variables, results of all jobs that are done; a variable that is another than the result of its name has the column NAME_variable"""
     done = [(job, {**result, "job": job.name}) for job in jobs if (result := job.result())]
-    other = {name for job, result in done for name, value in job.variables.items() if str(result.get(name, value)) != str(value)}
+    other = {name for job, result in done for name, value in job.variables.items() if not same(result.get(name, value), value)}
 
     def variables(job):
         return {f"{name}_variable" if name in other else name: value for name, value in job.variables.items()}
