@@ -696,12 +696,18 @@ void FixHVISPH::post_run()
 {
   for (int i = 0; i < atom->nlocal; i++) {
     extra[i].mark = remembers(i) ? fingerprint(i) : 0;
-    if (extra[i].step < 0.0) extra[i].step = last;
+    extra[i].step = step_of(i);
   }
   stepping = 0;
 }
 
-/* ---------------------------------------------------------------------- */
+// that it has taken last; 0: none in this run
+
+double FixHVISPH::step_of(int i) const
+{
+  if (!integrates(i)) return 0.0;
+  return extra[i].step < 0.0 ? last : extra[i].step;
+}
 
 // a restart file in the middle of a run is like one at its end
 
@@ -709,7 +715,7 @@ FixHVISPH::Extra FixHVISPH::stored(int i) const
 {
   Extra e = extra[i];
   if (stepping) e.mark = remembers(i) ? fingerprint(i) : 0;
-  if (e.step < 0.0) e.step = last;
+  e.step = step_of(i);
   return e;
 }
 

@@ -186,6 +186,7 @@ class FixHVISPH :
   void count_frozen() const;
   bool moves(int) const;
   bool integrates(int) const;
+  double step_of(int) const;
   bool has_material(int) const;
   void check_restart() const;
   void check_left_out() const;

@@ -128,6 +128,30 @@ def test_forces_after_a_command_on_all(lmp, blocks, nranks, newton):
         assert other == pytest.approx(found[0], abs=1e-11 * np.abs(found[0]).max())
 
 
+@pytest.mark.parametrize("nranks", [1, 2])
+def test_bodies_that_become_one_type(lmp, blocks, nranks):
+    """stay two bodies, with the same forces; what has failed would be rubble of one type"""
+    text = blocks(upper="9 15").replace("hvi/sph cubic", "hvi/sph cubic dissipation riemann") + MOVE + "velocity upper set 0 0 -2\ntimestep 0.02\nrun 20\n"
+    found = []
+    for command in ("", "set group upper type 2\n"):
+        lmp(text + command + STATE.format("out") + "run 20\n", nranks=nranks)
+        found.append(read_dump("out", sort=True))
+    assert found[0]["c_S[2]"].max() > 0.1
+    for name, values in found[0].items():
+        assert found[1][name] == pytest.approx(values, abs=1e-10), name
+
+
+@pytest.mark.parametrize("command", ["", "velocity far set 0 0 0.1\n"])
+def test_forces_after_particles_have_come_back(lmp, blocks, command):
+    """are those of the last run's step, not of that in which these were integrated last"""
+    text = blocks(upper="9 15").replace("hvi/sph cubic", "hvi/sph cubic dissipation riemann") + "region far block INF INF INF INF 30 32\ncreate_atoms 1 region far\ngroup far region far\n"
+    text += "group near subtract all far\ngroup moves union all\n" + MOVE.replace("sph all", "sph moves") + "velocity upper set 0 0 -2\nvelocity far set 0 0 0\ntimestep 0.1\nrun 1\ngroup moves clear\ngroup moves union near\ntimestep 0.001\nrun 200\n"
+    dump = "write_dump near custom {} id fx fy fz modify sort id format float %.17g\n"
+    lmp(text + dump.format("end") + "group moves union near far\n" + command + "run 0\n" + dump.format("begin"))
+    end, begin = (np.array([read_dump(name)[f] for f in ("fx", "fy", "fz")]) for name in ("end", "begin"))
+    assert np.abs(end).max() > 0.1 and begin == pytest.approx(end, abs=1e-11 * np.abs(end).max())
+
+
 # ---------------------------------------------------------------------- fixes and materials given again
 @pytest.mark.parametrize("again", [False, True])
 def test_fix_given_anew(lmp, blocks, again):
