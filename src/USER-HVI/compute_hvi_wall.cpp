@@ -406,7 +406,7 @@ void ComputeHVIWall::sum_up()
   const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
   const double half = 0.5 * force->mvv2e;
   std::vector<double> sum(nwalls * NCOLUMNS, 0.0), most(nwalls * NCOLUMNS, 0.0);
-  std::vector<int> wall_of(atom->ntypes + 1, -1);
+  wall_of.assign(atom->ntypes + 1, -1);
   moved.assign(nwalls, 0);
   std::vector<int> has_nodes(nwalls, 0), lacks_nodes(nwalls, 0);
   for (int k = 0; k < nwalls; k++) {
@@ -444,7 +444,8 @@ void ComputeHVIWall::sum_up()
       const Wall &w = walls[k];
       double *const s = &sum[k * NCOLUMNS];
       double *const top = &most[k * NCOLUMNS];
-      if (home <= k) top[TIP] = MAX(top[TIP], x[axis]);
+      if (home > k) continue;    // what is behind has not passed
+      top[TIP] = MAX(top[TIP], x[axis]);
       if (home != k) {
         if (!(v[axis] > 0.0)) continue;
         if (x[axis] < w.front) {
@@ -546,7 +547,7 @@ void ComputeHVIWall::find_pieces()
       std::copy(walls[k].start.begin(), walls[k].start.end(),
                 array[k] + CLOUD_MASS);    // and all after it
     else {
-      measure(walls[k], array[k]);
+      measure(k, array[k]);
       if (!moved[k] && array[k][PASSED_MASS] == 0.0)
         walls[k].start.assign(array[k] + CLOUD_MASS, array[k] + NCOLUMNS);
     }
@@ -611,8 +612,9 @@ void ComputeHVIWall::find_rear_face(const Wall &w, int64_t hull)
 
 /* ---------------------------------------------------------------------- */
 
-void ComputeHVIWall::measure(Wall &w, double *row)
+void ComputeHVIWall::measure(int number, double *row)
 {
+  Wall &w = walls[number];
   const int nlocal = atom->nlocal;
   const int *const type = atom->type;
   const HVI::Mesh *const mesh = HVI::find_mesh(lmp);
@@ -638,7 +640,7 @@ void ComputeHVIWall::measure(Wall &w, double *row)
   const double layer = 0.5 * (w.rear - w.front) / w.layers;
   chosen.assign(nlocal, 0);
   for (int i = 0; i < nlocal; i++) {
-    if (!is_matter(i)) continue;
+    if (!is_matter(i) || wall_of[type[i]] > number) continue;
     const double *const x = atom->x[i], s = x[axis];
     const bool mine_here = w.owns(type[i]);
     if (sound[i] == body && body) {

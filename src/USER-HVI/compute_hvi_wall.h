@@ -93,6 +93,7 @@ class ComputeHVIWall : public ComputeHVIMatter {
 
   std::vector<char> chosen;
   HVI::RearFace rear_face;                      // of the wall that is measured
+  std::vector<int> wall_of;                     // by type, -1: of none
   std::vector<int> moved;                       // by wall: something of it moves, or has energy
   std::vector<int64_t> sound, together, own;    // lowest ID of the piece of a particle
 
@@ -106,7 +107,7 @@ class ComputeHVIWall : public ComputeHVIMatter {
   void sum_up();
   void find_pieces();
   void find_rear_face(const Wall &, int64_t hull);
-  void measure(Wall &, double *row);
+  void measure(int number, double *row);
   int64_t piece_of(const std::vector<int64_t> &, int64_t id) const;
   void find_hole(Wall &, double *row);
 };

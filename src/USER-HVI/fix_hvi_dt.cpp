@@ -34,7 +34,7 @@ enum { MAXIMUM, CONTACT, SPRING, APPROACH, GROWING, SIGNAL, NLIMITER };
 
 FixHVIDt::FixHVIDt(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), dtmin(0.0), dtmax(HVI::NO_BOUND), floor(0.01), asked(0), every(1),
-    limiter(MAXIMUM), restored(0.0), chosen(0), laststep(0), first(0.0)
+    limiter(MAXIMUM), restored(0.0), chosen(0), running(false), laststep(0), first(0.0)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix hvi/dt", error);
 
@@ -104,7 +104,7 @@ void FixHVIDt::init()
 
 /* ----------------------------------------------------------------------
    a run from a restart file keeps the step it was interrupted with, one after
-   another run goes on from its step
+   another run, or from a restart file written after it, goes on from its step
 ------------------------------------------------------------------------- */
 
 void FixHVIDt::setup(int /*vflag*/)
@@ -116,6 +116,12 @@ void FixHVIDt::setup(int /*vflag*/)
     apply(choose(chosen));
   restored = 0.0;
   chosen = 1;
+  running = true;
+}
+
+void FixHVIDt::post_run()
+{
+  running = false;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -232,7 +238,8 @@ double FixHVIDt::compute_vector(int n)
 void FixHVIDt::write_restart(FILE *fp)
 {
   if (comm->me) return;
-  const double list[4] = {update->dt, (double) limiter, (double) laststep, first};
+  const double kept = running ? update->dt : 0.0;    // between runs: the next one chooses
+  const double list[4] = {kept, (double) limiter, (double) laststep, first};
   HVI::RestartSection section(RESTART_FORMAT);
   section.put(list, 4);
   section.write_state(fp);

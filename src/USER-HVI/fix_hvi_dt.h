@@ -32,6 +32,7 @@ class FixHVIDt : public Fix {
   void end_of_step() override;
   double compute_scalar() override;
   double compute_vector(int) override;
+  void post_run() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
 
@@ -41,6 +42,7 @@ class FixHVIDt : public Fix {
   int limiter;
   double restored;    // dt of a restart file, 0: there was none
   int chosen;         // in an earlier run
+  bool running;       // a run is not at its end
   bigint laststep;    // that chose dt
   double first;       // step that was chosen; 0: none yet
   std::vector<HVI::TimeStepSource *> sources;

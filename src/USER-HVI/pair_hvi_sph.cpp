@@ -497,7 +497,6 @@ void PairHVISPH::init_style()
   HVI::check_types(lmp);
   HVI::check_masses(lmp);
   if (store && modify->nfix_restart_peratom > 0) store->has_forgotten = true;
-  if (store && modify->nfix_restart_peratom > 0) store->has_forgotten = true;
 
   store = FixHVIStore::instance(lmp);
   FixHVILedger::instance(lmp);    // fix hvi/sph cannot make it: a fix must not add fixes
@@ -693,6 +692,13 @@ void PairHVISPH::warn()
           "Pair style hvi/sph: there are no particles of type {}, which has material {}: "
           "beside a lattice, regions are in its spacings unless they say units box",
           i, store->materials.of(i)->name);
+    for (int j = 1; j <= atom->ntypes; j++)
+      if (is_ours[j] && looked_for[j] && all[i] && all[j] && cutsq[i][j] == 0.0)
+        error->warning(
+            FLERR,
+            "Pair style hvi/sph: types {} and {} have materials but do not feel each "
+            "other, as pair_coeff {} {} names other styles only: give it to hvi/sph, too",
+            MIN(i, j), MAX(i, j), MIN(i, j), MAX(i, j));
   }
   if (!integrator && modify->get_fix_by_style("^sph").empty() &&
       modify->get_fix_by_style("meso").empty())

@@ -114,3 +114,13 @@ def test_scaled_is_refused(lmp, tmp_path, material):
     pair = hybrid(pair, "hybrid/scaled 0.5", "hvi/contact").replace(" hvi/contact\n", " 1.0 hvi/contact\n", 1)
     r = lmp(text(together(s, others(s)), pair, fixes, out, tmp_path, "f", "ours"), expect_fail=True)
     assert "Atom style is not compatible with pair_style hybrid/scaled" in r.error, r.error
+
+
+@pytest.mark.parametrize("given", [True, False])
+def test_types_that_lose_their_contact(lmp, tmp_path, material, given):
+    """to a style that is given for all pairs, while hvi/sph has those of one type only: a warning, once"""
+    s, pair, fixes, out = parts("riemann", material)
+    words = hybrid(pair, "hybrid/overlay", "zero")
+    assert "pair_coeff 1 2 hvi/sph tension yes\n" in words
+    r = lmp(text(s, words if given else words.replace("pair_coeff 1 2 hvi/sph tension yes\n", ""), fixes, out, tmp_path, "f") + "run 1\n")
+    assert r.log.count("types 1 and 2 have materials but do not feel each other") == (not given)
