@@ -399,7 +399,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
       if (!set.solid) e.step = 0.0;    // else the last half kick was one of that step
     }
     if (!integrates(i)) continue;
-    longest = std::max(longest, e.step);    // of what begins anew, too
+    if (!anew) longest = std::max(longest, e.step);
     if (anew) {
       e.rates_rho = atom->rho[i];
       e.rates_esph = atom->esph[i];

@@ -113,21 +113,6 @@ def test_a_piston_that_is_let_go(lmp, blocks):
         assert one["c_book[8]"][-4:] == pytest.approx(one["c_book[8]"][-5], rel=1e-3)
 
 
-@pytest.mark.parametrize("nranks, newton", [(1, "on"), (3, "off")])
-def test_forces_after_a_command_on_all(lmp, blocks, nranks, newton):
-    """are those of a second run 0, and not other ones for a particle far away that the command leaves alone"""
-    found = []
-    for more in ("", "create_atoms 1 single 2 2 38\n"):
-        text = f"newton {newton}\n" + blocks(upper="9 15").replace("hvi/sph cubic", "hvi/sph cubic dissipation riemann") + "region ours block INF INF INF INF INF 20\ngroup ours region ours\n" + more
-        text += MOVE + "velocity upper set 0 0 -2\ntimestep 0.02\nrun 20\nvelocity ours set 0 0 1e-3 sum yes\n"
-        dump = "write_dump ours custom {} id fx fy fz modify sort id format float %.17g\n"
-        lmp(text + "run 0\n" + dump.format("first") + "run 0\n" + dump.format("second"), nranks=nranks)
-        found += [np.array([read_dump(name)[f] for f in ("fx", "fy", "fz")]) for name in ("first", "second")]
-    assert np.abs(found[0]).max() > 0.1
-    for other in found[1:]:
-        assert other == pytest.approx(found[0], abs=1e-11 * np.abs(found[0]).max())
-
-
 @pytest.mark.parametrize("nranks", [1, 2])
 def test_bodies_that_become_one_type(lmp, blocks, nranks):
     """stay two bodies, with the same forces; what has failed would be rubble of one type"""
