@@ -683,6 +683,7 @@ void PairHVISPH::warn()
   if (comm->me != 0) return;
   const bool comes = HVI::find_mesh(lmp) || !modify->get_fix_by_style("^deposit").empty() ||
       !modify->get_fix_by_style("^pour").empty();
+  const bool hybrid = utils::strmatch(force->pair_style, "^hybrid");
   for (int i = 1; i <= atom->ntypes; i++) {
     if (!is_ours[i] || looked_for[i]) continue;
     looked_for[i] = 1;
@@ -693,7 +694,7 @@ void PairHVISPH::warn()
           "beside a lattice, regions are in its spacings unless they say units box",
           i, store->materials.of(i)->name);
     for (int j = 1; j <= atom->ntypes; j++)
-      if (is_ours[j] && looked_for[j] && all[i] && all[j] && cutsq[i][j] == 0.0)
+      if (hybrid && is_ours[j] && looked_for[j] && all[i] && all[j] && cutsq[i][j] == 0.0)
         error->warning(
             FLERR,
             "Pair style hvi/sph: types {} and {} have materials but do not feel each "
