@@ -136,8 +136,8 @@ def test_largest_piece(lmp, tmp_path, capsys, name, thickness):
     same(found, [r.runs[-1][f"c_h[{k}]"][-1] for k in range(1, 12)])
     assert found.values["diameter"] == pytest.approx(32 / np.sqrt(np.pi), abs=0.2)
     assert hole.measure(frame, "z", (0, 0), 0.0, types=[2], thickness=thickness).values["diameter"] < 12  # all that is there
-    words = ["hole", str(tmp_path / "p.dump"), "--units", "lj", "--plane", "0", "--type", "2", "--distance", "1.5", *(w for p in planes for w in ("--mirror", p))]
-    assert cli.main([*words, *(["--thickness", str(thickness)] if thickness else [])]) == 0
+    words = ["hole", str(tmp_path / "p.dump"), "--units", "lj", "--plane", "0", "--distance", "1.5", *(w for p in planes for w in ("--mirror", p))]
+    assert cli.main([*words, "--type", "2", *(["--thickness", str(thickness)] if thickness else [])]) == 0
     assert f"diameter: {found.values['diameter']:.6g}" in capsys.readouterr().out
     assert cli.main([*words, "--type", "3"]) == 1 and "hole: unknown" in capsys.readouterr().out  # no particles
 
