@@ -701,7 +701,7 @@ void FixHVISPH::post_run()
   stepping = 0;
 }
 
-// that it has taken last; 0: none in this run
+// the step that particle i has taken last; 0: fix hvi/sph does not integrate it
 
 double FixHVISPH::step_of(int i) const
 {
