@@ -10,7 +10,7 @@
 #   make mutate  mutants of the library against its unit tests, on from tests/unit/mutants.csv (MUTATE_ARGS)
 #   make check                     static checks: warnings of two compilers, clang-tidy, cppcheck, flake8, mypy, LAMMPS's coding standard
 #   make force-styles              LAMMPS's own testers of forces and fixes, with our styles: tests/force-styles
-#   make numbers                   tables of pages from doc/records, and which of these are old; RUN="NAME [ROW]" runs a record again: doc/numbers.py
+#   make numbers                   tables of pages from doc/records, and which of these are old; RUN="NAME..." runs records again: doc/numbers.py
 #   make dist                      source archive of the last commit and its checksum, in build
 #   make doc | sanitize | clean
 #

@@ -5,7 +5,8 @@
     doc/numbers.py                    fills all blocks of *.md and *.rst
     doc/numbers.py --check            changes nothing; names each block, marker or record that is wrong, and exits 1
     doc/numbers.py --stale            records that are older than the files they depend on
-    doc/numbers.py --run NAME [ROW]   runs the commands of a record again, or that of row 1, 2, ..., and rewrites these rows
+    doc/numbers.py --run NAME...      runs the commands of records again, each once, and rewrites their rows
+    doc/numbers.py --run NAME ROW     that of row 1, 2, ... only
 
 A record is doc/records/NAME.jsonl: a head, then one line per row of the table.
 
@@ -37,7 +38,6 @@ import os
 import pathlib
 import re
 import resource
-import shlex
 import subprocess
 import sys
 import tempfile
@@ -346,27 +346,29 @@ def environment(root, folder, build, scratch):
     return {**os.environ, **{name: str(path) for name, path in programs.items()}, "PATH": f"{scratch / 'bin'}:{os.environ['PATH']}", "PYTHONPATH": str(root / "python"), "LAMMPS_POTENTIALS": f"{root / 'potentials'}:{folder}"}
 
 
-def run(root, name, number, build):
-    """runs commands of a record again, each once, and rewrites the rows"""
+def run(root, names, number, build):
+    """runs commands of records again, each once, whatever number of records it makes, and rewrites the rows"""
     sys.path.insert(0, str(ROOT / "bench"))
     import run as bench
 
     found, wrong = records(root)
-    record = found.get(name)
-    if record is None:
-        raise Wrong(next((one for one in wrong if f"/{name}.jsonl" in one), f"no record doc/records/{name}.jsonl"))
-    if number is not None and not 1 <= number <= len(record.rows):
-        raise Wrong(f"{name}: no row {number}; there are {len(record.rows)}")
-    chosen, tasks = {k: row for k, row in enumerate(record.rows, 1) if number in (None, k)}, {}
-    some = any(row.get("keys") for row in chosen.values())
-    for k, row in chosen.items():
-        if some and not row.get("keys"):
-            print(f"{name}: row {k} stays, as it does not say where its numbers are found")
-            continue
-        if not row.get("keys"):
-            raise Wrong(f"{name}: row {k} does not say where its numbers are found (keys)")
-        tasks.setdefault(place_of(row), []).append(row)
-    for (folder, command), rows in tasks.items():
+    tasks = {}
+    for name in dict.fromkeys(names):
+        record = found.get(name)
+        if record is None:
+            raise Wrong(next((one for one in wrong if f"/{name}.jsonl" in one), f"no record doc/records/{name}.jsonl"))
+        if number is not None and not 1 <= number <= len(record.rows):
+            raise Wrong(f"{name}: no row {number}; there are {len(record.rows)}")
+        chosen = {k: row for k, row in enumerate(record.rows, 1) if number in (None, k)}
+        some = any(row.get("keys") for row in chosen.values())
+        for k, row in chosen.items():
+            if some and not row.get("keys"):
+                print(f"{name}: row {k} stays, as it does not say where its numbers are found")
+                continue
+            if not row.get("keys"):
+                raise Wrong(f"{name}: row {k} does not say where its numbers are found (keys)")
+            tasks.setdefault(place_of(row), {}).setdefault(name, []).append(row)
+    for (folder, command), all_rows in tasks.items():
         print(f"{folder}: {command}", flush=True)
         with tempfile.TemporaryDirectory() as scratch, tempfile.TemporaryDirectory() as programs:
             there = shadow(root, folder, pathlib.Path(scratch), build)
@@ -375,20 +377,22 @@ def run(root, name, number, build):
             done = subprocess.run([str(ROOT / "cmake" / "env.sh"), "bash", "-c", command], cwd=there, env=env, capture_output=True, text=True)
             wall, load, after = time.monotonic() - start, others.used(), resource.getrusage(resource.RUSAGE_CHILDREN)
             if done.returncode:
-                raise Wrong(f"{name}: {command} ended with {done.returncode}:\n{done.stdout[-1000:]}{done.stderr[-1000:]}")
+                raise Wrong(f"{', '.join(all_rows)}: {command} ended with {done.returncode}:\n{done.stdout[-1000:]}{done.stderr[-1000:]}")
             ran = {"wall_s": wall, "said": done.stdout}
             ran["core_s"] = after.ru_utime + after.ru_stime - spent.ru_utime - spent.ru_stime
-            dirty = git(root, "status", "--porcelain", "--", *(f":(glob){path}" for path in record.head["depends"]))
             box = bench.machine()
-            for row in rows:
-                for column, where in row["keys"].items():
-                    try:
-                        row["row"][column] = like(row["row"][column], number_at(there, where, ran))
-                    except (OSError, KeyError, IndexError, TypeError, ValueError, re.error) as problem:
-                        raise Wrong(f"{name}: {column}: nothing at {where} ({type(problem).__name__}: {problem})") from None
-                row.update(commit=(git(root, "rev-parse", "--short=7", "HEAD") or "") + ("-dirty" if dirty else ""),
-                           machine=f"{box['cores']} cores of a{'n' if box['cpu'][0] in 'AEIOaeio' else ''} {box['cpu']}", load="idle" if bench.is_idle(load, wall) else "busy")
-        record.save()
+            for name, rows in all_rows.items():
+                dirty = git(root, "status", "--porcelain", "--", *(f":(glob){path}" for path in found[name].head["depends"]))
+                for row in rows:
+                    for column, where in row["keys"].items():
+                        try:
+                            row["row"][column] = like(row["row"][column], number_at(there, where, ran))
+                        except (OSError, KeyError, IndexError, TypeError, ValueError, re.error) as problem:
+                            raise Wrong(f"{name}: {column}: nothing at {where} ({type(problem).__name__}: {problem})") from None
+                    row.update(commit=(git(root, "rev-parse", "--short=7", "HEAD") or "") + ("-dirty" if dirty else ""),
+                               machine=f"{box['cores']} cores of a{'n' if box['cpu'][0] in 'AEIOaeio' else ''} {box['cpu']}", load="idle" if bench.is_idle(load, wall) else "busy")
+        for name in all_rows:
+            found[name].save()
 
 
 def main(words=None, root=ROOT):
@@ -396,7 +400,7 @@ def main(words=None, root=ROOT):
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--check", action="store_true", help="change nothing, exit 1 if a block is not that of its record")
     what.add_argument("--stale", action="store_true", help="list records that are older than what they depend on")
-    what.add_argument("--run", nargs="+", metavar=("NAME", "ROW"), help="run the commands of a record again, or of one row, and fill the pages")
+    what.add_argument("--run", nargs="+", metavar="NAME", help="run the commands of records again, or of one row, and fill the pages")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="folder with lmp, for --run")
     args = parser.parse_args(words)
     try:
@@ -405,10 +409,8 @@ def main(words=None, root=ROOT):
             print("\n".join(lines) or "no record is older than what it depends on")
             return 0
         if args.run:
-            name, *row = args.run
-            if len(row) > 1 or row and not row[0].isdigit():
-                raise Wrong(f"--run {shlex.join(args.run)}: a name and the number of a row")
-            run(root, name, int(row[0]) if row else None, args.build.resolve())
+            one_row = len(args.run) == 2 and args.run[1].isdigit()
+            run(root, args.run[:1] if one_row else args.run, int(args.run[1]) if one_row else None, args.build.resolve())
         wrong = process(root, args.check)
     except Wrong as problem:
         wrong = [str(problem)]

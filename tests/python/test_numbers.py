@@ -163,11 +163,20 @@ def test_run_again(tree, commits, capsys):
     assert call(tree, "--run", "holes", "1") == 0 and f"Commit {commits[2]}-dirty, " in (tree / "page.md").read_text()
 
 
+def test_a_command_of_two_records_runs_once(tree, commits, capsys):
+    edit(tree / "case/run.sh", "", f"date >>{tree / 'times'}\n", 1)
+    (tree / "doc/records/widths.jsonl").write_text((tree / "doc/records/holes.jsonl").read_text().replace("18.90", "17.90"))
+    edit(tree / "page.md", "end", "<!-- numbers widths -->\n<!-- /numbers -->\n\nend")
+    assert call(tree, "--run", "holes", "widths", "--build", str(tree / "build")) == 0
+    assert len((tree / "times").read_text().splitlines()) == 1
+    assert all(json.loads((tree / f"doc/records/{name}.jsonl").read_text().splitlines()[1])["row"]["hole mm"] == 19.23 for name in ("holes", "widths"))
+
+
 @pytest.mark.parametrize("old, new, words, message", [
     ("holes.1", "holes.7", ["holes"], "hole mm: nothing at result.yaml:holes.7 * 1e3"), ("sh run.sh", "sh no.sh", ["holes"], "sh no.sh ended with 2:"),
     ("cd case && ", "", ["holes"], "the row says no folder"), ("cd case", "cd ../case", ["holes"], "folder ../case: must be in the repository"),
     (', "keys": {"hole mm": "result.yaml:holes.1 * 1e3"}', "", ["holes"], "row 1 does not say where its numbers are found"),
-    ("18", "18", ["holes", "2"], "no row 2; there are 1"), ("18", "18", ["hole"], "no record doc/records/hole.jsonl"), ("18", "18", ["holes", "a"], "a name and the number of a row")])
+    ("18", "18", ["holes", "2"], "no row 2; there are 1"), ("18", "18", ["hole"], "no record doc/records/hole.jsonl"), ("18", "18", ["holes", "a"], "no record doc/records/a.jsonl"), ("18", "18", ["holes", "holes", "1"], "no record doc/records/1.jsonl")])
 def test_run_refused(tree, old, new, words, message, capsys):
     edit(tree / "doc/records/holes.jsonl", old, new)
     assert call(tree, "--run", *words, "--build", str(tree / "build")) == 1
