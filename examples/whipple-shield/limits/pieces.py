@@ -1,6 +1,8 @@
 """How large are the pieces that strike a rear wall, over spacing and shift of the lattice? Sphere and bumper of A27 to A635, before the cloud is at the wall.
 
     python3 pieces.py --speed 4.25 --across 10 --shifts 0 0.125 0.25 0.375 0.5
+    python3 pieces.py --speed 3.63 --across 14 --sigma 1.5       the sphere's sigma of spall voids 1.5 times that of its file
+    python3 pieces.py --speed 3.63 --across 14 --scale 3         all lengths, and the time, three times as large
 
 Says the largest piece that is sound and hangs together, as a part of the mass of the sphere: mean, least and most over the shifts. tables.md has what came of it.
 """
@@ -8,33 +10,46 @@ Says the largest piece that is sound and hangs together, as a part of the mass o
 import argparse
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 
 import yaml
 
-DIAMETER = 3.18  # mm
-CASE = """projectile: {{material: Al2017-T4.hvi, diameter_mm: {diameter}, fill: {fill}}}
+METAL = pathlib.Path(__file__).resolve().parents[3] / "potentials" / "Al2017-T4.hvi"
+CASE = """projectile: {{material: {material}, diameter_mm: {diameter:.6g}, fill: {fill}}}
 speed_km_s: {speed}
 walls:
-- {{thickness_mm: 0.794, material: Al6061-T6.hvi}}
-- {{thickness_mm: 3, material: Al6061-T6.hvi, gap_mm: 50.8, spacings_mm: [1]}}  # coarse: what becomes of it is not looked at
+- {{thickness_mm: {bumper:.6g}, material: Al6061-T6.hvi}}
+- {{thickness_mm: {wall:.6g}, material: Al6061-T6.hvi, gap_mm: {gap:.6g}, spacings_mm: [{coarse:.6g}]}}  # coarse: what becomes of it is not looked at
 spacings_mm: [{spacing:.6g}]
 shifts: [{shift}]
 settings: {{film: -1, quarter: '{quarter}'}}
 """
 
 
-def largest(lmp, speed, across, fill, shift, quarter):
+def metal(sigma, phi_c):
+    """text of the file of the sphere, with these constants of spall voids so many times as large"""
+    head, section, rest = METAL.read_text().partition("\nspall voids\n")
+    for key, factor in (("sigma", sigma), ("phi_c", phi_c)):
+        rest, n = re.subn(rf"(?m)^(  {key} +)(\S+)", lambda old: f"{old[1]}{factor * float(old[2]):.6g}", rest, count=1)
+        if n != 1:
+            sys.exit(f"{METAL}: no {key} in its section spall voids")
+    return head + section + rest
+
+
+def largest(lmp, speed, across, fill, shift, quarter, sigma, phi_c, scale):
     """the largest piece behind wall 1"""
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
-        (folder / "pieces.yaml").write_text(CASE.format(diameter=DIAMETER, fill=fill, speed=speed, spacing=DIAMETER / across, shift=shift, quarter=quarter))
+        (folder / "sphere.hvi").write_text(metal(sigma, phi_c))
+        (folder / "pieces.yaml").write_text(CASE.format(material=folder / "sphere.hvi", diameter=3.18 * scale, bumper=0.794 * scale, wall=3 * scale, gap=50.8 * scale, coarse=scale,
+                                                        fill=fill, speed=speed, spacing=3.18 * scale / across, shift=shift, quarter=quarter))
         hvi = [sys.executable, "-m", "hvi"]
         subprocess.run([*hvi, "shield", folder / "pieces.yaml", "--write", folder / "run"], check=True, stdout=subprocess.DEVNULL)
         (run,) = (folder / "run").glob("*/")
-        subprocess.run([lmp, "-in", "in.shield", "-screen", "none", "-var", "until", f"{60 / speed:.1f}"], cwd=run, check=True)
+        subprocess.run([lmp, "-in", "in.shield", "-screen", "none", "-var", "until", f"{60 * scale / speed:.1f}"], cwd=run, check=True)
         subprocess.run([*hvi, "judge", "."], cwd=run, stdout=subprocess.DEVNULL)  # its status is the verdict
         return yaml.safe_load((run / "result.yaml").read_text())["wall1_largest_fragment_mass_fraction"]
 
@@ -47,8 +62,11 @@ def main():
     parser.add_argument("--shifts", type=float, nargs="+", default=[0.125, 0.375], help="of its lattice, in spacings")
     parser.add_argument("--fill", choices=("lattice", "glass"), default="lattice", help="of the sphere; of a glass a shift is its number")
     parser.add_argument("--quarter", choices=("auto", "no"), default="auto", help="no: the whole shield, without mirror planes")
+    parser.add_argument("--sigma", type=float, default=1.0, help="of spall voids of the sphere, over that of its file")
+    parser.add_argument("--phi-c", type=float, default=1.0, help="likewise")
+    parser.add_argument("--scale", type=float, default=1.0, help="of all lengths")
     args = parser.parse_args()
-    found = [largest(args.lmp, args.speed, args.across, args.fill, shift, args.quarter) for shift in args.shifts]
+    found = [largest(args.lmp, args.speed, args.across, args.fill, shift, args.quarter, args.sigma, args.phi_c, args.scale) for shift in args.shifts]
     print(f"mean {sum(found) / len(found):.3g} least {min(found):.3g} most {max(found):.3g}; " + ", ".join(f"{a:.3g} with {s:g}" for a, s in zip(found, args.shifts)))
 
 
