@@ -28,15 +28,18 @@ def find(reader, node, key):
     """Reads the name of a material: a file beside that of the reader, or one of the package, without .hvi; it must have a section strength"""
     name = reader.text(node, key)
     known = {path.stem: path for folder in reversed(library.potentials()) for path in sorted(folder.glob("*.hvi"))}
-    solid = sorted(stem for stem, path in known.items() if strengths(path))
+
+    def solids():
+        return sorted(stem for stem, path in known.items() if strengths(path))
+
     own = next((path for path in (reader.path.parent / name, reader.path.parent / f"{name}.hvi") if os.path.isfile(path)), None)  # is_file() raises for a long name
     path = own or known.get(name.removesuffix(".hvi"))
     if own and not re.fullmatch(r"[\w.+-]+\.hvi", own.name, re.A):
         reader.wrong(key, f"the file is named {own.name!r}, which goes into a LAMMPS input: letters, digits and . _ + - only, and .hvi at the end", node)
     if path is None:
-        reader.wrong(key, f"no material {name}{meant(name, solid)} (known: {', '.join(solid)})", node)
+        reader.wrong(key, f"no material {name}{meant(name, solids())} (known: {', '.join(solids())})", node)
     if not strengths(path):
-        reader.wrong(key, f"{path.stem} has no section strength, it would be a liquid (known: {', '.join(solid)})", node)
+        reader.wrong(key, f"{path.stem} has no section strength, it would be a liquid (known: {', '.join(solids())})", node)
     return str(own.resolve()) if own else path.name
 
 
