@@ -57,7 +57,7 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
   static constexpr double BIG = 1.0e300;
   const HVI::SphSettings &set = store->fields.settings;
   const int ntypes = atom->ntypes, nlocal = atom->nlocal;
-  enum { NUMBER, MASS, DENSITY, NEIGHBORS, NEW, FAR, NSUM };
+  enum { NUMBER, MASS, DENSITY, NEIGHBORS, NEW, FAR, HELD, NSUM };
   enum { RHO_LO, RHO_HI, X_LO, X_HI = X_LO + 3, NEXTREME = X_HI + 3 };    // all as minima
   std::vector<double> sum(NSUM * (ntypes + 1), 0.0), least(NEXTREME * (ntypes + 1) + 6, BIG);
   double *const speed = &least[NEXTREME * (ntypes + 1)];
@@ -75,6 +75,7 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     s[NUMBER] += 1.0;
     s[MASS] += atom->rmass ? atom->rmass[i] : atom->mass[itype];
     s[DENSITY] += rho;
+    if (atom->mask[i] & store->embedded) s[HELD] += 1.0;
     if (anew) {
       s[NEW] += 1.0;
       if (rho0 > 0.0 && std::fabs(rho / rho0 - 1.0) > RATIO_OFF) s[FAR] += 1.0;
@@ -125,6 +126,7 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     row.neighbors = s[NEIGHBORS] / n;
     row.fresh = s[NEW];
     row.far = s[FAR];
+    row.held = s[HELD];
     if (rho0 > 0.0) {
       row.ratio = s[DENSITY] / n / rho0;
       row.least = e[RHO_LO] / rho0;
@@ -271,7 +273,7 @@ void HVISphReport::warn() const
                      "(m/rho0)^(1/dim), where {:.3g} to {:.3g} are usual: check h, masses and dim",
                      itype, 2.0 * half_reach, 2.0 * H_LEAST, 2.0 * H_MOST);
     else if (row.neighbors < NEIGHBORS_LEAST[set.laws.dim] && row.fresh > 1.0 &&
-             row.fresh == row.number && !set.mirror.planes)
+             row.fresh == row.number && row.held == 0.0 && !set.mirror.planes)
       error->warning(FLERR,
                      "Pair style hvi/sph: particles of type {} have {:.3g} neighbors in the mean, "
                      "the kernel needs {:.3g} or more: check positions, spacing and h",

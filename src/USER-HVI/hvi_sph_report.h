@@ -49,6 +49,7 @@ class HVISphReport : protected Pointers {
     double filled = 0.0;                // part of their bounding box
     double ratio = 0.0, least = 0.0, most = 0.0;    // of density to that at rest: mean, extremes
     double fresh = 0.0;                             // particles in no run before
+    double held = 0.0;                              // particles in elements
     double far = 0.0;    // particles with a ratio far from 1 at their start
     int layers = 0;      // of the thinnest direction, 0: cannot be told
   };
