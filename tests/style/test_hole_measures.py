@@ -156,6 +156,8 @@ def test_a_record_is_needed(tmp_path, capsys):
     assert cli.main([*words, "--mirror", "none"]) == 1
     out = capsys.readouterr().out
     assert "hole: unknown, there is no plate around the center" in out and "diameter" not in out
+    for center in (-30, -25, 22, 500):  # beside the plate
+        assert cli.main([*words, "--quarter", "--center", str(center), "0"]) == 1 and "hole: unknown" in capsys.readouterr().out
     assert cli.main([*words, "--quarter", "--fill", "1"]) == 1 and "fill must be > 0 and < 1" in capsys.readouterr().err
     write_data(tmp_path / "s.data", x, style="sphere")
     assert cli.main(["hole", str(tmp_path / "s.data"), "--plane", "0"]) == 1

@@ -178,6 +178,8 @@ class Plate:
         self.areal[(label > 0) & ~plate] = 0.0  # a fragment must not shape the edge
         gap = self._moves(plate)
         middle, width = tuple(-self.first), 1
+        if not all(0 <= m < n for m, n in zip(middle, label.shape)):
+            return -1
         while True:
             label, number = ndimage.label(gap > width, ALL_NEIGHBORS)
             size = np.bincount(label.ravel(), minlength=number + 1)
