@@ -31,9 +31,32 @@ def pytest_configure(config):
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # what a script starts in the background; programs that tests interrupt would inherit it
         signal.signal(signal.SIGINT, signal.default_int_handler)
     config.addinivalue_line("markers", "long: in make verify only, that is with -m long")
+    config.addinivalue_line("markers", "each_value: each value of its parameters once, all their combinations in the long form; or the IDs of those that are not long")
 
 
+def once_each(items):
+    """IDs of some of the items of a test, in which each value of its parameters is"""
+    values = {item.callspec.id: {(name, repr(value)) for name, value in item.callspec.params.items()} for item in items}
+    missing, found = set().union(*values.values()), set()
+    while missing:
+        found.add(one := max(values, key=lambda one: len(values[one] & missing)))
+        missing -= values[one]
+    return found
+
+
+@pytest.hookimpl(tryfirst=True)  # before -m chooses
 def pytest_collection_modifyitems(config, items):
+    tests = {}
+    for item in items:
+        if mark := item.get_closest_marker("each_value"):
+            tests.setdefault((item.function, mark.args), []).append(item)
+    for (function, ids), some in tests.items():
+        there = {item.callspec.id for item in some}
+        if not set(ids) <= there and not any("::" in word for word in config.args):
+            raise pytest.UsageError(f"{function.__module__}.{function.__name__}: each_value: no {set(ids) - there}, only {there}")
+        for item in some:
+            if item.callspec.id not in (ids or once_each(some)):
+                item.add_marker(pytest.mark.long)
     if not config.option.markexpr:
         config.hook.pytest_deselected(items=[i for i in items if i.get_closest_marker("long")])
         items[:] = [i for i in items if not i.get_closest_marker("long")]

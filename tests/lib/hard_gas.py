@@ -70,19 +70,19 @@ CASES = [
                   one_body(ROW), ())
       for p, word in ((400, ""), (2000, ", to vapor"))],
     on_row_case(HotGas(200), "gas of 1e5 bar beside cold aluminum", {"p": 0.01, "rho": 0.01, "u": 0.01, "p_gas": 0.01}, ROW),
-    standard("interface-100", "shock into a gas that is 100 times as dense", ROW, ("riemann",)),
+    standard("interface-100", "shock into a gas that is 100 times as dense", ROW),
     on_row_case(THOUSAND, "shock into a gas that is 1000 times as dense", rounded(THOUSAND.bounds(200)), ROW, ()),
     *[Case(f"contrast-{k}-rest", f"density {k} : 1 at equal pressure, at rest", contrast(k), FLOW,
            {"speed": 0.03, "p": 0.03, "rho": 0.01, **BOOKS, **PAIRS}, ("riemann",)) for k in (100, 1000)],
     *[on_row_case(SpacedRest(k, 100), f"spacing {k} : 1 on a row, at rest", {"rho": 0.02, "p": 0.02, "u": 0.02}, HVI_ROW,
                   ("monaghan", "riemann"), n=100, at_rest=1.18) for k in (2, 4)],
-    *[on_row_case(Spaced(k, 200), f"spacing {k} : 1 on a row, a shock of Mach 3 passes", rounded(Spaced(k, 200).bounds(200)), HVI_ROW)
+    *[on_row_case(Spaced(k, 200), f"spacing {k} : 1 on a row, a shock of Mach 3 passes", rounded(Spaced(k, 200).bounds(200)), HVI_ROW, ("riemann",) if k == 4 else ())
       for k in (2, 4)],
     *[Case(f"spacing-{k}-rest-2d", f"spacing {k} : 1 in a plane, at rest", spacings(k), FLOW,
-           {"rho": 0.05, "p": 0.05, "u": 0.05, **BOOKS, **PAIRS}, ("riemann",))
+           {"rho": 0.05, "p": 0.05, "u": 0.05, **BOOKS, **PAIRS}, ("riemann",) if k == 4 else ())
       for k in (2, 4)],
     *[Case(f"spacing-{k}-shock-2d", f"spacing {k} : 1 in a plane, a shock of Mach 1.2 passes", spacings(k, 1.2), FLOW,
-           {"p_fine": 0.05, "u_fine": 0.05, "p_coarse": 0.05, "u_coarse": 0.05, **BOOKS, **PAIRS}, ("riemann",)) for k in (2, 4)],
+           {"p_fine": 0.05, "u_fine": 0.05, "p_coarse": 0.05, "u_coarse": 0.05, **BOOKS, **PAIRS}, ("riemann",) if k == 2 else ()) for k in (2, 4)],
     Case("shear", "shear layer, Mach 0.1, one crossing", shear, {**one_body(FLOW), **WENDLAND4},
          {"lost": 0.2, "v": 0.1, **BOOKS, **PAIRS}),
     Case("kelvin-helmholtz", "layers of density 1 and 2 slide on each other (Kelvin and Helmholtz)", kelvin_helmholtz, {**FLOW, **FINER},

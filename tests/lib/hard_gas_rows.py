@@ -17,6 +17,7 @@ from hvi.material.curves import Eos
 from hvi.material.eos_table import write_eos_table
 from lammps_runs import Stopped
 from reference import impedance
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.spatial import cKDTree
 from shock_runs import cannot, prepared, read_frame, read_log, run, script, stock_step, write_data
@@ -80,14 +81,9 @@ def on_row(case, n, at_rest=None):
 def along_isentrope(pressure, rho, e, end, steps=20000):
     """rho, e, p, c and the velocity that expansion has given, u = int c/rho d rho, from (rho, e) down to the density `end`"""
     x = np.linspace(np.log(rho), np.log(end), steps)
-    d = x[1] - x[0]
     slope = lambda y, e: pressure(np.exp(y), e) / np.exp(y)  # noqa: E731  de/d ln rho
-    es = [e]
-    for y in x[:-1]:
-        e, k = es[-1], slope(y, es[-1])
-        k2 = slope(y + 0.5 * d, e + 0.5 * d * k)
-        es.append(e + d * k2)
-    es, r = np.array(es), np.exp(x)
+    es = solve_ivp(slope, (x[0], x[-1]), [e], "DOP853", x, rtol=1e-11, atol=1e-11 * abs(e), max_step=(x[0] - x[-1]) / 400).y[0]
+    r, d = np.exp(x), x[1] - x[0]
     p = pressure(r, es)
     c = np.sqrt(np.maximum(np.gradient(p, r), 0.0))
     u = np.concatenate([[0.0], np.cumsum(0.5 * (c[1:] + c[:-1]) * -d)])

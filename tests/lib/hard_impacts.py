@@ -185,7 +185,7 @@ TIED = {"run": "elements that are tied never fail, and one is crushed: refused b
 
 CASES = [
     Case("impact-1", "a sphere on a plate of t/D 0.2, 1 km/s", impact(v0=1000, tstop=30),
-         {**WORDS, "viscosity damage": {"pair": WORDS["viscosity"], "damage": "yes"}, **STOCK}, HOLE, RIEMANN,
+         {**WORDS, "viscosity damage": {"pair": WORDS["viscosity"], "damage": "yes"}, **STOCK}, HOLE, (),
          {"viscosity": STRETCHES, "riemann": {**STRETCHES, **CLUMPS}}),
     Case("impact-3", "the same, 3 km/s", impact(v0=3000, tstop=20), BOTH, HOLE, (), {"riemann": CLUMPS}),
     Case("impact-7", "the same, 7 km/s", impact(), {**WORDS, **STOCK}, HOLE),

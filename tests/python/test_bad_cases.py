@@ -44,9 +44,9 @@ SPOILT = {"empty": "empty", "binary": "binary", "latin": "latin", "big": "big", 
 RUNS = {("compare", "bomb")}  # which reads lines of its own, and no YAML
 
 
-def every_third(values):
-    """those between are long tests"""
-    return [pytest.param(value, marks=[pytest.mark.long] * (k % 3 > 0)) for k, value in enumerate(values)]
+def every_third(values, slow=()):
+    """those between, and slow ones, are long tests"""
+    return [pytest.param(value, marks=[pytest.mark.long] * (k % 3 > 0 or value in slow)) for k, value in enumerate(values)]
 
 
 def put(name, what):
@@ -253,7 +253,7 @@ NUMBERS = "nan inf -1 0 1e300 1e-300 1e9 99999999999999999999 x".split() + [""]
 PLACES = {"--runs", "--write", "--out", "--figure", "--file", "--lmp", "--mpirun"}  # of files: any name is one
 
 
-@pytest.mark.parametrize("command", every_third(TABLE["commands"]))
+@pytest.mark.parametrize("command", every_third(TABLE["commands"], ("limits", "view")))
 def test_every_option(command, tmp_path, monkeypatch):
     """with values that are none: an error in one line, or it runs and leaves no traceback"""
     row = TABLE["commands"][command]

@@ -73,6 +73,7 @@ def test_shield(lmp_exe, tmp_path):
         run(lmp_exe, tmp_path / "short", "emi", {"method": "riemann", "dx": 0.8, "tstop": 5})
 
 
+@pytest.mark.long
 def test_shots(lmp_exe, tmp_path):
     """verdicts of published shots at twice the spacings of their study: two layers in the rear wall do not decide"""
     r = run(lmp_exe, tmp_path / "run", "shots", {"method": "riemann", "finer": 0.5}, shots=["18", "4-2010"])

@@ -38,6 +38,7 @@ def whole(body):
     return x
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("fill", ["glass", "lattice"])
 @pytest.mark.parametrize("name", SHAPES)
 def test_mass_and_center_are_exact(name, fill):

@@ -293,6 +293,7 @@ def test_dry_run(folder, capsys):
     assert "wall 2: 1.2 mm\nAl6061-T6\ncloud passes beside" in texts
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("text, message", [
     (CASE.replace("[0.2, 0.4]", "[0.4, 0.02]"), "MB of memory"), (CASE.replace("diameter_mm: 5", "diameter_mm: 1000"), "more than LAMMPS can number: are lengths in mm?"),
     (CASE + "angle_deg: 89.9\n", "more than LAMMPS can number"), (CASE.replace("gap_mm: 60", "gap_mm: 1000000"), "more than LAMMPS can number"),
@@ -600,6 +601,7 @@ def test_case_with_elements(folder):
     assert "made" not in decision.job(cases.read(written(folder, CASE)), (0, 0.0), folder / "c").record
 
 
+@pytest.mark.each_value("quarter", "no core", "few beyond")
 @pytest.mark.parametrize("more, angle", [("", 0), ("", 30), (", radius_mm: 12, core_mm: 0", 0), (", radius_mm: 14, hold_mm: 12", 30)], ids=["quarter", "whole", "no core", "few beyond"])
 def test_elements_are_in_the_plan(folder, monkeypatch, more, angle):
     """free and embedded particles and nodes of the files that are made; frames, memory, disk and restart files follow from these"""
@@ -689,7 +691,7 @@ def test_real_shapes(root, lmp, tmp_path, shape, number):
         assert any("the projectile has 50 particles where " in note for note in found.get("notes", [])) == (many == 50)
 
 
-@pytest.mark.parametrize("shape, quarter", [("diameter_mm: 6", True), ("shape: hollow sphere, diameter_mm: 8, thickness_mm: 1.6", True), ("shape: cube, side_mm: 4", True),
+@pytest.mark.parametrize("shape, quarter", [("diameter_mm: 6", True), pytest.param("shape: hollow sphere, diameter_mm: 8, thickness_mm: 1.6", True, marks=pytest.mark.long), ("shape: cube, side_mm: 4", True),
                                             ("shape: cylinder, diameter_mm: 4, length_mm: 6, pitch_deg: 30", False)])
 def test_real_glass(root, lmp, tmp_path, shape, quarter):
     """particles without rows: the exact mass, inside of the body, another glass for each shift, the same one again; a quarter has no images closer than others"""

@@ -150,6 +150,7 @@ def test_curve_over_gap(folder, capsys, monkeypatch):
         assert front("curve", *words) == 1 and message in capsys.readouterr().err, words
 
 
+@pytest.mark.each_value("thickness2-sides0")
 @pytest.mark.parametrize("on, sides", [("thickness2", ("from 2", "up to 1.6")), ("D", ("up to 4", "from 4.5"))])
 def test_curve_says_which_side_holds(folder, capsys, monkeypatch, on, sides):
     """as hvi limit of the same runs"""
@@ -165,6 +166,7 @@ def test_curve_says_which_side_holds(folder, capsys, monkeypatch, on, sides):
     assert front("limit", *words) == 0 and (answer(folder, on)["holds"], answer(folder, on)["fails"]) == sides
 
 
+@pytest.mark.each_value("shape: cube, side_mm: 3")
 @pytest.mark.parametrize("shape", ["shape: cylinder, diameter_mm: 2, length_mm: 12", "shape: cube, side_mm: 3"])
 def test_equations_of_a_curve_are_of_the_same_size(folder, capsys, shape):
     """as those of hvi limit: the diameter of a cylinder, not of the sphere of its mass"""

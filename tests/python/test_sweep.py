@@ -155,6 +155,7 @@ def test_goes_on_where_it_stopped(sweep, folder):
     assert "0 done before, 3 to run" in sweep({**more, "variables": {"n": 6}}, "--dry-run").text
 
 
+@pytest.mark.long
 def test_goes_on_within_a_job(sweep, folder):
     """by the second input from the newest restart file; not if the variables have changed, and not after a failure"""
     study = {**STUDY, "grid": {"mode": ["good"]}, "restart": "tiny.restart.*", "continue": "in.tiny.continue"}
@@ -393,6 +394,7 @@ def reach_of(log):
     return set(re.findall(r"ghost atom cutoff = (\S+)", log.read_text()))
 
 
+@pytest.mark.long
 def test_debris_cloud_goes_on(sweep, root, folder):
     """by in.debris.continue, from a restart file of the impact and one of the flight, before the front is noted and after: the same cloud"""
     example = root / "examples/debris-cloud"

@@ -46,6 +46,7 @@ def test_is_an_error(lmp):
     assert "equation of state idealgas of particle 43 (type 1) has no answer at density -1 and energy per mass 2.5" in r.stdout
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("pair", ["viscosity 1 2", "dissipation riemann"])
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (2, "off")])
 def test_frozen(lmp, tmp_path, nranks, newton, pair):
@@ -155,6 +156,7 @@ STRENGTHS = {"strength perfect": "strength perfect G 27.6e9 Y 0.3e9",
              "strength steinberg-guinan thermal no": "strength steinberg-guinan G0 27.6e9 Y0 0.29e9 Ymax 0.68e9 beta 125 n 0.1 A 6.52e-11 B 6.16e-4 Tm0 1220 g0 1.97 a 1.5"}
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("pair", ["viscosity 1 2", "dissipation riemann artstress 0.3 4"])
 @pytest.mark.parametrize("words", STRENGTHS)
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (2, "off")])

@@ -74,6 +74,7 @@ def test_a_box_that_grows_around_particles(lmp, blocks):
     assert r.thermo["Volume"][-1] == pytest.approx(1.1 * r.thermo["Volume"][0])
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("words", ["lists relative", "lists displacement"])
 def test_where_particles_are_between_runs(lmp, blocks, words, nranks):
@@ -173,6 +174,7 @@ def test_liquids_that_come_later(lmp, blocks, tmp_path, comes):
 
 
 # ---------------------------------------------------------------------- neighbors and books
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
 @pytest.mark.parametrize("exclude, force", [("", True), ("neigh_modify exclude type 1 1\n", False), ("neigh_modify exclude group all all\n", False), ("neigh_modify exclude type 1 2\n", True)])
 def test_excluded_images(lmp, exclude, force, nranks, newton):
@@ -199,6 +201,7 @@ timestep 0.005
 """
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("first", ["wall", "compute"])
 def test_clamps_and_a_wall_that_reflects(lmp, first, nranks):
@@ -234,6 +237,7 @@ def test_what_other_fixes_take_out_of_clamped_groups(lmp, nranks, newton):
     assert np.diff(book["clamps"]) == pytest.approx(-sum(m * (b * b - a * a) / 2 for m, a, b in kicks), rel=1e-9)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("fix, said", [("HVI_LEDGER all hvi/ledger", "Fix hvi/ledger is made by the styles that need it"), ("HVI_STORE all hvi/store", "Fix hvi/store is made by pair style hvi/sph")])
 @pytest.mark.parametrize("begin", ["", "compute book all hvi/energy\nfix nve all nve\nrun 5\n"])
 def test_fixes_that_styles_make(lmp, fix, said, begin):
@@ -373,6 +377,7 @@ pair_coeff * *
 """
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2, 3])
 @pytest.mark.parametrize("command", ["delete_atoms group dust compress no", "displace_atoms dust move 0.1 0 0", "balance 1.0 shift x 5 1.0"])
 def test_pieces_after_a_command_that_takes_ghosts_away(lmp, command, nranks):
@@ -387,6 +392,7 @@ def test_pieces_after_a_command_that_takes_ghosts_away(lmp, command, nranks):
     assert r.returncode or nranks == 1 and command.startswith("balance")
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("commands", ['run 4 every 2 "delete_atoms group dust compress no" "write_dump all custom now id type c_pa"', "run 0\ncomm_style tiled\nwrite_dump all custom now id type c_pa"])
 def test_pieces_in_commands_of_a_run(lmp, commands, nranks):
@@ -399,6 +405,7 @@ def test_pieces_in_commands_of_a_run(lmp, commands, nranks):
         assert nranks == 1 and "tiled" in commands and len(set(now["c_pa"][now["type"] == 1])) == 1
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("value", ["asleep", "cost"])
 def test_inactive_particles_after_a_command_that_takes_some_away(lmp, value, nranks):

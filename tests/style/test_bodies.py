@@ -57,6 +57,7 @@ def same(path, other, close=1e-11):
         assert np.abs(a[:, k] - b[:, k]).max() <= close * scale, (k, np.abs(a[:, k] - b[:, k]).max(), scale)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("mirror", [False, True])
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
 def test_two_pieces_of_one_type(lmp, tmp_path, nranks, newton, mirror):

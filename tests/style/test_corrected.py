@@ -11,6 +11,7 @@ from hybrid_scenes import hybrid, others, together
 from solid_scenes import NEIGHBOR, OUT, READ, as_tensor, compare, read
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("tension", [True, False])
 @pytest.mark.parametrize("dim", [1, 2, 3])
 @pytest.mark.parametrize("words", ["", "h variable viscosity 0.7 0.3"])
@@ -82,6 +83,7 @@ def test_artificial_stress_of_the_end(lmp, tmp_path, pair, nranks):
     assert np.abs(d["f"] - without["f"] - want).max() < 2e-3 * np.abs(want).max()
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 4])
 @pytest.mark.parametrize("planes", ["", "xy", "xyz"])
 def test_layouts(lmp, tmp_path, pair, nranks, planes):
@@ -98,6 +100,7 @@ def test_layouts(lmp, tmp_path, pair, nranks, planes):
         same(d, rates(state, False), case=case)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("planes", ["", "xy"])
 @pytest.mark.parametrize("nranks", [1, 4])
 def test_layouts_of_riemann(lmp, tmp_path, pair, nranks, planes):
@@ -255,6 +258,7 @@ def test_words(lmp, tmp_path, pair):
 # a run in parts
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("words", FAILING)
 def test_restart(lmp, tmp_path, pair, words, nranks):
@@ -277,6 +281,7 @@ def test_restart(lmp, tmp_path, pair, words, nranks):
 MELTED, LIQUID = "", "strength none damage no spall zero"
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("jc", [MELTED, LIQUID])
 def test_failure_without_modulus(lmp, tmp_path, pair, jc, nranks):
@@ -310,6 +315,7 @@ def test_failure_without_modulus(lmp, tmp_path, pair, jc, nranks):
     assert not wrong, wrong
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("size", ["", "weibull 6 17 weibull_size 2"])
 def test_limit_of_another_run(lmp, tmp_path, pair, size, nranks):
@@ -333,6 +339,7 @@ def test_limit_of_another_run(lmp, tmp_path, pair, size, nranks):
     assert np.abs(read(tmp_path / "again")["f"] - first["f"]).max() < 1e-5 * np.abs(first["f"]).max()
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("words", FAILING)
 def test_data_file(lmp, tmp_path, pair, words, nranks):
@@ -347,6 +354,7 @@ def test_data_file(lmp, tmp_path, pair, words, nranks):
     compare(whole, part, 1e-9)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 3])
 @pytest.mark.parametrize("words", FAILING)
 def test_hybrid(lmp, tmp_path, pair, words, nranks):

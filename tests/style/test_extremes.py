@@ -80,6 +80,7 @@ def test_bins_are_given_back(lmp, tmp_path):
         assert struct.unpack("d", data[at + 8:at + 16]) == (0.25,), name
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 3])
 @pytest.mark.parametrize("n", [1, 2])
 def test_one_and_two_particles(lmp, tmp_path, n, nranks):

@@ -58,6 +58,7 @@ def test_nothing_held(lmp, tmp_path, known):
     assert 0.9 < found < 1.01
 
 
+@pytest.mark.long
 def test_into_elements(lmp, tmp_path):
     """The pulse is in particles most of the time, which keep energy to 1.2e-4 without any elements"""
     one, reference = (bar(lmp, tmp_path, free, pair=PAIR, far=60, side=1) for free in ("right", "all"))

@@ -94,6 +94,7 @@ def test_a_plate_is_one_piece(lmp, nranks, newton):
     assert fragments(lmp, of_particles(start(everything, newton=newton)), nranks=nranks)[0] == [1, 576, pytest.approx(1, rel=1e-12)]
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, newton", LAYOUTS)
 @pytest.mark.parametrize("damage", ["yes", "no"])
 def test_failed_ones_are_alone(lmp, nranks, newton, damage):

@@ -106,6 +106,7 @@ def test_all_elements_gone(lmp):
     assert r.thermo["f_wall"][-1] == 0
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("spall, middle", [("none", 20), ("none", 30), ("voids", 30)])
 def test_data_file(lmp, tmp_path, nranks, spall, middle):

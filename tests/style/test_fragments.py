@@ -206,6 +206,7 @@ def close_pairs(x, cutoff):
     return tree.query_pairs(cutoff, output_type="ndarray") + 1
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks,newton,layout", RANKS)
 @pytest.mark.parametrize("cutoff", [0.6, 1.6])  # shorter and longer than the pair cutoff
 def test_distance(lmp, tmp_path, nranks, newton, layout, cutoff):
@@ -317,6 +318,7 @@ def quantile(value, mass, q):
     return value[order][np.searchsorted(np.cumsum(mass[order]), q * mass.sum() * (1 - 1e-12))]
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks,layout", [(1, ""), (3, "tiled"), (4, "")])
 @pytest.mark.parametrize("axis", "xyz")
 def test_cloud(lmp, tmp_path, nranks, layout, axis):

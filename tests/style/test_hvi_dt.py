@@ -35,6 +35,7 @@ def pair(r, v=0.0, bonded=False, frame=(0.0, 0.0, 0.0)):
 M = 0.75  # reduced mass
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("F", [1.0, 4.0])
 @pytest.mark.parametrize("r", [0.8, 0.95, 1.1])
 def test_contact_at_rest(lmp, r, F):
@@ -55,6 +56,7 @@ def test_broken_bond_is_no_limit(lmp):
     assert first(lmp, pair(1.6, bonded=True)) == (1.0, MAXIMUM)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("v", [1.0, 12.0])
 @pytest.mark.parametrize("r", [0.95, 1.13, 1.3])
 def test_approach(lmp, r, v):
@@ -165,6 +167,7 @@ UNITS = {  # kg, J, m, s in units of ...
 }
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("units", UNITS)
 @pytest.mark.parametrize("kind", [CONTACT, SPRING, APPROACH])
 def test_units(lmp, units, kind):
@@ -271,6 +274,7 @@ def test_every_contact_of_a_hybrid(lmp, stiff):
     assert dt == pytest.approx(C * np.sqrt(0.5 / stiffness(1.0, eps=50.0)), rel=1e-12) and why == CONTACT
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 3])
 @pytest.mark.parametrize("speed, why", [(0.0, CONTACT), (6.0, APPROACH)])
 def test_one_mass_or_several(lmp, speed, why, nranks):

@@ -94,6 +94,7 @@ def test_restart(lmp, tmp_path, material):
         assert np.array_equal(one[name], two[name]), name
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "off"), (3, "on")])
 @pytest.mark.parametrize("style", ["", "hybrid", "hybrid/overlay zero 0.5", "hybrid/overlay zero 3.0"])
 def test_contacts_that_outgrow_lists(lmp, style, nranks, newton):

@@ -68,6 +68,7 @@ def test_wall_that_swings(lmp, tmp_path, pair):
         assert moved > 0 and 1e-5 < second / moved < 0.01 and 3.5 < first / second < 4.5, name
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("speed", [0.2, 2e-4])
 @pytest.mark.parametrize("words", ["viscosity 0 0", "viscosity 1 2"])
 def test_order_in_time(lmp, tmp_path, pair, words, speed):

@@ -68,6 +68,7 @@ def runs(name):
     return "".join(f"run {n}\n{WRITE.format(f'late{k}')}run 0\n{WRITE.format(f'fresh{k}')}" for k, n in enumerate(SCENES[name][2]))
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, comm", LAYOUTS)
 @pytest.mark.parametrize("name", SCENES)
 def test_forces_are_those_of_a_fresh_list(lmp, tmp_path, name, nranks, comm):
@@ -251,6 +252,7 @@ run {steps}
 """
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("scene", ["cut", "face"])
 @pytest.mark.parametrize("nranks", [1, 2, 4])
 def test_meeting_deep_inside_ranks(lmp, scene, nranks):

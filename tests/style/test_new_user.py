@@ -50,6 +50,7 @@ def scene(more="", third=COPPER, words="dissipation riemann", solid="fix solid a
     return TARGET.format(more=more, third=third, words=words, solid=solid, steps=steps)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2, 3])
 @pytest.mark.parametrize("newton", ["on", "off"])
 @pytest.mark.parametrize("words,solid", [("dissipation riemann", True), ("h variable dissipation riemann", True), ("viscosity 1 2", False), ("dissipation riemann", False)])
@@ -104,6 +105,7 @@ def test_bodies_of_what_comes(lmp, tmp_path):
     assert len(set(rows[rows[:, 1] == 3, 2])) == 6 and len(set(rows[rows[:, 1] != 3, 2])) == 2
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("groups,wrong", [("fix move old hvi/sph\nfix solid all", "has no density at step 1"), ("fix move all hvi/sph\nfix solid old", "a solid, comes at step 1 and is not in group old")])
 def test_deposit_outside_of_groups(lmp, groups, wrong, nranks):
@@ -140,6 +142,7 @@ def test_type_without_particles(lmp, nranks):
     assert "there are no particles of type 1" in warnings(lmp(meters, nranks=nranks), "no particles")[0]
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("line,wrong", [("fix n all nve", "Fix n (nve) moves 320 particles that fix hvi/sph moves, too"), ("fix n ball nve", "Fix n (nve) moves 32 particles"),
                                         ("fix n ball move linear 0 0 1", "Fix n (move) moves 32 particles")])
 @pytest.mark.parametrize("nranks", [1, 2])

@@ -31,6 +31,7 @@ def test_what_becomes_a_liquid_bears_no_shear(lmp, scene, nranks):
     assert (after["c_l"] == 0.0).all() and (after["c_n"] == before["c_n"][-1]).all() and after["c_least"].min() >= 0.0
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("words", ["dissipation riemann", "viscosity 1 2"])
 @pytest.mark.parametrize("bad", ["bad freeze 5", "bad delete 5"])
@@ -106,6 +107,7 @@ run 300
 LAYOUTS = [(1, "on"), (2, "on"), (3, "off")]
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, newton", LAYOUTS)
 @pytest.mark.parametrize("exclude", ["type 1 2", "group one two", "group all all"])
 def test_pairs_that_are_excluded_are_not_booked(lmp, exclude, nranks, newton):
@@ -115,6 +117,7 @@ def test_pairs_that_are_excluded_are_not_booked(lmp, exclude, nranks, newton):
     assert "hvi/contact" not in " ".join(r.warnings)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, newton", LAYOUTS)
 @pytest.mark.parametrize("pair", ["lj/cut 2.5", "hvi/contact"])
 def test_special_weights_are_not_booked(lmp, pair, nranks, newton):
@@ -256,6 +259,7 @@ run 5
 """
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("alone", [False, True])
 @pytest.mark.parametrize("section", ["", "strength none\n"])
 def test_liquids_cavitate(lmp, tmp_path, section, alone):
@@ -298,6 +302,7 @@ run 100000
 """
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "off"), (3, "on")])
 @pytest.mark.parametrize("style, solid, tension, C, most", [("dissipation riemann", "yes", "no", 0.6, 60.0), ("dissipation riemann", "yes", "yes", 0.6, 150.0), ("viscosity 1 2", "no", "no", 0.3, 30.0)])
 def test_light_matter_beside_dense_matter(lmp, tmp_path, style, solid, tension, C, most, nranks, newton):

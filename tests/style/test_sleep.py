@@ -78,6 +78,7 @@ def test_wherever_cells_end(lmp, tmp_path, shift):
     unnoticed(lmp, tmp_path, "", shift)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, comm", [(2, "brick"), (4, "brick"), (4, "tiled")])
 @pytest.mark.parametrize("words", ["water", ""])
 def test_on_any_ranks(lmp, tmp_path, words, nranks, comm):
@@ -207,6 +208,7 @@ compute here all reduce sum v_here
     assert max(apart(one, other).values()) < 1e-11
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("words", ["water", ""])
 @pytest.mark.parametrize("sleep", ["exact", ""])

@@ -25,6 +25,7 @@ def parted(f, law):
     assert (f["vm"][f["spalled"] == 1] == 0).all() and (f["p"][f["spalled"] == 1] >= 0).all()
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("nranks, words", [(1, "viscosity 1 2"), (2, "viscosity 1 2 h variable")])
 def test_restart(lmp, tmp_path, material, law, nranks, words):
@@ -52,6 +53,7 @@ def test_ranks(lmp, tmp_path, material, law):
             assert np.abs(got[name] - one[name]).max() <= 1e-9 * max(1.0, np.abs(one[name]).max()), name
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("nranks", [1, 3])
 def test_data_file(lmp, tmp_path, material, law, nranks):

@@ -23,6 +23,7 @@ def one(lmp, tmp_path, state, pair, nranks=1, **kw):
     return read_rates(tmp_path / "f")
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("kernel", KERNELS)
 @pytest.mark.parametrize("dim", [1, 2, 3])
 def test_kernels(lmp, tmp_path, kernel, dim):
@@ -53,6 +54,7 @@ def solve(state, eos, kernel, riemann=False, follows=None, **terms):
     return riemann_rates(state, eos, kernel, follows=follows, **terms) if riemann else rates(state, eos, kernel, **terms)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("h", ["same", "differs", "variable"])
 @pytest.mark.parametrize("name", SCENES)
 def test_scenes(lmp, tmp_path, name, h):
@@ -94,6 +96,7 @@ SPACINGS = {  # laws, rho0 of those that have one, masses of two types, h, by ho
 }
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, newton, h", [(1, "on", "constant"), (1, "on", "variable"), (3, "off", "variable")])
 @pytest.mark.parametrize("name", SPACINGS)
 def test_riemann_of_unequal_spacings(lmp, tmp_path, name, nranks, newton, h):
@@ -116,6 +119,7 @@ def test_riemann_of_unequal_spacings(lmp, tmp_path, name, nranks, newton, h):
         assert np.abs(plain["f"] - want["f"]).max() > 0.01 * np.abs(want["f"]).max()
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("periodic", [True, False])
 @pytest.mark.parametrize("nranks", [1, 2, 3, 4])
 @pytest.mark.parametrize("words", ["interface 0.3", "dissipation riemann"])

@@ -23,6 +23,7 @@ def again(path, jc, sections=True):
     return text.replace("fix jc NULL jc_forces", "fix jc NULL jc_forces fix jc NULL jc_voids") if sections else text
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("law, others, what", [
     ("voids", ("tuler-butcher", "grady", "principal", "none"), "have voids, by spall voids, but are of strength johnson-cook"),
     ("tuler-butcher", ("voids", "grady", "pressure", "none"), "have impulse used up, by spall tuler-butcher, but are of strength johnson-cook")])

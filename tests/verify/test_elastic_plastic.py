@@ -87,6 +87,7 @@ def test_without_strength():
     assert w.D * (1 - 1.429 * eta - 0.8506 * eta**2 + 1.64 * eta**3) == pytest.approx(2006, rel=1e-10)
 
 
+@pytest.mark.each_value("al-cu-5750-96-wendland2-1.6-bounds1")
 @pytest.mark.parametrize("name, n, kernel, h, bounds", [("al-al-500", 128, "wendland2", 1.6, dict(sigma=0.003, rho=0.001, u=0.001, Us=0.01)),
                                                           ("al-cu-5750", 96, "wendland2", 1.6, dict(sigma=0.012, rho=0.006, u=0.002, Us=0.006))])
 def test_flyers(lmp, tmp_path, name, n, kernel, h, bounds):

@@ -47,6 +47,7 @@ def test_bulk(lmp, tmp_path, kernel, h):
     assert o["drift"] < 1e-3 and p["drift"] < 1e-3
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("kernel, h", [("wendland2", 1.6), ("cubic", 1.2)])
 @pytest.mark.parametrize("layers", [1, 2])
 def test_thin_walls(lmp, tmp_path, kernel, h, layers):

@@ -21,7 +21,7 @@ def whole(tmp_path_factory, lmp_exe, root):
     return run
 
 
-@pytest.mark.parametrize("name, seed", [("plate", 1), ("debris", 2)])
+@pytest.mark.parametrize("name, seed", [pytest.param("plate", 1, marks=pytest.mark.long), ("debris", 2)])
 def test_killed(whole, tmp_path, lmp_exe, root, name, seed):
     """the same bits of a shield, the same cloud of debris"""
     assert round_of(name, tmp_path, whole(name), lmp_exe, root, seed, 3) == 3

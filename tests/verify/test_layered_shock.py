@@ -175,6 +175,7 @@ def test_books_and_penetration(shock, variables):
 # ------------------------------------------------------------------ real materials, gauges
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("case", REAL)
 @pytest.mark.parametrize("words", [{}, dict(pair=AUTO)], ids=["paper", "auto"])
 def test_gauges(shock, case, words):

@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 from reference import fronts, layers, rule, sph1d
 
+pytestmark = pytest.mark.long  # what they test changes with tests/reference only
+
 ALPHA, BETA = layers.laminate()[1:3]
 
 

@@ -28,7 +28,7 @@ def undisturbed(tmp_path_factory, lmp_exe, root):
     return run
 
 
-@pytest.mark.parametrize("name, nranks", [pytest.param("particles", 1, marks=pytest.mark.long), ("particles", 2), ("hybrid", 1), pytest.param("hybrid", 2, marks=pytest.mark.long)])
+@pytest.mark.parametrize("name, nranks", [pytest.param("particles", 1, marks=pytest.mark.long), ("particles", 2), pytest.param("hybrid", 1, marks=pytest.mark.long), pytest.param("hybrid", 2, marks=pytest.mark.long)])
 def test_same_bits(shield, undisturbed, name, nranks):
     """killed in each leg: while it runs, when a restart file appears with its first byte, when the record of the chain has just been replaced"""
     run = shield(name)
@@ -60,7 +60,7 @@ def flip(data):
     return data[:9999] + bytes([data[9999] ^ 1]) + data[10000:]
 
 
-@pytest.mark.parametrize("leg, spoil", [(1, cut), (2, flip), pytest.param(1, flip, marks=pytest.mark.long), pytest.param(2, cut, marks=pytest.mark.long)])
+@pytest.mark.parametrize("leg, spoil", [(1, cut), pytest.param(2, flip, marks=pytest.mark.long), pytest.param(1, flip, marks=pytest.mark.long), pytest.param(2, cut, marks=pytest.mark.long)])
 def test_damaged_file(shield, undisturbed, leg, spoil):
     """the one that is gone on from: the run goes on from the one before, after the first leg it begins anew, and says so"""
     run = shield()

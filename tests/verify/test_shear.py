@@ -39,6 +39,7 @@ def test_shear_layer(layer, law, jitter):
     assert nu["riemann"][1] < 1.1 * nu["monaghan 0.1 0.2"][1]
 
 
+@pytest.mark.long
 def test_prototype_and_switches(layer):
     """the prototype has the style's viscosity; Balsara's switch divides that of monaghan by 7, of riemann by 10; corrected gradients by nothing"""
     cases = {"monaghan": dict(), "monaghan balsara": dict(balsara=True), "riemann": dict(viscosity=None),

@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 from reference import gas, impedance
 
+pytestmark = pytest.mark.long  # what they test changes with tests/reference only
+
 PROBLEMS = {  # Toro's book, Sjoegreen's problem besides: left, right, p, u, rho on both sides of the contact
     "sod": ((1, 0, 1), (0.125, 0, 0.1), 0.303130, 0.927453, (0.426319, 0.265574)),
     "left blast": ((1, 0, 1000), (1, 0, 0.01), 460.894, 19.5975, (0.575062, 5.99924)),

@@ -31,7 +31,7 @@ def frames(folder):
 WHOLE = {"quarter": False}
 
 
-@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("nranks", [pytest.param(1, marks=pytest.mark.long), 2])
 def test_default(lmp, root, tmp_path, nranks):
     """the front and the balance are there at 6 us; the hole is on its way"""
     r = plate(lmp, root, tmp_path, nranks=nranks, edits=WHOLE, tstop=6)
@@ -132,7 +132,7 @@ def test_elements_are_as_particles(lmp, root, tmp_path, nranks, fem):
         assert r[key] == pytest.approx(sph[key], rel=bound), key
 
 
-@pytest.mark.parametrize("quarter", [False, True])
+@pytest.mark.parametrize("quarter", [pytest.param(False, marks=pytest.mark.long), True])
 def test_bodies_of_glass(lmp, root, tmp_path, quarter):
     """both from files, read where in.plate creates them: their masses, to the last digit, not those of sites"""
     sphere, wall = bodies.sphere(5e-3, quarter=quarter), bodies.cylinder(20e-3, 2e-3, quarter=quarter, middle=1e-3)

@@ -131,6 +131,7 @@ def test_piston_column(lmp, tmp_path):
     assert max(momentum_error(r.thermo)) < 1e-12
 
 
+@pytest.mark.long
 def test_elastic_bars(lmp, tmp_path):
     """two bars meet at +-V below yield: they part at 2 L/c, stress-free, with speeds V; viscosity keeps a part, of order 1/2 in spacing"""
     V, L = 1e-3, 1.0
@@ -446,6 +447,7 @@ IMPACTS = [(1e3, "Al6061-T6", 1.0, 0), (3e3, "Cu-OFHC", 0.05, 0), (7e3, "Al6061-
            (20e3, "Cu-OFHC", 1.0, 0), (20e3, "Al6061-T6", 0.05, 45)]
 
 
+@pytest.mark.each_value("7000.0-Al6061-T6-0.05-0", "7000.0-Cu-OFHC-1.0-45", "20000.0-Al6061-T6-0.05-45")
 @pytest.mark.parametrize("V, metal, tD, angle", IMPACTS)
 def test_impacts(lmp, tmp_path, root, V, metal, tD, angle):
     """any speed, thin and thick plates, heavy spheres, obliquely: it ends, and the ledger closes"""

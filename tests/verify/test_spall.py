@@ -186,6 +186,7 @@ def test_damage_by_strain_leaves_a_plane_pull_to_voids(shot, root, tmp_path):
     assert strain["spall_strength_GPa"] < 0.4 * both["spall_strength_GPa"] and strain["failed_particles"] > 3 * both["failed_particles"]
 
 
+@pytest.mark.long
 def test_rates(shot, root):
     """the same plates 0.1 to 10 times as thick: strength by voids goes with the strain rate, the instant limit knows none
 

@@ -134,6 +134,7 @@ def two_spacings(lmp, tmp_path, dim, nx, rows, words, t, mach=None, gamma=1.4, e
     return out
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("ratio", [2, 4])
 @pytest.mark.parametrize("dim, nx, rows", [(1, 100, 1), (2, 40, 4)])
 def test_unequal_spacings_at_rest(lmp, tmp_path, dim, nx, rows, ratio):

@@ -22,6 +22,7 @@ def test_verney(lmp, tmp_path, dx):
     assert o["drift"] < ENERGY and o["momentum"] < 1e-10
 
 
+@pytest.mark.long
 def test_taylor(lmp, tmp_path, root):
     """a copper cylinder at 227 m/s; that codes have 21.4-21.7 mm and a foot of 6.97-7.24 mm is for comparison, half a spacing around it the bound
 
