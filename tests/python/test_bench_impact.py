@@ -59,6 +59,7 @@ def test_plate(lmp_exe, tmp_path):
     assert hybrid["numbers"]["front_m_s"] == pytest.approx(full["numbers"]["front_m_s"], rel=0.01)
 
 
+@pytest.mark.long
 def test_shield(lmp_exe, tmp_path):
     """a case of hvi shield: errors of both holes, by hand; the ledger is closed; walls of elements, or why there are none"""
     r = run(lmp_exe, tmp_path / "sph", "emi", {"method": "riemann", "dx": 0.8, "tstop": 30, "shift": 0.25})

@@ -78,6 +78,7 @@ def test_ctrl_c_again(folder):
     os.close(slave)
 
 
+@pytest.mark.long
 def test_nohup(folder):
     """SIGHUP that is ignored already stays so"""
     process = begin(folder, env={"FAKE_SLEEP": "2"}, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN), stdout=subprocess.DEVNULL)

@@ -284,7 +284,7 @@ def states(lmp, file, units, rho0, points, heat):
     return [run["c_p"][0] for run in runs], [run["c_T"][0] for run in runs] if heat else None
 
 
-@pytest.mark.parametrize("metal, within", [("Al6061-T6", 0.004), ("Al2024-T3", None)])
+@pytest.mark.parametrize("metal, within", [pytest.param("Al6061-T6", 0.004, marks=pytest.mark.long), ("Al2024-T3", None)])
 def test_what_voids_bear(capsys, metal, within):
     """stretched at a constant rate: against the equations of tests/reference by SciPy; and a sigma that bears the strength that was measured"""
     one = library.read(ROOT / "potentials" / f"{metal}.hvi")

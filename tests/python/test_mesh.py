@@ -142,6 +142,7 @@ def test_quarter_with_its_mirrors_is_whole(name):
         assert part.masses(2.5)[1] == pytest.approx(whole.masses(2.5)[1])
 
 
+@pytest.mark.long
 def test_graded():
     """Sizes rise by one ratio up to the largest, and fill the length; along an axis of a plate they do, too"""
     sizes = mesh_plate.graded(138.0, 0.5, 1.2, 5.0)

@@ -52,6 +52,7 @@ def test_same_bonds_break(lmp, data, cases):
     assert {case: len(s ^ first) for case, s in sets.items() if s != first} == {}
 
 
+@pytest.mark.long
 def test_same_statistics(lmp, data):
     """after 8 microseconds: bonds left within 0.1 %, fragments per particle within 1 %"""
     found = []

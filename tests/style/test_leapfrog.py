@@ -117,7 +117,7 @@ write_dump all custom end type x c_rho modify sort id format float %.17g
 """
 
 
-@pytest.mark.parametrize("kind", [2, 1])
+@pytest.mark.parametrize("kind", [2, pytest.param(1, marks=pytest.mark.long)])
 def test_density_behind_a_shock(lmp, kind):
     """halves of a solid, or of a gas beside one, meet: with the weights of the middle of the step the density behind shocks of solids is of second order in
     the step; that of strong shocks in gas is of first, with a smaller error"""

@@ -40,6 +40,7 @@ def test_same_bits(shield, undisturbed, name, nranks):
     same(run, undisturbed(name, nranks))
 
 
+@pytest.mark.long
 def test_half_a_file_beside(shield, undisturbed):
     """that was being written when the run was killed: it is the other one"""
     run = shield()

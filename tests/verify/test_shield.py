@@ -146,6 +146,7 @@ def undecided(result, reason):
     return said
 
 
+@pytest.mark.long
 def test_a_shot_beside_wall_2(shield, tmp_path):
     """at 30 degrees the projectile's cloud flies to the side: a wall that holds the line of the shot only is not judged"""
     r = shield(wall(0.8), wall(0.8, gap=30, radius=16), angle=30, tstop=12)
@@ -268,6 +269,7 @@ def test_plan(shield, tmp_path):
 
 
 # ---------------------------------------------------------------------- ordinary shots, with the walls and the box that they are given
+@pytest.mark.long
 def test_past_the_rim(shield, tmp_path):
     """what flies beside a wall that is too small has not come through it"""
     r = shield(wall(2), wall(8, gap=20, radius=13), solid=STRETCHES, ball="Al6061-T6", material="Al6061-T6", D=4, v=6.5)

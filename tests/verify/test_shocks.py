@@ -14,13 +14,13 @@ import shocks
 
 HERE = pathlib.Path(__file__).resolve().parent
 STOCK = ("sod-spacing", "interface-10")  # short, and it gets through
-COSTLY = ("noh-3d", "sedov-2d", "sedov-3d")
+COSTLY = ("noh-3d", "sedov-2d", "sedov-3d", "interface-10")
 LONG = ("woodward-colella", "noh-2d", "interface-100")
 
 
 def is_long(name, method):
-    """not in make test; riemann is there in all cases but the longest: others of their kind are, interface-100 in test_hard.py"""
-    return name in LONG or method != "riemann" and name in COSTLY or method == "stock" and name == "interface-10"
+    """not in make test; riemann is there in all cases but the longest: others of their kind are"""
+    return name in LONG or method != "riemann" and name in COSTLY
 
 
 def known_misses():

@@ -77,6 +77,7 @@ def measure_piston(n, frames, exact):
                 S2=(b["p"] + b["sxx"])[two].mean(), l1=np.abs(b["u"] - profile(exact, t, b["x"]))[inside].mean() / UP)
 
 
+@pytest.mark.long
 def test_piston(lmp, tmp_path):
     exact, last = piston(EOS, G, Y, UP), None
     for n in (100, 200, 400):
