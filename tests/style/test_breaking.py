@@ -87,6 +87,7 @@ def test_hard_squeeze_never_breaks(lmp, tmp_path):
     assert book["broken"][-1] == pytest.approx(0.5 * KAPPA * (R_CUT - R_EQ) ** 2, rel=0.02) and bonds[-1] == 0
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("newton", ["on", "off"])
 @pytest.mark.parametrize("nranks", [1, 2])
 def test_too_long_from_the_start(lmp, tmp_path, newton, nranks):

@@ -99,6 +99,7 @@ def test_tillotson(lmp, root, rho, e):
     assert short[1] ** 2 == pytest.approx(slope, rel=1e-6)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("density", ["linear", "log"])
 @pytest.mark.parametrize("interpolation, of_p, of_c", [("bilinear", 1e-4, 0.03), ("bicubic", 1e-7, 1e-5)])
 def test_table_gives_the_formula(lmp, tmp_path, density, interpolation, of_p, of_c):
@@ -149,6 +150,7 @@ def test_the_example_of_the_docs(lmp, root, tmp_path):
     assert c**2 == pytest.approx(1.4 * 0.4 * 2.5e5, rel=1e-4)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("units", ["si", "cgs", "micro"])
 @pytest.mark.parametrize("file_units", ["si", "cgs", "micro"])
 def test_units(lmp, tmp_path, units, file_units):
@@ -175,6 +177,7 @@ def refused(lmp, material, nranks=1, **how):
     return " ".join(result.error.split())
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("rho, e", [(2000.0, 0.0), (4100.0, 0.0), (3000.0, -2e5), (3000.0, 3.1e6)])
 def test_out_of_range_at_run_time(lmp, tmp_path, nranks, rho, e):

@@ -17,6 +17,7 @@ def cubes(n=0, **more):
     return start(block(4, 4, 4, map=lambda x: (x - 2) * EDGE, n=n, type=2, node_type=3), courant=0.8, every=1, **{"fem": ELASTIC, **more})
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
 @pytest.mark.parametrize("n", [0, 2])
 def test_commands_that_touch_nodes(lmp, n, nranks, newton):
@@ -66,6 +67,7 @@ def test_probe_in_a_periodic_box(lmp, shift):
     assert t["f_wall[1][11]"][0] == pytest.approx(15.0, abs=1e-3)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("reach", [0.4e-3, 0.6e-3])
 def test_pieces_of_a_quarter(lmp, reach, nranks):
@@ -117,6 +119,7 @@ def test_state_after_all_this(lmp):
         np.testing.assert_allclose(three[name], one[name], rtol=1e-9, atol=1e-9 * np.abs(one[name]).max())
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (3, "off")])
 @pytest.mark.parametrize("scene", ["modulus", "spalled"])
 def test_forces_of_a_new_run(lmp, scene, nranks, newton):

@@ -216,6 +216,7 @@ def test_across_periodic_faces(lmp, nranks):
     assert table_a["c_book[8]"] == pytest.approx(table_b["c_book[8]"], rel=1e-11)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 3])
 @pytest.mark.parametrize("lost", ["error", "ignore"])
 def test_elements_that_leave_the_box(lmp, lost, nranks):

@@ -118,6 +118,7 @@ compute h largest hvi/hole axis z centre 0 0 plane 0 {}
 """
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("name", ["whole", "quarter"])
 @pytest.mark.parametrize("thickness", [None, 30.0])
 def test_largest_piece(lmp, tmp_path, capsys, name, thickness):

@@ -42,6 +42,7 @@ def test_block_torn_at_the_face(lmp, newton, nranks, comm):
     assert book["bonds_left"][-1] > 50
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("newton", ["on", "off"])
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("kind", ["bonded", "contact", "both leave", "apart"])
@@ -148,6 +149,7 @@ def pair_at_the_face(pair, more="", atoms="atom_style bond", commands="", newton
 SPH_BESIDE = "pair_style hybrid hvi/sph cubic hvi/contact\npair_coeff 1 1 hvi/sph eos tait 1 10 7 h 1.2\npair_coeff 2 2 hvi/contact 1 1\npair_coeff 1 2 none\n"
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("newton", ["on", "off"])
 @pytest.mark.parametrize("nranks", [1, 2])
 def test_contact_beside_a_style_without_single(lmp, newton, nranks):

@@ -40,6 +40,7 @@ def test_burst_books_the_half_kicks(lmp, newton, nranks):
     assert momentum_error(book, s) <= 1e-12
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("newton", ["on", "off"])
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("touched", [False, True], ids=["free", "kicked"])

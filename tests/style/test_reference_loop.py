@@ -43,6 +43,7 @@ TERMS = {
 }
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("tension", [True, False])
 @pytest.mark.parametrize("name", TERMS)
 def test_solids(lmp, tmp_path, pair, name, tension):

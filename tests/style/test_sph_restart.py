@@ -21,6 +21,7 @@ def continued(newton, more="", pair=""):
     return text + "fix sph all hvi/sph\nfix step all hvi/dt 0.2\n" + THERMO + more + f"run {END - MIDDLE}\n" + RATES.format("part")
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("h", ["interface 0.3 h constant", "interface 0.3 h variable", "dissipation riemann h variable"])
 @pytest.mark.parametrize("nranks, newton", [(1, "on"), (1, "off"), (2, "on")])
 def test_bit_exact_on_the_same_ranks(lmp, tmp_path, h, nranks, newton):

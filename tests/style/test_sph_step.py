@@ -64,6 +64,7 @@ KINDS = {  # words of pair_style, of the pair of types, a and b of one type and 
 }
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("kernel, dim", [("cubic", 3), ("quintic", 2), ("lucy", 3), ("wendland4", 1)])
 @pytest.mark.parametrize("kind", KINDS)
 def test_against_all_pairs(lmp, tmp_path, kind, kernel, dim):

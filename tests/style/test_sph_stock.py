@@ -30,6 +30,7 @@ def equal(a, b, tolerance=1e-12):
         assert np.abs(a[name] - b[name]).max() <= tolerance * scale, name
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("law", [LIQUID, GAS], ids=["taitwater", "idealgas"])
 @pytest.mark.parametrize("dim", [2, 3])
 @pytest.mark.parametrize("nranks", [1, 2, 3])
