@@ -54,8 +54,9 @@ def pytest_collection_modifyitems(config, items):
         there = {item.callspec.id for item in some}
         if not set(ids) <= there and not any("::" in word for word in config.args):
             raise pytest.UsageError(f"{function.__module__}.{function.__name__}: each_value: no {set(ids) - there}, only {there}")
+        short = ids or once_each([item for item in some if not item.get_closest_marker("long")])
         for item in some:
-            if item.callspec.id not in (ids or once_each(some)):
+            if item.callspec.id not in short:
                 item.add_marker(pytest.mark.long)
     if not config.option.markexpr:
         config.hook.pytest_deselected(items=[i for i in items if i.get_closest_marker("long")])

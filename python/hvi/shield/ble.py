@@ -65,17 +65,17 @@ def _cos(angle):
 
 def bisect(function, low, high):
     """where an increasing function changes its sign; a jump counts. The function is not asked for its values at low and high"""
-    inside = {False: None, True: None}  # is the value above 0
+    below = set()  # is a value below 0
     for _ in range(200):
         middle = 0.5 * (low + high)
         if middle in (low, high):
             break
         value = function(middle)
         low, high = (middle, high) if value < 0 else (low, middle)
-        inside[value >= 0] = value
-        if None not in inside.values():
+        below.add(value < 0)
+        if len(below) == 2:
             from scipy.optimize import brentq  # slow to load, and most calls of hvi need no equation
-            return brentq(function, low, high, xtol=1e-300, rtol=4 * sys.float_info.epsilon)
+            return brentq(function, low, high, xtol=1e-300, rtol=4 * sys.float_info.epsilon, maxiter=10000)
     return 0.5 * (low + high)
 
 
