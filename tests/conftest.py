@@ -31,7 +31,7 @@ def pytest_configure(config):
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # what a script starts in the background; programs that tests interrupt would inherit it
         signal.signal(signal.SIGINT, signal.default_int_handler)
     config.addinivalue_line("markers", "long: in make verify only, that is with -m long")
-    config.addinivalue_line("markers", "each_value: each value of its parameters once, all their combinations in the long form; or the IDs of those that are not long")
+    config.addinivalue_line("markers", "each_value: each value of its parameters once; all their combinations in the long form")
 
 
 def once_each(items):
@@ -48,13 +48,10 @@ def once_each(items):
 def pytest_collection_modifyitems(config, items):
     tests = {}
     for item in items:
-        if mark := item.get_closest_marker("each_value"):
-            tests.setdefault((item.function, mark.args), []).append(item)
-    for (function, ids), some in tests.items():
-        there = {item.callspec.id for item in some}
-        if not set(ids) <= there and not any("::" in word for word in config.args):
-            raise pytest.UsageError(f"{function.__module__}.{function.__name__}: each_value: no {set(ids) - there}, only {there}")
-        short = ids or once_each([item for item in some if not item.get_closest_marker("long")])
+        if item.get_closest_marker("each_value"):
+            tests.setdefault(item.function, []).append(item)
+    for some in tests.values():
+        short = once_each([item for item in some if not item.get_closest_marker("long")])
         for item in some:
             if item.callspec.id not in short:
                 item.add_marker(pytest.mark.long)

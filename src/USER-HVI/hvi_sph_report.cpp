@@ -90,9 +90,12 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     }
   }
 
-  // neighbors: of a pair of the half list both have one
+  // neighbors: of a pair of the half list both have one, but for embedded particles, whose pairs are left out
 
   const double *const *const x = atom->x;
+  const auto is_free = [this](int i) {
+    return !(atom->mask[i] & store->embedded);
+  };
   for (int ii = 0; ii < list.inum; ii++) {
     const int i = list.ilist[ii], itype = atom->type[i];
     for (int jj = 0; jj < list.numneigh[i]; jj++) {
@@ -100,8 +103,8 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
       const double reach = set.support * widest(itype, jtype);
       const double d[3] = {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]};
       if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] >= reach * reach) continue;
-      sum[NSUM * itype + NEIGHBORS] += 1.0;
-      if (newton || j < nlocal) sum[NSUM * jtype + NEIGHBORS] += 1.0;
+      if (is_free(i)) sum[NSUM * itype + NEIGHBORS] += 1.0;
+      if ((newton || j < nlocal) && is_free(j)) sum[NSUM * jtype + NEIGHBORS] += 1.0;
     }
   }
 
@@ -123,10 +126,10 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     row.number = n;
     row.mass = s[MASS] / n;
     row.spacing = std::pow(row.mass / rho, 1.0 / dim);
-    row.neighbors = s[NEIGHBORS] / n;
+    row.held = s[HELD];
+    if (row.held < n) row.neighbors = s[NEIGHBORS] / (n - row.held);
     row.fresh = s[NEW];
     row.far = s[FAR];
-    row.held = s[HELD];
     if (rho0 > 0.0) {
       row.ratio = s[DENSITY] / n / rho0;
       row.least = e[RHO_LO] / rho0;
@@ -273,7 +276,7 @@ void HVISphReport::warn() const
                      "(m/rho0)^(1/dim), where {:.3g} to {:.3g} are usual: check h, masses and dim",
                      itype, 2.0 * half_reach, 2.0 * H_LEAST, 2.0 * H_MOST);
     else if (row.neighbors < NEIGHBORS_LEAST[set.laws.dim] && row.fresh > 1.0 &&
-             row.fresh == row.number && row.held == 0.0 && !set.mirror.planes)
+             row.fresh == row.number && row.held < row.number && !set.mirror.planes)
       error->warning(FLERR,
                      "Pair style hvi/sph: particles of type {} have {:.3g} neighbors in the mean, "
                      "the kernel needs {:.3g} or more: check positions, spacing and h",

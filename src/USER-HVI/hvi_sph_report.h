@@ -45,11 +45,11 @@ class HVISphReport : protected Pointers {
   struct Row {
     double number = 0.0, mass = 0.0;    // of particles, their mean mass
     double spacing = 0.0;               // (m/rho0)^(1/dim), rho0 or else the mean density
-    double neighbors = 0.0;             // mean, within reach
+    double neighbors = 0.0;             // mean of particles that are not embedded, within reach
     double filled = 0.0;                // part of their bounding box
     double ratio = 0.0, least = 0.0, most = 0.0;    // of density to that at rest: mean, extremes
     double fresh = 0.0;                             // particles in no run before
-    double held = 0.0;                              // particles in elements
+    double held = 0.0;                              // embedded particles
     double far = 0.0;    // particles with a ratio far from 1 at their start
     int layers = 0;      // of the thinnest direction, 0: cannot be told
   };

@@ -601,8 +601,7 @@ def test_case_with_elements(folder):
     assert "made" not in decision.job(cases.read(written(folder, CASE)), (0, 0.0), folder / "c").record
 
 
-@pytest.mark.each_value("quarter", "no core", "few beyond")
-@pytest.mark.parametrize("more, angle", [("", 0), ("", 30), (", radius_mm: 12, core_mm: 0", 0), (", radius_mm: 14, hold_mm: 12", 30)], ids=["quarter", "whole", "no core", "few beyond"])
+@pytest.mark.parametrize("more, angle", [("", 0), pytest.param("", 30, marks=pytest.mark.long), (", radius_mm: 12, core_mm: 0", 0), (", radius_mm: 14, hold_mm: 12", 30)], ids=["quarter", "whole", "no core", "few beyond"])
 def test_elements_are_in_the_plan(folder, monkeypatch, more, angle):
     """free and embedded particles and nodes of the files that are made; frames, memory, disk and restart files follow from these"""
     (folder / "emi.yaml").write_text(HYBRID.replace("gap_mm: 60", "gap_mm: 8").replace("thickness_mm: 0.8,", f"thickness_mm: 0.8{more},") + f"angle_deg: {angle}\n")

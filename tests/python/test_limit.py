@@ -150,8 +150,7 @@ def test_curve_over_gap(folder, capsys, monkeypatch):
         assert front("curve", *words) == 1 and message in capsys.readouterr().err, words
 
 
-@pytest.mark.each_value("thickness2-sides0")
-@pytest.mark.parametrize("on, sides", [("thickness2", ("from 2", "up to 1.6")), ("D", ("up to 4", "from 4.5"))])
+@pytest.mark.parametrize("on, sides", [("thickness2", ("from 2", "up to 1.6")), pytest.param("D", ("up to 4", "from 4.5"), marks=pytest.mark.long)])
 def test_curve_says_which_side_holds(folder, capsys, monkeypatch, on, sides):
     """as hvi limit of the same runs"""
     if on != "D":
@@ -166,8 +165,7 @@ def test_curve_says_which_side_holds(folder, capsys, monkeypatch, on, sides):
     assert front("limit", *words) == 0 and (answer(folder, on)["holds"], answer(folder, on)["fails"]) == sides
 
 
-@pytest.mark.each_value("shape: cube, side_mm: 3")
-@pytest.mark.parametrize("shape", ["shape: cylinder, diameter_mm: 2, length_mm: 12", "shape: cube, side_mm: 3"])
+@pytest.mark.parametrize("shape", [pytest.param("shape: cylinder, diameter_mm: 2, length_mm: 12", marks=pytest.mark.long), "shape: cube, side_mm: 3"])
 def test_equations_of_a_curve_are_of_the_same_size(folder, capsys, shape):
     """as those of hvi limit: the diameter of a cylinder, not of the sphere of its mass"""
     (folder / "emi.yaml").write_text(ONE.replace("\n  diameter_mm: 5\n  material: Al2024-T3", f" {{{shape}, material: Al2024-T3}}").replace("[0.2, 0.4]", "[0.2, 0.1]"))

@@ -2,7 +2,10 @@
 
 import numpy as np
 import pytest
+from dumps import read_dump
 from hvi.model.mesh import block
+from scipy.spatial import cKDTree
+from sph_report import tables
 from fem_scenes import DX, EDGE, J, MASS, OPEN, P, STATE, TOTAL, VOIDS, laws, plate, read_state, start, strike, strike_plate
 
 FAILS = "strain 0.1"  # the first elements become particles at step 27
@@ -40,6 +43,20 @@ def test_a_wall_of_elements_alone(lmp):
     """pairs of embedded particles are left out, and nothing warns of it"""
     r = lmp(start(plate(core=0)) + "run 0\n")
     assert "Pair style hvi/sph cubic" in r.log and "neighbors in the mean" not in r.log
+
+
+@pytest.mark.parametrize("nranks, newton", [(1, "off"), (2, "on"), (3, "on"), (3, "off")])
+def test_neighbors_of_the_table_are_of_free_particles(lmp, nranks, newton):
+    """by hand: those of type 2 that no element holds, with all within reach that are not in elements together"""
+    lmp(start(plate()) + "run 0\nwrite_dump wall_embedded custom held id\nwrite_dump all custom all id type x y z modify sort id\n")
+    all_ = read_dump("all")
+    x = np.column_stack([all_[a] for a in "xyz"])[all_["type"] == 2]
+    free = ~np.isin(all_["id"][all_["type"] == 2], read_dump("held")["id"])
+    pairs = cKDTree(x).query_pairs(2 * 1.2 * DX)
+    assert 0 < free.sum() < len(free)
+    want = sum(int(free[i]) + int(free[j]) for i, j in pairs) / free.sum()
+    r = lmp(start(plate(), newton=newton) + "run 0\n", nranks=nranks)
+    assert tables(r.log)[0]["rows"][2]["neighbors"] == pytest.approx(want, rel=6e-4)
 
 
 KICK = "velocity all set NULL NULL 100 sum yes units box\n"

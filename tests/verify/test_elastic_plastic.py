@@ -87,8 +87,7 @@ def test_without_strength():
     assert w.D * (1 - 1.429 * eta - 0.8506 * eta**2 + 1.64 * eta**3) == pytest.approx(2006, rel=1e-10)
 
 
-@pytest.mark.each_value("al-cu-5750-96-wendland2-1.6-bounds1")
-@pytest.mark.parametrize("name, n, kernel, h, bounds", [("al-al-500", 128, "wendland2", 1.6, dict(sigma=0.003, rho=0.001, u=0.001, Us=0.01)),
+@pytest.mark.parametrize("name, n, kernel, h, bounds", [pytest.param("al-al-500", 128, "wendland2", 1.6, dict(sigma=0.003, rho=0.001, u=0.001, Us=0.01), marks=pytest.mark.long),
                                                           ("al-cu-5750", 96, "wendland2", 1.6, dict(sigma=0.012, rho=0.006, u=0.002, Us=0.006))])
 def test_flyers(lmp, tmp_path, name, n, kernel, h, bounds):
     """the plateau bears p + 2 Y/3, of which the second is 5 % in the first case, and its mass goes where its density says"""

@@ -448,8 +448,7 @@ IMPACTS = [(1e3, "Al6061-T6", 1.0, 0), (3e3, "Cu-OFHC", 0.05, 0), (7e3, "Al6061-
            (20e3, "Cu-OFHC", 1.0, 0), (20e3, "Al6061-T6", 0.05, 45)]
 
 
-@pytest.mark.each_value("7000.0-Al6061-T6-0.05-0", "7000.0-Cu-OFHC-1.0-45", "20000.0-Al6061-T6-0.05-45")
-@pytest.mark.parametrize("V, metal, tD, angle", IMPACTS)
+@pytest.mark.parametrize("V, metal, tD, angle", [pytest.param(*one, marks=[pytest.mark.long] * (one not in (IMPACTS[2], IMPACTS[3], IMPACTS[6]))) for one in IMPACTS])
 def test_impacts(lmp, tmp_path, root, V, metal, tD, angle):
     """any speed, thin and thick plates, heavy spheres, obliquely: it ends, and the ledger closes"""
     o = impact(lmp, tmp_path, root, V, metal, tD, np.radians(angle))
