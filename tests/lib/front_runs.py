@@ -28,7 +28,7 @@ shifts: [0, 0.5]
 def case_folder(tmp_path, root, monkeypatch):
     (tmp_path / "emi.yaml").write_text(CASE)
     mpirun = tmp_path / "mpirun"
-    mpirun.write_text(f"#!/bin/sh\nexport FAKE_COLUMNS='{record.BOOK} {' '.join(record.WALL)}'\nexec '{sys.executable}' '{root}/tests/lib/fake_lammps.py' \"$@\"\n")
+    mpirun.write_text(f"#!/bin/sh\nexport FAKE_COLUMNS='{record.BOOK} {' '.join(record.WALL)}'\nexec '{sys.executable}' -I -S '{root}/tests/lib/fake_lammps.py' \"$@\"\n")
     mpirun.chmod(0o755)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(chain, "LEG", math.inf)  # one call of LAMMPS for a run
