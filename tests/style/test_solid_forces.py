@@ -22,7 +22,7 @@ def test_no_artificial_stress(lmp, tmp_path, material):
         assert np.array_equal(found[0][name], found[1][name]), name
 
 
-@pytest.mark.each_value
+@pytest.mark.each_value("1-", "4-artstress")
 @pytest.mark.parametrize("words", ["viscosity 1 2", ART], ids=["", "artstress"])
 @pytest.mark.parametrize("nranks", [1, 2, 3, 4])
 def test_layouts(lmp, tmp_path, material, nranks, words):

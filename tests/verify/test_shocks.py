@@ -20,7 +20,7 @@ KINDS = ("sod", "sod-spacing", "blast-left", "noh-1d", "sound", "al-al-5941", "a
 
 def is_long(name, method):
     """not in make test; riemann is there in all cases but the longest, and in speeds between others: others of their kind are"""
-    return name in LONG or method != "riemann" and name not in KINDS and name not in STOCK
+    return name in LONG or method != "riemann" and name not in KINDS
 
 
 def known_misses():
