@@ -200,7 +200,7 @@ def test_still_pushed(shield):
 
 def test_ends_by_itself(shield):
     """8 mm at 1.5 km/s: without a time the run goes on until nothing strikes, pushes or makes the wall flow any more, and holds"""
-    r = shield(wall(8, radius=20), **SOFT, v=1.5)
+    r = shield(wall(8, radius=14), **SOFT, v=1.5)
     assert (r["verdict"], r["ended_by"]) == ("holds", "event") and r["margins"]["push_percent"] < 3
     assert "notes" not in r  # nothing speaks against it
 
