@@ -6,6 +6,7 @@ A row of cases: change: [old, new] in the case of front_runs.py, add: lines at i
 
 import argparse
 import contextlib
+import functools
 import io
 import itertools
 import os
@@ -19,6 +20,7 @@ import yaml
 from front_runs import CASE, case_folder  # noqa: F401
 from hvi import cli
 from hvi.figures import style
+from hvi.report import view
 from hvi.shield import case as cases
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -100,6 +102,7 @@ def refused(words, case):
 def scene(monkeypatch, tmp_path):
     monkeypatch.setenv("LAMMPS_POTENTIALS", str(ROOT / "potentials"))
     monkeypatch.setenv("HVI_LMP", "/bin/true")
+    monkeypatch.setattr(view.View, "still", functools.partialmethod(view.View.still, width=40))  # a picture of few pixels
     limits = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (6 << 30, limits[1]))  # what allocates without end meets it
     yield
