@@ -43,11 +43,10 @@ def serve(path):
         if os.fork() == 0:
             break
         connection.close()
-    status = 1
+    status, lines = 1, connection.makefile("rw")
     try:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         waiting.close()
-        lines = connection.makefile("rw")
         folder, index, environment = json.loads(lines.readline())
         lines.write(f"{os.getpid()}\n")
         lines.flush()

@@ -8,6 +8,7 @@ import pickle
 import shutil
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 
@@ -23,13 +24,14 @@ SUBMIT = ("--engine", "slurm", "--poll", "0.01", "--ranks", "3")
 
 
 @pytest.fixture(scope="module")
-def jobs(root, tmp_path_factory):
-    """socket of what runs the jobs"""
-    path = tmp_path_factory.mktemp("jobs") / "socket"
-    with subprocess.Popen([sys.executable, root / "tests/lib/fake_jobs.py", path], env={**os.environ, "PYTHONPATH": str(root / "python")}, stdout=subprocess.PIPE) as server:
-        assert server.stdout.readline() == b"ready\n"
-        yield path
-        server.terminate()
+def jobs(root):
+    """socket of what runs the jobs; its name has 107 bytes at most, so not in the folder of the test"""
+    with tempfile.TemporaryDirectory() as folder:
+        words = [sys.executable, root / "tests/lib/fake_jobs.py", f"{folder}/socket"]
+        with subprocess.Popen(words, env={**os.environ, "PYTHONPATH": str(root / "python")}, stdout=subprocess.PIPE) as server:
+            assert server.stdout.readline() == b"ready\n"
+            yield f"{folder}/socket"
+            server.terminate()
 
 
 @pytest.fixture
@@ -42,7 +44,7 @@ def fake(folder, root, jobs, monkeypatch):
         (home / "bin" / name).write_text(f"#!/bin/sh\nexec '{sys.executable}' -I -S '{root}/tests/lib/fake_slurm.py' {name} \"$@\"\n")
         (home / "bin" / name).chmod(0o755)
     monkeypatch.setenv("FAKE_SLURM", str(home))
-    monkeypatch.setenv("FAKE_JOBS", str(jobs))
+    monkeypatch.setenv("FAKE_JOBS", jobs)
     monkeypatch.setenv("FAKE_PYTHON", sys.executable)
     monkeypatch.setenv("PATH", f"{home / 'bin'}:{os.environ['PATH']}")
     return home
