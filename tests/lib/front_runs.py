@@ -7,6 +7,7 @@ import time
 
 import pytest
 from hvi import cli
+from hvi.jobs import runs
 from hvi.shield import brackets, chain, record
 
 CASE = """# a shield
@@ -28,10 +29,11 @@ shifts: [0, 0.5]
 def case_folder(tmp_path, root, monkeypatch):
     (tmp_path / "emi.yaml").write_text(CASE)
     mpirun = tmp_path / "mpirun"
-    mpirun.write_text(f"#!/bin/sh\nexport FAKE_COLUMNS='{record.BOOK} {' '.join(record.WALL)}'\nexec '{sys.executable}' '{root}/tests/lib/fake_lammps.py' \"$@\"\n")
+    mpirun.write_text(f"#!/bin/sh\nexport FAKE_COLUMNS='{record.BOOK} {' '.join(record.WALL)}'\nexec '{sys.executable}' -I -S '{root}/tests/lib/fake_lammps.py' \"$@\"\n")
     mpirun.chmod(0o755)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(chain, "LEG", math.inf)  # one call of LAMMPS for a run
+    monkeypatch.setattr(runs, "LOOK", 0.01)  # the fake takes less than the usual time
     monkeypatch.setenv("HVI_LMP", str(mpirun))
     monkeypatch.setenv("PYTHONPATH", str(root / "python"))
     return tmp_path

@@ -6,6 +6,7 @@ A row of cases: change: [old, new] in the case of front_runs.py, add: lines at i
 
 import argparse
 import contextlib
+import functools
 import io
 import itertools
 import os
@@ -19,6 +20,7 @@ import yaml
 from front_runs import CASE, case_folder  # noqa: F401
 from hvi import cli
 from hvi.figures import style
+from hvi.report import view
 from hvi.shield import case as cases
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -36,8 +38,9 @@ FILES = {
     "list": "source,shotID,proj_mat,proj_diam,angle,velocity,bumper_mat,bumper_thick,standoff,wall_mat,wall_yield,wall_thick,result\n"
             "A,small,AA2017-T4,0.318,0,6.5,AA6061-T6,0.08,5.08,AA6061-T6,40,0.159,NP\n",
     "records": (ROOT / "python/hvi/shield/calibration.csv").read_text(),
-    "empty": "", "binary": bytes(range(256)), "latin": "a: 5 \u00b5m\n".encode("latin-1"), "big": b"# x\n" * 2_500_000, "truncated": CASE[:CASE.index("Al6061") - 9] + "material: [",
-    "two documents": CASE + "---\n" + CASE, "crlf": CASE.replace("\n", "\r\n").encode(), "mark": b"\xef\xbb\xbf" + CASE.encode(), "deep": "[" * 20000,
+    "empty": "", "binary": bytes(range(256)), "latin": "a: 5 \u00b5m\n".encode("latin-1"), "big": b"# x\n" * 500_000, "truncated": CASE[:CASE.index("Al6061") - 9] + "material: [",
+    "two documents": CASE + "---\n" + CASE, "crlf": CASE.replace("\n", "\r\n").encode(), "mark": b"\xef\xbb\xbf" + CASE.encode(), "deep": "[\n" * 20000,  # in one line YAML looks ahead from each
+    "deep line": "[" * 20000,
     "grid bomb": "input: in.tiny\ngrid:\n" + "".join(f"  {name}: [{', '.join(map(str, range(200)))}]\n" for name in "abc"), "bomb": "".join(f"a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * 9) if k else 'x'}]\n" for k in range(12)),
     "key bomb": "? " + "".join(f"[&a{k} [{', '.join([f'*a{k - 1}'] * 9) if k else 'x'}], " for k in range(12)) + "x" + "]" * 12 + "\n: 1\n", "folder": None, "missing": None}
 SPOILT = {"empty": "empty", "binary": "binary", "latin": "latin", "big": "big", "folder": "folder", "missing": "missing", "bomb": "bomb", "deep": "deep"}
@@ -99,6 +102,7 @@ def refused(words, case):
 def scene(monkeypatch, tmp_path):
     monkeypatch.setenv("LAMMPS_POTENTIALS", str(ROOT / "potentials"))
     monkeypatch.setenv("HVI_LMP", "/bin/true")
+    monkeypatch.setattr(view.View, "still", functools.partialmethod(view.View.still, width=40))  # a picture of few pixels
     limits = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (6 << 30, limits[1]))  # what allocates without end meets it
     yield

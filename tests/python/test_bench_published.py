@@ -1,5 +1,6 @@
 """The report in doc/speed-error.md, and the tables of README.md and doc/src/tables/needs.inc, are those of the records in bench/records."""
 
+import figures
 import pareto
 import pytest
 import report
@@ -13,8 +14,12 @@ def published():
     return report.load_cases(ROOT / "bench" / "cases"), report.load(RECORDS)
 
 
-def test_the_report_is_of_the_records(published):
-    """python3 bench/report.py --records bench/records --out doc"""
+@pytest.mark.parametrize("drawn", [False, pytest.param(True, marks=pytest.mark.long)])
+def test_the_report_is_of_the_records(published, monkeypatch, drawn):
+    """python3 bench/report.py --records bench/records --out doc; the short form draws no figures, as tests/python/test_bench_report.py does"""
+    if not drawn:
+        monkeypatch.setattr(figures, "of_case", lambda case, runs: any(not (run.failed or run.cannot) for run in runs))
+        monkeypatch.setattr(figures, "headline", lambda cases, points: True)
     made = report.Report(*published)
     assert made.markdown() == (ROOT / "doc" / "speed-error.md").read_text()
     for name in made.figures:

@@ -20,6 +20,7 @@ SHAPES = {
     "one layer": (bodies.cylinder(15.0, 1.0, middle=0.5, quarter=True), np.pi * 225 / 4),
     "periodic": (bodies.box([6.0, 5.0, 9.0], periodic=(0, 1)), 270.0),
 }
+LONG = "cylinder", "tube", "one layer"  # as glass; in the short form these are lattices, and the others are none
 
 
 @functools.lru_cache(None)
@@ -38,9 +39,7 @@ def whole(body):
     return x
 
 
-@pytest.mark.each_value
-@pytest.mark.parametrize("fill", ["glass", "lattice"])
-@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize("name, fill", [pytest.param(name, fill, marks=[pytest.mark.long] * ((fill == "lattice") != (name in LONG))) for name in SHAPES for fill in ("glass", "lattice")])
 def test_mass_and_center_are_exact(name, fill):
     shape, volume = SHAPES[name]
     body = filled(name, fill)
@@ -61,7 +60,7 @@ def test_mass_and_center_are_exact(name, fill):
     assert inside.all()
 
 
-@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name in LONG)) for name in SHAPES])
 def test_glass_is_even(name):
     """nobody is near another; the kernel's density is that of the body; the outermost layer is smooth"""
     body = filled(name, "glass")

@@ -696,10 +696,11 @@ def test_real_glass(root, lmp, tmp_path, shape, quarter):
     """particles without rows: the exact mass, inside of the body, another glass for each shift, the same one again; a quarter has no images closer than others"""
     (tmp_path / "hit.yaml").write_text(REAL.replace("{diameter_mm: 6", "{fill: glass, " + shape).replace("[0.8, 0.66]", "[0.4]"))
     case = cases.read(tmp_path / "hit.yaml")
-    made = {name: chain.write_run(case, 0, shift, tmp_path / name) for name, shift in (("run", 0.0), ("again", 0.0), ("other", 0.25))}
+    several = shape.startswith("diameter")  # of one shape: it takes as long as the rest
+    made = {name: chain.write_run(case, 0, shift, tmp_path / name) for name, shift in (("run", 0.0), *([("again", 0.0), ("other", 0.25)] * several))}
     assert made["run"].images == (4 if quarter else 1) and cases.read(tmp_path / "run/case.yaml").projectile.mapping() == case.projectile.mapping()
     text = {name: (tmp_path / name / "ball.data").read_text() for name in made}
-    assert text["run"] == text["again"] != text["other"]
+    assert not several or text["run"] == text["again"] != text["other"]
     lmp(tmp_path / "run/in.shield", cwd=tmp_path / "run", vars={"until": 0.02})
     frame = hvi.Dump(str(sorted((tmp_path / "run").glob("film.*.dump"))[0]))[0]
     ball = frame.select(frame["type"] == 1)

@@ -13,7 +13,7 @@ from hvi import cli
 from hvi.commands import movie
 from hvi.errors import HVIError
 from hvi.io.dump import Dump
-from hvi.report import page, pictures, render, view
+from hvi.report import page, pictures, render, report, view
 from hvi.shield import ble
 from hvi.shield import case as cases
 from hvi.shield.run import Run, runs_of
@@ -73,6 +73,13 @@ def small(monkeypatch):
     """pictures of few pixels, for time"""
     monkeypatch.setattr(pictures, "DPI", 40)
     monkeypatch.setattr(movie, "DPI", 40)
+
+
+@pytest.fixture
+def no_pictures(monkeypatch):
+    """for tests of texts: pictures are most of the time of a page"""
+    monkeypatch.setattr(report.Report, "images", lambda self, bar: ("", []))
+    monkeypatch.setattr(report.Report, "scene", lambda self, bar: "")
 
 
 @pytest.fixture(name="several")
@@ -157,7 +164,7 @@ def test_report_of_one_run(tmp_path, capsys):
     assert "One run: nothing says how far" in words and seen.all("body")[0]["class"] == "holds"
 
 
-def test_report_of_a_run_by_hand(tmp_path, capsys):
+def test_report_of_a_run_by_hand(tmp_path, capsys, no_pictures):
     """equations say nothing of what is not modelled; core-seconds may be unknown"""
     make_run(tmp_path / "one", 1.0, verdict="undecided", outside="MLI, of 20 layers")
     (tmp_path / "one/job.yaml").unlink()
@@ -284,7 +291,7 @@ def test_a_wall_near_by_hides_no_other(tmp_path):
     assert layers(1, 1) == [0.25, 0.75] and layers(1, 2) == []
 
 
-def test_energy_of_the_tile_is_the_largest_of_the_table(tmp_path):
+def test_energy_of_the_tile_is_the_largest_of_the_table(tmp_path, no_pictures):
     """no tile with a small error over a table with a large one"""
     make_run(tmp_path / "one", 1.0)
     result = tmp_path / "one/result.yaml"

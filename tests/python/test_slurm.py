@@ -6,7 +6,9 @@ import json
 import os
 import pickle
 import shutil
+import subprocess
 import sys
+import tempfile
 import threading
 import time
 
@@ -21,16 +23,29 @@ UNDECIDED = 4
 SUBMIT = ("--engine", "slurm", "--poll", "0.01", "--ranks", "3")
 
 
+@pytest.fixture(scope="module")
+def jobs(root):
+    """socket of what runs the jobs; its name has 107 bytes at most, so not in the folder of the test"""
+    with tempfile.TemporaryDirectory() as folder:
+        words = [sys.executable, root / "tests/lib/fake_jobs.py", f"{folder}/socket"]
+        with subprocess.Popen(words, env={**os.environ, "PYTHONPATH": str(root / "python")}, stdout=subprocess.PIPE) as server:
+            assert server.stdout.readline() == b"ready\n"
+            yield f"{folder}/socket"
+            server.terminate()
+
+
 @pytest.fixture
-def fake(folder, root, monkeypatch):
+def fake(folder, root, jobs, monkeypatch):
     """the folder of the fake, whose commands are first on PATH"""
     (folder / "emi.yaml").write_text(CASE)
     home = folder / "slurm"
     (home / "bin").mkdir(parents=True)
     for name in ("sbatch", "squeue"):
-        (home / "bin" / name).write_text(f"#!/bin/sh\nexec '{sys.executable}' '{root}/tests/lib/fake_slurm.py' {name} \"$@\"\n")
+        (home / "bin" / name).write_text(f"#!/bin/sh\nexec '{sys.executable}' -I -S '{root}/tests/lib/fake_slurm.py' {name} \"$@\"\n")
         (home / "bin" / name).chmod(0o755)
     monkeypatch.setenv("FAKE_SLURM", str(home))
+    monkeypatch.setenv("FAKE_JOBS", jobs)
+    monkeypatch.setenv("FAKE_PYTHON", sys.executable)
     monkeypatch.setenv("PATH", f"{home / 'bin'}:{os.environ['PATH']}")
     return home
 
@@ -55,8 +70,9 @@ def records(folder):
     return {key: value for key, value in said.items() if key != "command"}, (folder / "runs.csv").read_text()
 
 
-def test_the_same_records(folder, fake, capsys):
+def test_the_same_records(folder, fake, capsys, monkeypatch):
     """one array for the runs of a verdict, and nothing is left of it; verdict and table are those of runs on this machine"""
+    monkeypatch.delenv("FAKE_JOBS")  # these by job.sh itself
     assert front("shield", *SUBMIT, "--time", "4:00:00", "--nodes", "2", "--partition", "p1", "--account", "a1", "--sbatch=--mem=4G --qos 'so long'") == UNDECIDED
     out = capsys.readouterr().out
     assert "submitted: 2 runs, Slurm job 1, " in out and out.count("  ok  ") == 2

@@ -12,6 +12,7 @@ import types
 import hvi
 import pytest
 import yaml
+from hvi import cli
 from hvi.jobs import engine, runs
 from hvi.jobs import sweep as study_of
 
@@ -342,12 +343,11 @@ def test_wrong_options(sweep):
     assert "/nowhere does not exist" in sweep(STUDY, "--lmp", "/nowhere").text
 
 
-def test_studies_are_right(root, folder, lmp_exe):
+def test_studies_are_right(root, folder, lmp_exe, capsys):
     """the studies of the example name variables that in.debris has, at both sizes"""
     for study in (root / "examples/debris-studies/studies").glob("*.yaml"):
         for size in ([], ["--full"] if "\nfull:" in study.read_text() else []):
-            subprocess.run([sys.executable, "-m", "hvi", "sweep", study, "--lmp", lmp_exe, "--dry-run", *size],
-                           cwd=folder, check=True, stdout=subprocess.DEVNULL, env={**os.environ, "PYTHONPATH": str(root / "python")})
+            assert cli.main(["sweep", str(study), "--lmp", str(lmp_exe), "--dry-run", *size]) == 0, f"{study} {size}: {capsys.readouterr()}"
 
 
 def test_plots(root, folder):

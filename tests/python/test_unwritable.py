@@ -1,5 +1,6 @@
 """Files that cannot be written: a full disk, no such folder, a folder in place of a file, a folder of somebody else: one line that names the file."""
 
+import functools
 import os
 import shutil
 import subprocess
@@ -8,6 +9,8 @@ import sys
 import pytest
 from front_runs import CASE
 from hvi import cli
+from hvi.figures import style
+from hvi.material import curves
 
 NOBODY = 65534
 MATERIAL = "Al6061-T6.hvi"
@@ -37,6 +40,8 @@ ITEM: ATOMS id type mass x y z vx vy vz time_si mirror_none
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch, root):
+    monkeypatch.setattr(style, "DPI", 10)
+    monkeypatch.setattr(curves, "borne", functools.partial(curves.borne, steps=10))  # numbers are no matter here
     monkeypatch.setenv("LAMMPS_POTENTIALS", str(root / "potentials"))
     (tmp_path / "a.dump").write_text(DUMP)
     (tmp_path / "emi.yaml").write_text(CASE)

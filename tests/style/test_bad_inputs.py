@@ -12,7 +12,7 @@ import yaml
 
 INPUTS = pathlib.Path(__file__).resolve().parents[1] / "inputs"
 LIMIT = 120  # s; most end in 0.2
-SHORT, PAIRS = 5, 40  # one row of so many runs on one rank in the short form, on two ranks
+SHORT, PAIRS = 7, 60  # one row of so many runs on one rank in the short form, on two ranks
 NUMBER = re.compile(r"[-+\d.e]*\d")
 SCENES = sorted(path.name[3:] for path in INPUTS.glob("in.*"))
 

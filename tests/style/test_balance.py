@@ -63,7 +63,7 @@ def test_columns_of_equal_cost(shot):
         assert np.abs(placed(frame, name) - placed(one, name)).max() < 1e-9 * np.abs(one[name]).max(), name
 
 
-@pytest.mark.parametrize("axis, newton, nranks", [("x", "on", 4), ("y", "off", 3), ("z", "on", 4), ("z", "off", 4)])
+@pytest.mark.parametrize("axis, newton, nranks", [("x", "on", 4), ("y", "off", 3), pytest.param("z", "on", 4, marks=pytest.mark.long), ("z", "off", 4)])
 def test_along_an_axis(lmp, root, tmp_path, axis, newton, nranks):
     """newton on and off; the books are those of one rank"""
     text = (root / "tests/inputs/in.solid").read_text().replace("boundary s s s", "boundary s s s\ncomm_style tiled").replace("run 30", f"fix share all hvi/balance 5 1.0 axis {axis}\n")
@@ -77,7 +77,7 @@ def test_along_an_axis(lmp, root, tmp_path, axis, newton, nranks):
     assert cost.max() < 1.05 * cost.mean()
 
 
-@pytest.mark.parametrize("first, second", [(1, 3), (2, 2), (3, 1), (4, 2)])
+@pytest.mark.parametrize("first, second", [(1, 3), (2, 2), (3, 1), pytest.param(4, 2, marks=pytest.mark.long)])
 def test_restart(lmp, root, tmp_path, first, second):
     """columns are made anew where a run goes on, on as many ranks or others: places, forces and energies are those of the run that was not interrupted"""
     env = {"LAMMPS_POTENTIALS": str(root / "potentials")}
@@ -107,7 +107,7 @@ def test_each_run_looks_at_its_start(lmp, root, tmp_path, steps):
     assert not steps or r.thermo["f_share[2]"][-1] == pytest.approx(cost.max())
 
 
-@pytest.mark.parametrize("newton, nranks", [("on", 1), ("on", 3), ("off", 2)])
+@pytest.mark.parametrize("newton, nranks", [("on", 1), pytest.param("on", 3, marks=pytest.mark.long), ("off", 2)])
 def test_leavers(lmp, root, tmp_path, newton, nranks):
     """particles leave through faces of a box while columns are made anew, all of them in the end: none is lost without being counted"""
     text = (root / "tests/inputs/in.solid").read_text().replace("boundary s s s", "boundary f f f\ncomm_style tiled").replace("newton on", f"newton {newton}")

@@ -216,7 +216,7 @@ def test_clamps_of_a_dynamic_group(lmp):
     assert "group zone is dynamic" in lmp(text, expect_fail=True).error
 
 
-@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), pytest.param(2, "on", marks=pytest.mark.long), (3, "off")])
 def test_what_other_fixes_take_out_of_clamped_groups(lmp, nranks, newton):
     """is no work of clamps, and shows in the total; what clamps have done to it until then stays booked"""
     text = GRAINS.replace("boundary p p f", "boundary p p p").replace("sc 1.0", "sc 0.1").replace("set 0 0 -0.5", "set 0.3 0 1 units box")
@@ -277,7 +277,7 @@ DROP = "region top block 5 25 5 25 20 30\n" \
     "fix drop all deposit 2 0 2 4242 region top mol cube near 2.0 vz -2 -2 vx 0 0 vy 0 0 units box\nrun 4\nunfix drop\n"
 
 
-@pytest.mark.parametrize("nranks, newton, edge", [(1, "on", 31.9), (1, "off", 5.9), (2, "on", 5.9), (3, "off", 5.9)])
+@pytest.mark.parametrize("nranks, newton, edge", [(1, "on", 31.9), *(pytest.param(*more, marks=pytest.mark.long) for more in ((1, "off", 5.9), (2, "on", 5.9))), (3, "off", 5.9)])
 def test_molecules_that_come(lmp, tmp_path, nranks, newton, edge):
     """bonded cubes, by fix deposit in a run, by a command after it, and after a restart
 
@@ -320,7 +320,7 @@ fix step all hvi/dt 0.1
 FREE = BALL.replace("{newton}", "on")
 
 
-@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "off"), (3, "on")])
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "off"), pytest.param(3, "on", marks=pytest.mark.long)])
 def test_molecules_by_bonds_that_are_left(lmp, nranks, newton):
     """reset_atoms mol after a run in which bonds break: as compute hvi/fragment/atom; a plate that was cut hangs together no more"""
     text = BALL.format(newton=newton) + "run 350\n{}reset_atoms mol all single yes\ncompute piece all hvi/fragment/atom bonds\nrun 0\n" \

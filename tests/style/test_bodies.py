@@ -145,7 +145,7 @@ def test_without_a_law_of_failure(lmp, tmp_path):
     assert len(set(rows(tmp_path / "two.dump")[1])) == 2
 
 
-@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), pytest.param(2, "on", marks=pytest.mark.long), (3, "off")])
 def test_a_body_comes_to_its_image(lmp, tmp_path, nranks, newton):
     """Two blocks that meet in the plane between them, and one of them that meets its image there: both rebound, alike"""
     whole = blocks(newton).replace("-6 0\n", "-8 -2\n").replace("2 8\n", "2 8\n")
@@ -161,7 +161,7 @@ def test_a_body_comes_to_its_image(lmp, tmp_path, nranks, newton):
     assert set(rows(tmp_path / "half.dump")[1]) == {1}
 
 
-@pytest.mark.parametrize("nranks, newton", [(1, "on"), (2, "on"), (3, "off")])
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), pytest.param(2, "on", marks=pytest.mark.long), (3, "off")])
 def test_a_body_that_a_plane_cuts(lmp, tmp_path, nranks, newton):
     """is one with its image, until it is pulled away: then it bounces there, too; so after a restart"""
     text = blocks(newton, gap=0).replace("create_atoms 1 region lower\n", "").replace("dissipation riemann", "dissipation riemann mirror z 0 lo").replace("s s s", "s s f").replace("-14 14", "0 14")

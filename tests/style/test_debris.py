@@ -62,7 +62,7 @@ def divided(end):
     return np.round(MASS / end.m)
 
 
-@pytest.mark.parametrize("nranks, newton", [(1, "on"), (3, "on"), (4, "off")])
+@pytest.mark.parametrize("nranks, newton", [(1, "on"), pytest.param(3, "on", marks=pytest.mark.long), (4, "off")])
 def test_pieces(ball, tmp_path, nranks, newton):
     """mass, momentum, energy and the middle of each particle stay; pieces fly on as all does, from one place; fragments as coarse as particles change nothing"""
     thermo = ball("run 200\n" + DUMP.format("end.dump"), nranks=nranks, newton=newton).thermo

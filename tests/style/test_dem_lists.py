@@ -52,6 +52,7 @@ def error(name, tmp_path, k):
     return np.abs(vectors(dump, "f") - f).max() / np.abs(f).max()
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, comm", [pytest.param(*layout, marks=[pytest.mark.long] * (layout in ((4, "brick"), (2, "tiled")))) for layout in LAYOUTS])
 @pytest.mark.parametrize("name", SCENES)
 def test_forces_are_those_of_all_pairs(lmp, tmp_path, name, nranks, comm):

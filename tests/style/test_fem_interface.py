@@ -13,26 +13,26 @@ BOUNDS = {"smooth": 0.015, "steep": 0.025}
 
 @pytest.fixture(scope="module")
 def known():
-    """bars of elements only, by pulse"""
+    """bars of elements only, by pulse and its way"""
     return {}
 
 
-def reflects(lmp, folder, known, pulse, **words):
-    if pulse not in known:
-        known[pulse] = bar(lmp, folder, "none", pulse=pulse)
-    one = bar(lmp, folder, "right", pulse=pulse, pair=PAIR, **words)
+def reflects(lmp, folder, known, pulse, far=100, **words):
+    if (pulse, far) not in known:
+        known[pulse, far] = bar(lmp, folder, "none", pulse=pulse, far=far)
+    one = bar(lmp, folder, "right", pulse=pulse, pair=PAIR, far=far, **words)
     assert one["drift"] < 1e-4
     assert one["momentum"] < 1e-12
-    return one, reflection(one, known[pulse])
+    return one, reflection(one, known[pulse, far])
 
 
-@pytest.mark.parametrize("pulse", [pytest.param(one, marks=[pytest.mark.long] * (one == "steep")) for one in BOUNDS])
-def test_pulse(lmp, tmp_path, known, pulse):
+@pytest.mark.parametrize("pulse, far", [("smooth", 60), *(pytest.param(one, 100, marks=pytest.mark.long) for one in BOUNDS)])
+def test_pulse(lmp, tmp_path, known, pulse, far):
     """A pulse from elements into particles; a ragged interface is hardly worse, and a flat one does not push sideways"""
-    one, flat = reflects(lmp, tmp_path, known, pulse)
+    one, flat = reflects(lmp, tmp_path, known, pulse, far)
     assert one["sideways"] < 1e-10
     assert 0.0 < flat < BOUNDS[pulse]
-    assert reflects(lmp, tmp_path, known, pulse, ragged=True)[1] < flat + 0.003
+    assert reflects(lmp, tmp_path, known, pulse, far, ragged=True)[1] < flat + 0.003
 
 
 @pytest.mark.long
@@ -53,7 +53,7 @@ def test_tied(lmp, tmp_path):
 
 def test_nothing_held(lmp, tmp_path, known):
     """Without particles in elements there is a gap, and the measure says so: a free end reflects all (elements damp it on its way)"""
-    found = reflects(lmp, tmp_path, known, "smooth", hold=0)[1]
+    found = reflects(lmp, tmp_path, known, "smooth", 60, hold=0)[1]
     print(f"reflected {100 * found:.2f} %")
     assert 0.9 < found < 1.01
 

@@ -82,7 +82,7 @@ def test_same_on_every_layout(lmp, one, layout):
         assert np.abs(values - runs[0][name]).max() <= 1e-11 * np.abs(values).max() + 1e-15, name
 
 
-@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("layout", [pytest.param(name, marks=[pytest.mark.long] * (k % 2 == 0)) for k, name in enumerate(LAYOUTS)])
 def test_forces_on_one_state(lmp, one, tmp_path, layout):
     """of a restart file with elements and what others have become, forces made anew"""
     how = LAYOUTS[layout]

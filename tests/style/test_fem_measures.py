@@ -80,6 +80,7 @@ def of_particles(text):
     return text.replace("pair_coeff 2 2", "pair_coeff 2*3 2*3")
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks, newton", LAYOUTS)
 def test_a_plate_is_one_piece(lmp, nranks, newton):
     """as the same plate of particles; a cut one is two, unless free particles are between; elements without particles hold others together"""

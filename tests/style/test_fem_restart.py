@@ -52,6 +52,7 @@ def books(a, b, tolerance=0.0):
 TIMES = [(10, 12), (20, 22), (MIDDLE, END)]
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("spall, ranks, times", [
     *itertools.product(["none"], [(1, "on"), (2, "on"), (2, "off")], TIMES), *itertools.product(["voids"], [(1, "on"), (2, "on")], TIMES[::2])])
 def test_goes_on(lmp, tmp_path, spall, ranks, times):

@@ -529,7 +529,7 @@ def test_components(root, snake_exe, nranks):
     search(root, snake_exe, nranks, list(itertools.product(("blocks", "cyclic", "random"), ("chain", "cut", "pairs", "empty"), (1, 2, 7, 3000))))
 
 
-@pytest.mark.parametrize("nranks", [8, 13, 16, 32])
+@pytest.mark.parametrize("nranks", [8, 13, *(pytest.param(more, marks=pytest.mark.long) for more in (16, 32))])
 def test_rounds(root, snake_exe, nranks):
     """logarithm of the ranks, whatever the length of the chain and however often it crosses"""
     chains = (("blocks", 2000), ("cyclic", 2000), ("cyclic", 20000), ("random", 20000))

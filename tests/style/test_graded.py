@@ -101,7 +101,7 @@ run 200 post no
     assert np.abs(graded - said["uniform"][:, 1]).max() < 0.03 * np.abs(said["uniform"][:, 1]).max()
 
 
-@pytest.mark.parametrize("radius", [0.6e-3, 0.75e-3, 0.9e-3, 2.4e-3])
+@pytest.mark.parametrize("radius", [*(pytest.param(more, marks=pytest.mark.long) for more in (0.6e-3, 0.9e-3)), 0.75e-3, 2.4e-3])
 def test_a_hole_in_the_core_is_that_of_a_fine_wall(run, tmp_path, radius):
     """the outer part does not hide narrow holes, and has none of its own: diameters of both, and those of another program"""
     found = {}

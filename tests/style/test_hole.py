@@ -58,7 +58,7 @@ def test_circles(lmp, tmp_path, kind):
     assert np.all(table(got, "layer") > thick) and np.all(table(got, "layer") < 4 * thick)
 
 
-@pytest.mark.parametrize("kind", ["sc", "turned", "random"])
+@pytest.mark.parametrize("kind", [*(pytest.param(more, marks=pytest.mark.long) for more in ("sc", "turned")), "random"])
 def test_other_shapes(lmp, tmp_path, kind):
     """ellipse, turned; a circle off the center by a third of its radius; and one that X,Y is not in"""
     rng = np.random.default_rng(2)

@@ -103,6 +103,7 @@ def test_timestep_after_a_restart(lmp):
     assert list(lmp(again.format("timestep 0.5\n")).thermo["Dt"]) == [0.02, 0.02]
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("newton, nranks, comm", [("off", 1, "brick"), ("on", 2, "brick"), ("off", 2, "tiled"), ("on", 3, "tiled")])
 def test_same_on_any_layout(lmp, newton, nranks, comm):
     """the stiffest pair may lie across ranks"""

@@ -42,6 +42,7 @@ def close(got, want, case):
 CASES = [("hybrid", "lj/cut"), ("hybrid", "hvi/contact"), ("hybrid/overlay", "hvi/contact"), ("hybrid/overlay", "zero"), ("hybrid", "")]
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, pytest.param(2, marks=pytest.mark.long), 3, pytest.param(4, marks=pytest.mark.long)])
 @pytest.mark.parametrize("kind", ["solids", "riemann", "mirrors"])
 def test_as_without(lmp, tmp_path, material, kind, nranks):

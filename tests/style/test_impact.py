@@ -38,9 +38,10 @@ def fragmentation(bonds, n):
 
 ALL = list(itertools.product((1, 2, 3, 4), ("on", "off"), ("brick", "tiled")))
 PAIRS = [(n, newton, comm) for n, newton, comm in ALL if (newton == "on") == ((comm == "brick") == (n in (1, 4)))]  # any two of the three
+EACH = [(1, "on", "brick"), (2, "off", "tiled"), (3, "on", "tiled"), (4, "off", "brick")]
 
 
-@pytest.mark.parametrize("cases", [PAIRS, pytest.param(ALL, marks=pytest.mark.long)], ids=len)
+@pytest.mark.parametrize("cases", [EACH, *(pytest.param(more, marks=pytest.mark.long) for more in (PAIRS, ALL))], ids=len)
 def test_same_bonds_break(lmp, data, cases):
     """after 2 microseconds the surviving bonds are the same on 1 to 4 ranks, newton on and off, brick and tiled"""
     sets = {}

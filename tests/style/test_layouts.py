@@ -22,6 +22,7 @@ def state(request):
     return cube((7, 6, 5), jitter=0.15, cut=0.2, periodic=request.param == "periodic", types=2, seed=11)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("law", PAIRS)
 @pytest.mark.parametrize("nranks", [1, 2, 3, 4])
 def test_forces_energies_virial(lmp, tmp_path, state, law, nranks):

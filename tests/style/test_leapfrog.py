@@ -156,7 +156,7 @@ def test_wall_across_the_box(lmp, tmp_path, pair):
             assert np.abs(d[name] - found[0][name]).max() < 1e-10 * np.abs(found[0][name]).max(), name
 
 
-@pytest.mark.parametrize("words, nranks", [(FAILING[0], 1), (FAILING[1], 1), (FAILING[1], 2)])
+@pytest.mark.parametrize("words, nranks", [(FAILING[0], 1), pytest.param(FAILING[1], 1, marks=pytest.mark.long), (FAILING[1], 2)])
 def test_restart_with_a_wall(lmp, tmp_path, pair, words, nranks):
     """restart files in the middle of an impact on a wall that fix move wiggles, and runs in parts: the same bits"""
     s = block(n=6)

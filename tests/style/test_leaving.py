@@ -24,6 +24,7 @@ def check(book, s, tolerance):
     assert book["mass"] + book["left_mass"] == pytest.approx(np.full(len(book["mass"]), mass), rel=1e-13)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("newton, nranks, comm", [("on", 1, "brick"), ("off", 1, "brick"), ("on", 2, "tiled"), ("off", 2, "brick"),
                                                   ("on", 3, "brick"), ("off", 3, "tiled")])
 def test_block_torn_at_the_face(lmp, newton, nranks, comm):
@@ -78,6 +79,7 @@ def test_other_faces(lmp, boundary):
     check(book, s, 1e-5)
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("newton, nranks, comm", [("on", 1, "brick"), ("on", 4, "brick"), ("off", 3, "tiled"), ("off", 4, "brick")])
 def test_at_the_start(lmp, newton, nranks, comm):
     """particles moved out between runs leave at setup, with their bonds"""
@@ -255,7 +257,7 @@ def test_who_is_near_is_told(lmp, lmp_exe, traffic, bonded):
     assert max(got[2:]) < 64 <= min(got[:2])  # bytes of a leaver
 
 
-@pytest.mark.parametrize("newton, nranks", [("on", 1), ("off", 1), ("on", 2), ("off", 3)])
+@pytest.mark.parametrize("newton, nranks", [("on", 1), *(pytest.param(*more, marks=pytest.mark.long) for more in (("off", 1), ("on", 2))), ("off", 3)])
 def test_bonds_that_are_turned_off(lmp, newton, nranks):
     """go with their particles as the others, and without energy"""
     s = cube(4, 0.0, 0.0)

@@ -101,7 +101,7 @@ def test_of_passing_bodies_the_way_is_the_same(lmp, tmp_path, nranks):
         assert np.abs(d - box * np.round(d / box)).max() < 1e-9, case
 
 
-@pytest.mark.parametrize("nranks, faces", [(1, "s"), (1, "f"), (2, "f")])
+@pytest.mark.parametrize("nranks, faces", [(1, "s"), pytest.param(1, "f", marks=pytest.mark.long), (2, "f")])
 def test_flight_costs_few_lists(lmp, tmp_path, nranks, faces):
     """a body in flight; two that fly toward each other, far apart; debris that flies apart"""
     flies = bodies((N, (2, 3, 2), (3, 0.5, 0.1)), box=(60, 16, 12), periodic=False, speed=0)

@@ -36,7 +36,7 @@ def test_fluid(lmp, tmp_path, material, mass):
         same(read(tmp_path / "f"), read(tmp_path / "fxyz"), part("xyz")[1], "xyz")
 
 
-@pytest.mark.parametrize("nranks", [1, 2, 3, 4])
+@pytest.mark.parametrize("nranks", [1, *(pytest.param(n, marks=pytest.mark.long) for n in (2, 3)), 4])
 def test_layouts(lmp, tmp_path, material, nranks):
     cases = list(itertools.product(("on", "off"), ("brick", "tiled"), (None, "hi")))
     lmp("".join("clear\n" + start("xy", tmp_path, material, sides=sides)[0] + OUT.format(f"one.{sides}") for sides in (None, "hi")))
@@ -75,7 +75,9 @@ thermo_modify format float %.17g
 """
 
 
-@pytest.mark.parametrize("newton,nranks", [("on", 1), ("off", 1), ("on", 3), ("off", 3)])
+@pytest.mark.each_value
+@pytest.mark.parametrize("nranks", [1, 3])
+@pytest.mark.parametrize("newton", ["on", "off"])
 def test_books(lmp, tmp_path, material, newton, nranks):
     """momentum is what the planes gave, to round-off; energy and pressure are the whole model's"""
     t = lmp(start("xy", tmp_path, material, steps=200, more=BOOK, newton=newton)[0], nranks=nranks).thermo

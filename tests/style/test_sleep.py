@@ -72,7 +72,7 @@ def test_the_rest_does_not_notice(lmp, tmp_path, words):
     unnoticed(lmp, tmp_path, words)
 
 
-@pytest.mark.parametrize("shift", [0.0, 0.6, 1.2, 1.8])
+@pytest.mark.parametrize("shift", [0.0, *(pytest.param(more, marks=pytest.mark.long) for more in (0.6, 1.8)), 1.2])
 def test_wherever_cells_end(lmp, tmp_path, shift):
     """some awake have neighbors asleep, who count in M when the first signal comes"""
     unnoticed(lmp, tmp_path, "", shift)

@@ -42,7 +42,7 @@ def test_restart(lmp, tmp_path, material, nranks, words):
         assert np.array_equal(one[name], two[name]), name
 
 
-@pytest.mark.parametrize("nranks, newton", [(1, "off"), (2, "on"), (3, "off")])
+@pytest.mark.parametrize("nranks, newton", [(1, "off"), (2, "on"), pytest.param(3, "off", marks=pytest.mark.long)])
 def test_restart_of_the_melted(lmp, tmp_path, material, nranks, newton):
     """from steps in which melted particles spall: the same bits, newton on and off"""
     melt(material)

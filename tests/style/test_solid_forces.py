@@ -24,7 +24,7 @@ def test_no_artificial_stress(lmp, tmp_path, material):
 
 @pytest.mark.each_value
 @pytest.mark.parametrize("words", ["viscosity 1 2", ART], ids=["", "artstress"])
-@pytest.mark.parametrize("nranks", [1, 2, 3, 4])
+@pytest.mark.parametrize("nranks", [1, *(pytest.param(n, marks=pytest.mark.long) for n in (2, 3)), 4])
 def test_layouts(lmp, tmp_path, material, nranks, words):
     """newton on and off, brick and tiled, 20 steps with stress: as on one rank"""
     s = state(seed=22)
@@ -57,7 +57,7 @@ def test_restart(lmp, tmp_path, material, nranks, words):
         assert np.array_equal(one[name], two[name]), name
 
 
-@pytest.mark.parametrize("jc, words", [("", ART), ("damage no spall none", ART), *((jc, "viscosity 1 2") for jc in (
+@pytest.mark.parametrize("jc, words", [("", ART), pytest.param("damage no spall none", ART, marks=pytest.mark.long), *((jc, "viscosity 1 2") for jc in (
     "", "damage no spall none", "spall pressure", "spall zero damage no", "temperature work"))])
 def test_books_close(lmp, tmp_path, material, jc, words):
     """energy to 1e-3, momentum to round-off, whatever the model"""

@@ -27,7 +27,7 @@ def grown(f):
     assert (f["spalled"] == (f["void_damage"] >= 1)).all()
 
 
-@pytest.mark.parametrize("nranks, words", [(1, "viscosity 1 2"), (2, "viscosity 1 2"), (2, "viscosity 1 2 h variable")])
+@pytest.mark.parametrize("nranks, words", [(1, "viscosity 1 2"), pytest.param(2, "viscosity 1 2", marks=pytest.mark.long), (2, "viscosity 1 2 h variable")])
 def test_restart(lmp, tmp_path, material, nranks, words):
     """30 steps, restart, 30 more: the same bits as 60 at once"""
     s = state(seed=23)
@@ -39,7 +39,7 @@ def test_restart(lmp, tmp_path, material, nranks, words):
         assert np.array_equal(one[name], two[name]), name
 
 
-@pytest.mark.parametrize("nranks", [1, 2, 3, 4])
+@pytest.mark.parametrize("nranks", [1, *(pytest.param(n, marks=pytest.mark.long) for n in (2, 3)), 4])
 def test_layouts(lmp, tmp_path, material, nranks):
     """newton on and off, brick and tiled: as on one rank"""
     s = state(seed=22)

@@ -19,6 +19,7 @@ def test_known_names_pass(lmp):
     assert "dx is 0.2" in r.stdout
 
 
+@pytest.mark.each_value
 @pytest.mark.parametrize("nranks", [1, 2])
 @pytest.mark.parametrize("name, message", [
     ("thicknes", "Unknown variable thicknes: did you mean thickness? This input knows: dx thickness gap"),

@@ -128,7 +128,7 @@ velocity ball set 0 0 10 units box
 """
 
 
-@pytest.mark.parametrize("nranks", [1, 2, 4])
+@pytest.mark.parametrize("nranks", [1, pytest.param(2, marks=pytest.mark.long), 4])
 def test_what_lies_in_a_bulge_has_not_come_through(walls, nranks):
     """A wall that has bulged by four thicknesses: loose particles before its rear face are not behind it, those behind are, and what flies where it has a hole"""
     text = scene(steps=0)
@@ -148,7 +148,7 @@ def test_internal_forces_cancel(walls):
     assert rows[2]["momentum"] > rows[0]["momentum"] > 0
 
 
-@pytest.mark.parametrize("nranks, newton", [(2, "on"), (3, "on"), (2, "off")])
+@pytest.mark.parametrize("nranks, newton", [pytest.param(2, "on", marks=pytest.mark.long), (3, "on"), (2, "off")])
 def test_ranks_and_newton(walls, nranks, newton):
     """on one state: the forces of a long run differ in their last digits, and fracture shows that"""
     equal(walls(scene(steps=20) + PRINT), walls(scene(newton, steps=20) + PRINT, nranks), 1e-8)

@@ -90,7 +90,7 @@ def test_apart_by_distance_is_apart_by_neighbors(lmp, root, tmp_path, capsys, v0
     assert np.all(np.array(counts[0]) > 2 * np.array(counts[1]))
 
 
-@pytest.mark.parametrize("shift", [0, 0.25])
+@pytest.mark.parametrize("shift", [pytest.param(0, marks=pytest.mark.long), 0.25])
 def test_onset(lmp, root, tmp_path, shift):
     """at 2.5 km/s one piece keeps most of the sphere, at 4 km/s none half of it, wherever the lattice lies
 

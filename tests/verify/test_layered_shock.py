@@ -99,7 +99,7 @@ def test_the_numbers_of_the_test_case(shock):
     assert plain.p.max() > 0.70
     assert paper.p.max() == pytest.approx(P_STAR, rel=0.01)
     assert auto.p.max() == pytest.approx(P_STAR, rel=0.01)
-    reference = layers.solve(paper.layers, paper.t, 6000)
+    reference = layers.solve(paper.layers, paper.t, 3000)
     for errors in (paper.l1(exact), paper.l1(reference, "position")):
         assert errors[0] <= 0.75 and errors[1] <= 1.65
     assert plain.l1(exact)[:2] == pytest.approx((0.62, 1.5), abs=0.03)

@@ -29,10 +29,8 @@ SOFT = {"ball": "Al2017-T4", "material": "Al6061-T6"}  # a ball that does not fa
 STRETCHES = "damage no spall voids"  # scenes of walls that do not tear: not what a shield is computed with, and never one that holds
 
 
-@pytest.mark.parametrize("nranks", [1, 2])
-def test_two_walls(shield, nranks):
+def is_complete(r, nranks):
     """4,000 particles, 2 layers in a wall: wider holes than fine ones, but all of it is there, and energy, momentum and mass are balanced"""
-    r = shield(*SMALL, nranks=nranks, **HOW)
     assert [key for key in KEYS if key not in r] == []
     assert [(key, value) for key, value in [*r.items(), *r["margins"].items()] if isinstance(value, str) and value[:1] in set("-0123456789") and key != "package_version"] == []  # 1e-05 is a word
     assert [f"wall{k}_{key}" for k in (1, 2) for key in PER_WALL if f"wall{k}_{key}" not in r] == []
@@ -43,6 +41,10 @@ def test_two_walls(shield, nranks):
     assert 0.5 < r["wall1_cloud_velocity_ratio"] < 1 and 0.7 < r["wall1_cloud_energy_ratio"] < 1
     # 12 mm behind wall 1 the momentum that is not in the cloud is that of the wall's front and of what was thrown back
     assert r["wall2_cloud_momentum_ratio"] > 0.2 and r["wall2_momentum_ratio"] > r["wall1_momentum_ratio"]
+
+
+def test_two_walls(shield):
+    is_complete(shield(*SMALL, nranks=2, **HOW), 2)
 
 
 def measures(frame, layer, rear, near):
@@ -115,10 +117,10 @@ def test_verdict_flips_with_the_thickness(shield, tmp_path, thickness, verdict, 
     assert any("nothing came through" in reason for reason in r["reasons"]) is (thickness == 4)
 
 
-@pytest.mark.parametrize("edge", ["absorb", "clamp"])
-def test_walls_that_differ(shield, edge):
+@pytest.mark.parametrize("edge, quarter", [("absorb", "yes"), ("clamp", "no"), pytest.param("absorb", "no", marks=pytest.mark.long)])
+def test_walls_that_differ(shield, edge, quarter):
     """three, of two materials, with spacings and layers of their own; the momentum that their rims take is in the balance"""
-    r = shield(wall(0.6, radius=6), wall(1.2, gap=4, radius=7, material="Al6061-T6", spacings_mm=[0.4]), wall(0.6, gap=4, radius=7), quarter="no", dx=0.6,
+    r = shield(wall(0.6, radius=6), wall(1.2, gap=4, radius=7, material="Al6061-T6", spacings_mm=[0.4]), wall(0.6, gap=4, radius=7), quarter=quarter, dx=0.6,
                layers=[1, 4, 1], edge=edge, rim=1.2, tstop=4)
     assert r["walls_reached"] == 3 and [r[f"wall{k}_layers"] for k in (1, 2, 3)] == [1, 4, 1]
     assert abs(r["energy_ratio"] - 1) < 1e-3 and r["momentum_error"] < 1e-10 and abs(r["mass_error"]) < 1e-10
@@ -127,6 +129,7 @@ def test_walls_that_differ(shield, edge):
 def test_quarter_is_the_whole(shield):
     """until the cloud of wall 1 has passed, a quarter between mirrors is what the whole is, to what is printed"""
     quarter, whole = [shield(*SMALL, folder=q, **{**HOW, "quarter": q}) for q in ("yes", "no")]
+    is_complete(whole, 1)
     assert 4 * quarter["particles"] == whole["particles"] and quarter["wall1_until_us"] == pytest.approx(whole["wall1_until_us"], rel=1e-6)
     # if the largest fragments are single particles, which is the largest is anybody's guess
     single = quarter["wall1_largest_fragment_mm"] < 1.01 * (6 / np.pi) ** (1 / 3) * HOW["dx"]
@@ -187,22 +190,19 @@ def test_what_is_thrown_back_leaves_the_box(shield):
 
 
 def test_still_pushed(shield):
-    """8 mm hold 1.5 km/s in the end; not yet, while the projectile still comes in"""
-    r = shield(wall(8, radius=8), v=1.5, tstop=7)
+    """8 mm hold 1.5 km/s in the end; not yet, while the projectile still comes in; and what is outside the model is said, whose text may be any, also in YAML"""
+    more = ["MLI", "a 'blanket': 20 layers # of \"MLI\", - {1}: [2"]
+    r = shield(wall(8, radius=8), v=1.5, tstop=7, not_modelled=more)
     undecided(r, "wall 1 is still pushed")
     assert r["margins"]["push_percent"] > 3 and not r["perforated"]
+    undecided(r, f"the shield has {', '.join(more)}, which is not modelled")
 
 
 def test_ends_by_itself(shield):
     """8 mm at 1.5 km/s: without a time the run goes on until nothing strikes, pushes or makes the wall flow any more, and holds"""
-    r = shield(wall(8, radius=20), **SOFT, v=1.5)
+    r = shield(wall(8, radius=14), **SOFT, v=1.5)
     assert (r["verdict"], r["ended_by"]) == ("holds", "event") and r["margins"]["push_percent"] < 3
-
-
-@pytest.mark.parametrize("text", ["MLI", "a 'blanket': 20 layers # of \"MLI\", - {1}: [2"])
-def test_outside_the_model(shield, text):
-    """any text is one in YAML, too"""
-    undecided(shield(wall(8, radius=8), v=1.5, tstop=7, not_modelled=[text]), f"the shield has {text}, which is not modelled")
+    assert "notes" not in r  # nothing speaks against it
 
 
 @pytest.mark.parametrize("tstop, least, most", [(9, 0.03, 0.05), (11, 0.01, 0.03)])
@@ -283,7 +283,7 @@ def test_past_the_rim(shield, tmp_path):
 
 def test_a_bulge_is_no_hole(shield):
     """and what is thrown back, and leaves the box, has not missed wall 2"""
-    r = shield(wall(4), wall(1.5, gap=15), material="Al6061-T6", D=3, v=5.5, dx=0.5, tstop=16)
+    r = shield(wall(4, radius=8), wall(1.5, gap=15, radius=14), material="Al6061-T6", D=3, v=5.5, dx=0.5, tstop=16)
     assert r["margins"]["bulge_over_thickness"] > 1 and r["margins"]["apart_mass_mg"] == 0
     assert r["verdict"] != "fails" and not r["perforated"] and r["margins"]["hole_mm"] == 0
     assert r["particles_left_the_box"] > 0 and r["margins"]["missed_fraction"] < 1e-3
@@ -297,6 +297,7 @@ def test_an_edge_that_comes_off(shield):
     assert r["wall2_reached"] and r["margins"]["hole_mm"] == 0 and r["margins"]["apart_mass_mg"] > 0
 
 
+@pytest.mark.long  # test_a_bulge_is_no_hole sees the same, of a thinner wall 2
 def test_an_ordinary_shot_with_its_own_walls(shield):
     r = shield(wall(0.9), wall(3, gap=20), material="Al6061-T6", ball="Al2017-T4", D=3, v=6, dx=0.6)
     assert r["particles_left_the_box"] > 0 and r["margins"]["missed_fraction"] < 1e-3
@@ -308,8 +309,6 @@ def test_notes_of_a_failure(shield):
     r = shield(wall(3.2, radius=8), solid=STRETCHES, quarter="no", v=1.5, back=10, tstop=10)
     assert r["verdict"] == "fails" and all("perforated" in reason or "came through" in reason or "spall" in reason for reason in r["reasons"])
     assert any("is still pushed" in note for note in r["notes"])
-    r = shield(wall(8, radius=20), **SOFT, folder="holds", v=1.5)
-    assert r["verdict"] == "holds" and "notes" not in r
 
 
 def test_rubble_on_a_bulge(shield):

@@ -238,6 +238,8 @@ def test_simple_shear(lmp, tmp_path, kind):
     mid = s.box[0] / 2
     s.box[0] += 60
     s.x[:, 0] += 30
+    near = np.abs(s.x[:, 1] - mid) < 8  # the kernel of what is measured reaches to 6.5
+    s.x, s.v, s.rho, s.esph, s.type = s.x[near], s.v[near], s.rho[near], s.esph[near], s.type[near]
     rate, end = 1.0, 1.5
     s.v[:, 0] = rate * (s.x[:, 1] - mid)
     dt = 0.002
@@ -448,7 +450,7 @@ IMPACTS = [(1e3, "Al6061-T6", 1.0, 0), (3e3, "Cu-OFHC", 0.05, 0), (7e3, "Al6061-
            (20e3, "Cu-OFHC", 1.0, 0), (20e3, "Al6061-T6", 0.05, 45)]
 
 
-@pytest.mark.parametrize("V, metal, tD, angle", [pytest.param(*one, marks=[pytest.mark.long] * (one not in (IMPACTS[2], IMPACTS[3], IMPACTS[6]))) for one in IMPACTS])
+@pytest.mark.parametrize("V, metal, tD, angle", [pytest.param(*one, marks=[pytest.mark.long] * (one not in (IMPACTS[3], IMPACTS[6]))) for one in IMPACTS])
 def test_impacts(lmp, tmp_path, root, V, metal, tD, angle):
     """any speed, thin and thick plates, heavy spheres, obliquely: it ends, and the ledger closes"""
     o = impact(lmp, tmp_path, root, V, metal, tD, np.radians(angle))
@@ -496,7 +498,7 @@ def test_spall(lmp, tmp_path, root):
     assert abs(fine["near"] - a) < c0 * rise and abs(fine["far"] - a) < c0 * rise
 
 
-@pytest.mark.parametrize("kernel, h", [("cubic", 1.2), ("quintic", 1.6)])
+@pytest.mark.parametrize("kernel, h", [("cubic", 1.2), pytest.param("quintic", 1.6, marks=pytest.mark.long)])
 def test_spinning_disc(lmp, tmp_path, kernel, h):
     """a free elastic disc spins: momentum, energy and angular momentum are kept"""
     for R in (6, 12):
@@ -507,7 +509,8 @@ def test_spinning_disc(lmp, tmp_path, kernel, h):
         assert max(momentum_error(r.thermo)) < 1e-12 * len(r.frames[0]["x"]), R
 
 
-@pytest.mark.parametrize("kernel, h, words, bound", [("cubic", 1.2, "", 1e-12), ("quintic", 1.6, "", 1e-12), ("quintic", 1.6, "artstress 0.3 4", 5e-3),
+@pytest.mark.parametrize("kernel, h, words, bound", [("cubic", 1.2, "", 1e-12), ("quintic", 1.6, "artstress 0.3 4", 5e-3),
+                                                     pytest.param("quintic", 1.6, "", 1e-12, marks=pytest.mark.long),
                                                      pytest.param("cubic", 1.5, "artstress 0.3 4", 2e-2, marks=pytest.mark.long),
                                                      pytest.param("cubic", 1.2, "artstress 0.3 4", 5e-2, marks=pytest.mark.long)])
 def test_disc_under_stress(lmp, tmp_path, kernel, h, words, bound):

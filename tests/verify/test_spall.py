@@ -44,7 +44,7 @@ run {steps}
 """).thermo
 
 
-@pytest.mark.parametrize("epsdot", [1e4, 1e5, 1e6, 1e7])
+@pytest.mark.parametrize("epsdot", [1e4, *(pytest.param(more, marks=pytest.mark.long) for more in (1e5, 1e6)), 1e7])
 def test_stretched_at_a_constant_rate(lmp, root, tmp_path, epsdot):
     """strength, energy and strain at failure are those of the law's equations; they are near sigma (epsdot/rate)^m and sigma phi_c/2
 

@@ -43,9 +43,9 @@ def run(lmp, root, example, tmp_path):
     ("in.sod", dict(n=200, masses="unequal", pair=MONAGHAN), "sod-spacing", 200),
     ("in.sod", dict(n=100, p_l=1000.0, p_r=0.01, rho_r=1.0, tstop=0.012), "blast-left", 100),
     ("in.noh", dict(n=100), "noh-1d", 100),
-    ("in.noh", dict(n=25, dim=2), "noh-2d", 25),
+    pytest.param("in.noh", dict(n=25, dim=2), "noh-2d", 25, marks=pytest.mark.long),
     ("in.noh", dict(n=8, dim=3, pair=AUTO), "noh-3d", 8),
-    ("in.flyer", dict(n=100, v0=5000), "al-al-5000", 100),
+    pytest.param("in.flyer", dict(n=100, v0=5000), "al-al-5000", 100, marks=pytest.mark.long),
     ("in.flyer", dict(n=100, v0=5750, **AL_CU), "al-cu-5750", 100),
 ])
 def test_as_the_scene(run, lmp_exe, tmp_path, script, variables, case, n):

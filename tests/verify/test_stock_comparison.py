@@ -28,7 +28,7 @@ def run(lmp, example, tmp_path):
 
 @pytest.mark.parametrize("script, variables", [
     ("in.shock", dict(dim=2, rho=1, tstop=5)),
-    ("in.shock", dict(dim=3, rho=1, tstop=0.75)),
+    ("in.shock", dict(dim=3, rho=1, tstop=0.4)),
     ("in.collapse", dict(tstop=0.1)),
 ])
 def test_parity(run, script, variables):

@@ -179,9 +179,10 @@ dump_modify d format float %.17g sort id
 """
 
 
-@pytest.mark.parametrize("types, name, neigh", [
-    pytest.param(types, name, neigh, marks=[pytest.mark.long] * ((types == 2) != ((name == "riemann") == ("delay 5" in neigh))))
-    for types in (1, 2) for name in ("monaghan", "riemann") for neigh in ("delay 5 every 5 check yes", "delay 0 every 1 check yes")])
+@pytest.mark.each_value
+@pytest.mark.parametrize("neigh", ["delay 5 every 5 check yes", "delay 0 every 1 check yes"])
+@pytest.mark.parametrize("name", ["monaghan", "riemann"])
+@pytest.mark.parametrize("types", [1, 2])
 def test_lists_are_long_enough(lmp, tmp_path, name, neigh, types):
     """a hot ball blows up in cold gas: rates and forces at a step are those of all pairs, found by brute force, so none is missed
 

@@ -21,6 +21,7 @@ from . import engine, lammps, slurm
 
 OF_SLURM = ("nodes", "time", "partition", "account", "sbatch", "poll")  # options
 RANKS = 2  # of a run, by default
+LOOK = 0.05  # seconds between looks for runs that are over
 WATCH = 10  # seconds between looks for runs that write nothing
 
 
@@ -125,7 +126,7 @@ def run(place, most, jobs, what, more=lambda job: []):
                     bar.n = work + sum(part * job.weight for (part, _), job in zip(stages, running))
                     bar.set_postfix_str("; ".join(job.name + text for (_, text), job in zip(stages, running)))
                     look = time.monotonic() + place.pause
-                time.sleep(0.05)
+                time.sleep(LOOK)
         except KeyboardInterrupt:
             print(f"interrupted: {place.interrupted()}", file=sys.stderr)
             raise
