@@ -16,7 +16,7 @@
 #include "atom_vec.h"
 #include "comm.h"
 #include "error.h"
-#include "fix.h"
+#include "fix_property_atom.h"
 #include "modify.h"
 #include "utils.h"
 
@@ -83,13 +83,31 @@ void check_types(LAMMPS *lmp)
 
 /* ---------------------------------------------------------------------- */
 
-void check_masses(LAMMPS *lmp)
+// protected members of LAMMPS
+
+struct Borders : Comm {
+  static int group(Comm *comm) { return comm->*&Borders::bordergroup; }
+};
+
+struct Masses : FixPropertyAtom {
+  static bool sent_by(FixPropertyAtom *fix)
+  {
+    return fix->*&Masses::rmass_flag && fix->*&Masses::border;
+  }
+};
+
+void check_ghosts(LAMMPS *lmp)
 {
+  if (Borders::group(lmp->comm))
+    lmp->error->all(FLERR,
+                    "Pairs across ranks and periodic faces need ghosts of all particles: use "
+                    "comm_modify group all");
+
   if (!lmp->atom->rmass) return;
   const std::vector<std::string> &sent = lmp->atom->avec->fields_border;
   if (std::find(sent.begin(), sent.end(), "rmass") != sent.end()) return;
-  for (const Fix *const fix : lmp->modify->get_fix_by_style("^property/atom"))
-    if (fix->comm_border) return;
+  for (Fix *const fix : lmp->modify->get_fix_by_style("^property/atom"))
+    if (auto *const one = dynamic_cast<FixPropertyAtom *>(fix); one && Masses::sent_by(one)) return;
   lmp->error->all(FLERR,
                   "Masses of particles are not those of their ghosts: use fix ID all "
                   "property/atom rmass ghost yes");

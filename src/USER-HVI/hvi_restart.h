@@ -33,9 +33,9 @@ double *stored_at(LAMMPS_NS::Atom *, int i, int nth);
 
 void check_types(LAMMPS_NS::LAMMPS *);
 
-// an error if masses of particles do not go to ghosts
+// an error if ghosts lack what pairs need: they are there of one group only, or without the masses of their particles
 
-void check_masses(LAMMPS_NS::LAMMPS *);
+void check_ghosts(LAMMPS_NS::LAMMPS *);
 
 /* ----------------------------------------------------------------------
    A section of ours in a restart file, after the number of its form, its size and its checksum: one of another form, or

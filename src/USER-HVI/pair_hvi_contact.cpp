@@ -399,7 +399,7 @@ void PairHVIContact::init_style()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Pair style hvi/contact does not support run_style respa");
   HVI::check_types(lmp);
-  HVI::check_masses(lmp);
+  HVI::check_ghosts(lmp);
 
   neighbor->add_request(this);
   if (!force->pair_match("^hvi/sph$", 0)) {

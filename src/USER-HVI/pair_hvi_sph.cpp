@@ -495,7 +495,7 @@ void PairHVISPH::init_style()
                "Pair style hvi/sph needs units in which force = mass * acceleration: "
                "si, cgs, micro, nano or lj");
   HVI::check_types(lmp);
-  HVI::check_masses(lmp);
+  HVI::check_ghosts(lmp);
   if (store && modify->nfix_restart_peratom > 0) store->has_forgotten = true;
 
   store = FixHVIStore::instance(lmp);
