@@ -11,7 +11,7 @@ import textwrap
 import unicodedata
 import warnings
 
-from .errors import HVIError, HVIWarning, missing
+from .errors import HVIError, HVIWarning, missing, will_write
 from .places import program
 from .version import version
 
@@ -120,6 +120,9 @@ def main(arguments=None):
             print(f"hvi: warning: {message}", file=sys.stderr) if issubclass(kind, HVIWarning) else None)
         try:
             args = parse(sys.argv[1:] if arguments is None else arguments)
+            for option in ("out", "output", "figure"):  # what is written last, after minutes of reading
+                if path := getattr(args, option, None):
+                    will_write(path)
             status = args.run(args) or 0
             sys.stdout.flush()
             return status

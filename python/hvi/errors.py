@@ -2,7 +2,9 @@
 """What goes wrong is said in one line: what, where, and what would help."""
 
 import contextlib
+import errno
 import importlib
+import os
 import sys
 
 
@@ -33,6 +35,15 @@ def reading(path):
 
 def writing(path):
     return _said(f"write {path}", OSError)
+
+
+def will_write(path):
+    """raises at once what writing the file would in the end: there is no such folder, or it is not ours"""
+    folder = os.path.dirname(path) or "."
+    with writing(path):
+        os.stat(folder + os.sep)
+        if not (os.path.exists(path) or os.access(folder, os.W_OK)):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
 
 
 NAMES = {"PIL": ("Pillow", "pil"), "yaml": ("PyYAML", "yaml"), "MDAnalysis": ("MDAnalysis", "mdanalysis")}  # of libraries whose module has another name: (library, Debian's)

@@ -72,6 +72,14 @@ def test_where_nothing_can_be_written(folder, capsys, name):
         assert status == 1 and len(said) == 1 and f"full{given[4:]}" in said[0] and "No space left on device" in said[0], said
 
 
+@pytest.mark.parametrize("words", [["view", "gone.dump", "--output"], ["view", "gone.dump", "--figure"], ["cloud", "gone.dump", "--axis", "z", "--plane", "0", "--figure"],
+                                   ["report", "gone", "--out"], ["movie", "gone", "--out"]])
+def test_said_before_anything_is_read(folder, capsys, words):
+    for where, reason in (("no", "No such file or directory"), ("a.dump", "Not a directory")):
+        status, said = line([*words, str(folder / where / "name")], capsys)
+        assert status == 1 and len(said) == 1 and f"{where}/name: {reason}" in said[0], said
+
+
 def as_nobody(words, cwd, **environment):
     """who may not write here: root may write anywhere"""
     if os.geteuid():
