@@ -2,6 +2,7 @@
 
     python3 pieces.py --speed 4.25 --across 10 --shifts 0 0.125 0.25 0.375 0.5
     python3 pieces.py --speed 3.63 --across 14 --sigma 1.5       the sphere's sigma of spall voids 1.5 times that of its file
+    python3 pieces.py --speed 3.63 --across 14 --rate 1e6 2      its flow stress twice as large at 1e6 1/s, 1.1 times at 1e4
     python3 pieces.py --speed 3.63 --across 14 --scale 3         all lengths, and the time, three times as large
 
 Says the largest piece that is sound and hangs together, as a part of the mass of the sphere: mean, least and most over the shifts. tables.md has what came of it.
@@ -29,21 +30,21 @@ settings: {{film: -1, quarter: '{quarter}'}}
 """
 
 
-def metal(sigma, phi_c):
-    """text of the file of the sphere, with these constants of spall voids so many times as large"""
-    head, section, rest = METAL.read_text().partition("\nspall voids\n")
-    for key, factor in (("sigma", sigma), ("phi_c", phi_c)):
-        rest, n = re.subn(rf"(?m)^(  {key} +)(\S+)", lambda old: f"{old[1]}{factor * float(old[2]):.6g}", rest, count=1)
+def metal(factors, rate):
+    """text of the file of the sphere: {(section, key): so many times as large}, and D and p of the second rate term of its strength"""
+    text = METAL.read_text()
+    for (section, key), factor in factors.items():
+        text, n = re.subn(rf"(?ms)(^{section}\n(?:(?!^\w).)*?^  {key} +)(\S+)", lambda old: f"{old[1]}{factor * float(old[2]):.6g}", text, count=1)
         if n != 1:
-            sys.exit(f"{METAL}: no {key} in its section spall voids")
-    return head + section + rest
+            sys.exit(f"{METAL}: no {key} in its section {section}")
+    return text.replace("\nstrength johnson-cook\n", f"\nstrength johnson-cook\n  D {rate[0]:g}\n  p {rate[1]:g}\n") if rate else text
 
 
-def largest(lmp, speed, across, fill, shift, quarter, sigma, phi_c, scale):
-    """the largest piece behind wall 1"""
+def largest(lmp, speed, across, fill, shift, quarter, sphere, scale):
+    """the largest piece behind wall 1; sphere: the text of its file"""
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
-        (folder / "sphere.hvi").write_text(metal(sigma, phi_c))
+        (folder / "sphere.hvi").write_text(sphere)
         (folder / "pieces.yaml").write_text(CASE.format(material=folder / "sphere.hvi", diameter=3.18 * scale, bumper=0.794 * scale, wall=3 * scale, gap=50.8 * scale, coarse=scale,
                                                         fill=fill, speed=speed, spacing=3.18 * scale / across, shift=shift, quarter=quarter))
         hvi = [sys.executable, "-m", "hvi"]
@@ -64,9 +65,13 @@ def main():
     parser.add_argument("--quarter", choices=("auto", "no"), default="auto", help="no: the whole shield, without mirror planes")
     parser.add_argument("--sigma", type=float, default=1.0, help="of spall voids of the sphere, over that of its file")
     parser.add_argument("--phi-c", type=float, default=1.0, help="likewise")
+    parser.add_argument("--flow", type=float, default=1.0, help="A and B of its strength johnson-cook, likewise")
+    parser.add_argument("--rate", type=float, nargs=2, metavar=("D", "p"), help="a second rate term of that strength: (rate/D)^(1/p), D in 1/s")
     parser.add_argument("--scale", type=float, default=1.0, help="of all lengths")
     args = parser.parse_args()
-    found = [largest(args.lmp, args.speed, args.across, args.fill, shift, args.quarter, args.sigma, args.phi_c, args.scale) for shift in args.shifts]
+    factors = {("spall voids", "sigma"): args.sigma, ("spall voids", "phi_c"): args.phi_c, ("strength johnson-cook", "A"): args.flow, ("strength johnson-cook", "B"): args.flow}
+    sphere = metal(factors, args.rate)
+    found = [largest(args.lmp, args.speed, args.across, args.fill, shift, args.quarter, sphere, args.scale) for shift in args.shifts]
     print(f"mean {sum(found) / len(found):.3g} least {min(found):.3g} most {max(found):.3g}; " + ", ".join(f"{a:.3g} with {s:g}" for a, s in zip(found, args.shifts)))
 
 
