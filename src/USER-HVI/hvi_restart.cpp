@@ -15,9 +15,12 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix_property_atom.h"
+#include "force.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "utils.h"
 
 #include <algorithm>
@@ -103,8 +106,23 @@ void check_ghosts(LAMMPS *lmp)
                     "Pairs across ranks and periodic faces need ghosts of all particles: use "
                     "comm_modify group all");
 
-  if (!lmp->atom->rmass) return;
-  const std::vector<std::string> &sent = lmp->atom->avec->fields_border;
+  // these lists take a pair with a ghost by the sum of both IDs, which must not overflow
+
+  const Atom *const atom = lmp->atom;
+  if (lmp->force->newton_pair &&
+      (lmp->domain->triclinic || lmp->neighbor->style == Neighbor::NSQ)) {
+    tagint largest = 0, here = 0;
+    for (int i = 0; i < atom->nlocal; i++) here = MAX(here, atom->tag[i]);
+    MPI_Allreduce(&here, &largest, 1, MPI_LMP_TAGINT, MPI_MAX, lmp->world);
+    if (largest > MAXTAGINT / 2)
+      lmp->error->all(FLERR,
+                      "IDs up to {} are too large for neighbor style nsq and tilted boxes: pairs "
+                      "would be counted twice: use reset_atoms id, or newton off",
+                      largest);
+  }
+
+  if (!atom->rmass) return;
+  const std::vector<std::string> &sent = atom->avec->fields_border;
   if (std::find(sent.begin(), sent.end(), "rmass") != sent.end()) return;
   for (Fix *const fix : lmp->modify->get_fix_by_style("^property/atom"))
     if (auto *const one = dynamic_cast<FixPropertyAtom *>(fix); one && Masses::sent_by(one)) return;

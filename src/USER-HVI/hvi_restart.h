@@ -33,7 +33,8 @@ double *stored_at(LAMMPS_NS::Atom *, int i, int nth);
 
 void check_types(LAMMPS_NS::LAMMPS *);
 
-// an error if ghosts lack what pairs need: they are there of one group only, or without the masses of their particles
+// an error if ghosts lack what pairs need: they are there of one group only, or without the masses of their particles,
+// or have IDs that are too large for lists
 
 void check_ghosts(LAMMPS_NS::LAMMPS *);
 

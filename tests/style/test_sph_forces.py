@@ -1,6 +1,7 @@
 """Forces and rates of SPH on one state: those of the equations, on every layout, in every scene."""
 
 import itertools
+import re
 
 import numpy as np
 import pytest
@@ -189,3 +190,19 @@ def test_norms_are_known():
     assert norm("cubic", 2) == pytest.approx(5 / (14 * np.pi), rel=1e-12)
     assert norm("cubic", 3) == pytest.approx(1 / (4 * np.pi), rel=1e-12)
     assert norm("lucy", 3) == pytest.approx(105 / (16 * np.pi), rel=1e-12)
+
+
+@pytest.mark.parametrize("nranks", [1, 3])
+def test_large_ids(lmp, tmp_path, nranks):
+    """from 2^30 on LAMMPS's lists of all pairs would count some twice: refused; other lists do not mind, on any rank"""
+    state = random_fluid(6, seed=4, h=1.1)
+    text = scene(state, tmp_path / "s.data", "pair_style hvi/sph cubic\n" + COEFF.format(state.h) + "pair_coeff 1 2 tension yes\n").replace("map array", "map hash")
+    large = re.sub(r"(?m)^(\d+)(?=( [-+.\de]+){3,}$)", lambda id: str(int(id[1]) + 1_500_000_000), (tmp_path / "s.data").read_text())
+    lmp(text + RATES.format("small"), nranks=nranks)
+    (tmp_path / "s.data").write_text(large)
+    nsq = text.replace(" bin", " nsq")
+    lmp(text + RATES.format("bin"), nranks=nranks)
+    lmp(nsq.replace("newton on", "newton off") + RATES.format("off"), nranks=nranks)
+    assert "IDs up to 1500000216 are too large for neighbor style nsq" in lmp(nsq + "run 0\n", nranks=nranks, expect_fail=True).error
+    for name in ("bin", "off"):
+        close(read_rates(tmp_path / name), read_rates(tmp_path / "small"))
