@@ -26,7 +26,7 @@ walls:
 - {{thickness_mm: {wall:.6g}, material: Al6061-T6.hvi, gap_mm: {gap:.6g}, spacings_mm: [{coarse:.6g}]}}  # coarse: what becomes of it is not looked at
 spacings_mm: [{spacing:.6g}]
 shifts: [{shift}]
-settings: {{film: -1, quarter: '{quarter}'}}
+settings: {{film: -1, quarter: '{quarter}', solid: {solid}}}
 """
 
 
@@ -40,13 +40,13 @@ def metal(factors, rate):
     return text.replace("\nstrength johnson-cook\n", f"\nstrength johnson-cook\n  D {rate[0]:g}\n  p {rate[1]:g}\n") if rate else text
 
 
-def largest(lmp, speed, across, fill, shift, quarter, sphere, scale):
+def largest(lmp, speed, across, fill, shift, quarter, solid, sphere, scale):
     """the largest piece behind wall 1; sphere: the text of its file"""
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         (folder / "sphere.hvi").write_text(sphere)
         (folder / "pieces.yaml").write_text(CASE.format(material=folder / "sphere.hvi", diameter=3.18 * scale, bumper=0.794 * scale, wall=3 * scale, gap=50.8 * scale, coarse=scale,
-                                                        fill=fill, speed=speed, spacing=3.18 * scale / across, shift=shift, quarter=quarter))
+                                                        fill=fill, speed=speed, spacing=3.18 * scale / across, shift=shift, quarter=quarter, solid=solid))
         hvi = [sys.executable, "-m", "hvi"]
         subprocess.run([*hvi, "shield", folder / "pieces.yaml", "--write", folder / "run"], check=True, stdout=subprocess.DEVNULL)
         (run,) = (folder / "run").glob("*/")
@@ -63,6 +63,7 @@ def main():
     parser.add_argument("--shifts", type=float, nargs="+", default=[0.125, 0.375], help="of its lattice, in spacings")
     parser.add_argument("--fill", choices=("lattice", "glass"), default="lattice", help="of the sphere; of a glass a shift is its number")
     parser.add_argument("--quarter", choices=("auto", "no"), default="auto", help="no: the whole shield, without mirror planes")
+    parser.add_argument("--solid", default="damage yes spall voids", help="as in the settings of a case")
     parser.add_argument("--sigma", type=float, default=1.0, help="of spall voids of the sphere, over that of its file")
     parser.add_argument("--phi-c", type=float, default=1.0, help="likewise")
     parser.add_argument("--flow", type=float, default=1.0, help="A and B of its strength johnson-cook, likewise")
@@ -71,7 +72,7 @@ def main():
     args = parser.parse_args()
     factors = {("spall voids", "sigma"): args.sigma, ("spall voids", "phi_c"): args.phi_c, ("strength johnson-cook", "A"): args.flow, ("strength johnson-cook", "B"): args.flow}
     sphere = metal(factors, args.rate)
-    found = [largest(args.lmp, args.speed, args.across, args.fill, shift, args.quarter, sphere, args.scale) for shift in args.shifts]
+    found = [largest(args.lmp, args.speed, args.across, args.fill, shift, args.quarter, args.solid, sphere, args.scale) for shift in args.shifts]
     print(f"mean {sum(found) / len(found):.3g} least {min(found):.3g} most {max(found):.3g}; " + ", ".join(f"{a:.3g} with {s:g}" for a, s in zip(found, args.shifts)))
 
 
