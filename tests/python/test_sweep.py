@@ -315,6 +315,10 @@ def test_files_that_the_input_names(folder):
     (folder / "in.tiny").write_text(INPUT + "variable plate index x.data\nvariable material index other.hvi\nread_data '${plate}'\npair_coeff * * file ${material}\n")
     (folder / "s.yaml").write_text(yaml.safe_dump({**STUDY, "variables": {"plate": "../../plate.data", "material": str(folder / "tabled.hvi")}}))
     assert set(files()) == {"../../plate.data", str(folder / "tabled.hvi"), "../../../some.table"}
+    (folder / "in.tiny").write_text(INPUT + "variable where index /nowhere\ninclude ${where}/in.more\n")
+    (folder / "in.more").write_text("run 1\n")
+    (folder / "s.yaml").write_text(yaml.safe_dump({**STUDY, "variables": {"where": str(folder)}}))
+    assert files() == {f"{folder}/in.more": engine.digest(b"run 1\n")}
     (folder / "s.yaml").write_text(yaml.safe_dump({**STUDY, "variables": {"mode": "../../plate.data"}, "grid": {"speed": [1.0]}}))
     assert files() is None  # what is not read may be written
     (folder / "in.tiny").write_text(INPUT + "pair_coeff 1 1 eos table ../../../some.table &\n  h 1\n")

@@ -113,7 +113,7 @@ class Input:
         return digest("\0".join(self.texts[name] for name in sorted(self.texts)).encode())
 
     def reads(self, variables):
-        """names of the files that commands read with these variables, or else their defaults: materials, data, molecules"""
+        """names of the files that commands read with these variables, or else their defaults: materials, data, molecules, inputs"""
         known = {name: value.strip("\"'") for name, value in re.findall(r"^\s*variable\s+(\w+)\s+(?:index|string|getenv)\s+(\S+)", self.commands, re.M)}
         known.update((name, words(value)[0]) for name, value in variables.items())
 
@@ -121,6 +121,7 @@ class Input:
             return re.sub(r"\$\{(\w+)\}|\$(\w)", lambda match: str(known.get(match[1] or match[2], "$")), word.strip("\"'"))
 
         named = re.findall(r"^\s*(?:read_data|read_restart|molecule\s+\S+|pair_coeff\s.*?\b(?:file|eos\s+table))\s+(\S+)", self.commands, re.M)
+        named += re.findall(r"^\s*include\s+(\S*\$\S*)", self.commands, re.M)  # the others are in texts
         return [word for word in map(filled, named) if "$" not in word and "*" not in word]
 
     def check(self, variables, where):
