@@ -306,7 +306,7 @@ WRONG = [
     (["fragments", "a.dump", *MASS, "--column", "c_frag", "--all", "--figure", "f"], "--all makes a table"),
     (["map", "a.dump", *MASS, "--plane", "9", "--figure", "m"], "no particles beyond z = 9"),
     (["map", "a.dump", *MASS, "--bins", "0", "5", "--figure", "m"], "a map needs at least one bin each way"),
-    (["map", "a.dump", *MASS, "--figure", "none/m"], "cannot write none/m.png"),
+    (["map", "a.dump", *MASS, "--figure", "none/m"], "cannot write none/m: No such file"),
     (["view", "a.dump", *MASS, "--color", "fragment", "--figure", "v"], "what is a fragment?"),
     (["view", "a.dump", *MASS, "--color", "heat", "--figure", "v"], "has no column heat; it has: id"),
     (["view", "a.dump", *MASS, "--up", "z", "--figure", "v"], "up must be another direction than the axis"),
