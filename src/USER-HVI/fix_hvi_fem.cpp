@@ -187,18 +187,14 @@ void FixHVIFEM::init()
 }
 
 /* ----------------------------------------------------------------------
-   A run begins: masses that nobody has given, and which particles are embedded, before particles go to other ranks
+   A run begins: which particles are embedded, and state of new elements, before particles go to other ranks
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::setup_pre_exchange()
 {
-  atom->nghost = 0;
-  atom->map_init();
-  atom->map_set();
-  connect();
+  find_here();
   coupling.mark();
   find_laws();
-  gather_nodes(0.0, true);
   start_elements();
   gather_nodes(0.0, true);    // with the places and masses of new ones
   check_state();
@@ -527,21 +523,65 @@ void FixHVIFEM::find_laws()
 }
 
 /* ----------------------------------------------------------------------
-   Elements without a mass are new: at rest in their material.  So is a particle without one of its own.  Masses of
-   nodes and embedded particles are those that elements give them, or momentum would not be that of the material.
+   Elements without a mass are new.  Masses of nodes and embedded particles are those that elements give them, or momentum
+   would not be that of the material.  A free particle without one of its own has that of its type.
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::give_masses()
+{
+  double *const rmass = atom->rmass;
+  const FixHVIStore *const store = FixHVIStore::find(lmp);
+  if (!rmass || !store) return;    // errors of init()
+  FixHVIFEMMesh::init();
+  int here = 0, anywhere;
+  for (const Element &one : elements) here |= one.mass == 0.0;
+  for (int i = 0; i < atom->nlocal; i++) here |= rmass[i] == 0.0 && !nodal(i);
+  MPI_Allreduce(&here, &anywhere, 1, MPI_INT, MPI_MAX, world);
+  if (!anywhere) return;
+
+  find_here();
+  std::vector<double> node_mass(nodes.size(), 0.0), embedded_mass;
+  for (std::size_t e = 0; e < elements.size(); e++) {
+    const Element &one = elements[e];
+    const HVI::Material *const material = store->materials.of(one.type);
+    HVI::Corners x;
+    places(e, x);
+    const double mass = one.mass == 0.0 && material ? material->eos->rho0() * HVI::hex_volume(x)
+                                                    : 0.0;
+    for (int a = 0; a < CORNERS; a++) node_mass[number(e, a)] += mass / CORNERS;
+    embedded_mass.resize(embedded_mass.size() + one.particles(), mass / one.particles());
+  }
+  of_nodes.scatter(node_mass, [&](int i, double mass) {
+    rmass[i] += mass;
+  });
+  std::vector<char> is_free(atom->nlocal, 1);
+  of_embedded.scatter(embedded_mass, [&](int i, double mass) {
+    is_free[i] = 0;
+    if (mass > 0.0) rmass[i] = mass;
+  });
+  for (int i = 0; i < atom->nlocal; i++)
+    if (rmass[i] == 0.0 && is_free[i] && !nodal(i)) rmass[i] = atom->mass[atom->type[i]];
+}
+
+// elements and nodes that are here
+
+void FixHVIFEM::find_here()
+{
+  atom->nghost = 0;
+  atom->map_init();
+  atom->map_set();
+  connect();
+  gather_nodes(0.0, true);
+}
+
+/* ----------------------------------------------------------------------
+   New elements are at rest in their material
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::start_elements()
 {
-  struct Mass {
-    double given, all;    // by new elements, by all
-  };
-  double *const rmass = atom->rmass;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (rmass[i] == 0.0 && !nodal(i) && !(atom->mask[i] & coupling.store->embedded))
-      rmass[i] = atom->mass[atom->type[i]];
-
-  std::vector<Mass> node_mass(nodes.size(), {0.0, 0.0}), embedded_mass;
+  std::vector<double> node_mass(nodes.size(), 0.0), embedded_mass;
+  std::vector<std::int64_t> are_new;
   double least = HUGE_VAL;
   bigint bad = 0;
   for (std::size_t e = 0; e < elements.size(); e++) {
@@ -555,33 +595,28 @@ void FixHVIFEM::start_elements()
                  "numbered around the bottom and then above it, seen from inside against the clock",
                  one.id);
     if (is_new && mechanics.is_distorted(x)) bad++;
-    for (int a = 0; a < CORNERS; a++) {
-      Mass &node = node_mass[number(e, a)];
-      node.given += is_new ? one.mass / CORNERS : 0.0;
-      node.all += one.mass / CORNERS;
-    }
-    const double mass = one.mass / one.particles();
-    embedded_mass.resize(embedded_mass.size() + one.particles(), {is_new ? mass : 0.0, mass});
+    for (int a = 0; a < CORNERS; a++) node_mass[number(e, a)] += one.mass / CORNERS;
+    embedded_mass.resize(embedded_mass.size() + one.particles(), one.mass / one.particles());
+    are_new.resize(embedded_mass.size(), is_new);
     least = std::min(least, std::cbrt(one.V0));
   }
   std::vector<double> should(atom->nlocal, 0.0);
-  of_nodes.scatter(node_mass, [&](int i, const Mass &mass) {
+  of_nodes.scatter(node_mass, [&](int i, double mass) {
     coupling.check_group(i);
-    rmass[i] += mass.given;
-    should[i] += mass.all;
+    should[i] += mass;
   });
-  of_embedded.scatter(embedded_mass, [&](int i, const Mass &mass) {
-    if (mass.given > 0.0) {
-      rmass[i] = mass.given;
-      if (atom->esph[i] != 0.0)
-        error->one(FLERR,
-                   "Fix hvi/fem: particle {} has an internal energy of {}, and its element is new: "
-                   "elements begin without, and embedded particles have theirs",
-                   atom->tag[i], atom->esph[i]);
-    }
-    should[i] = mass.all;
+  of_embedded.scatter(embedded_mass, [&](int i, double mass) {
+    should[i] = mass;
+  });
+  of_embedded.scatter(are_new, [&](int i, std::int64_t is_new) {
+    if (is_new && atom->esph[i] != 0.0)
+      error->one(FLERR,
+                 "Fix hvi/fem: particle {} has an internal energy of {}, and its element is new: "
+                 "elements begin without, and embedded particles have theirs",
+                 atom->tag[i], atom->esph[i]);
   });
   bigint without = 0, everywhere;
+  const double *const rmass = atom->rmass;
   for (int i = 0; i < atom->nlocal; i++) {
     if (nodal(i) && valence[i] == 0 && total > 0) without++;
     if (should[i] > 0.0 && std::fabs(rmass[i] - should[i]) > 1.0e-9 * should[i])

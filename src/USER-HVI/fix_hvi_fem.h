@@ -70,6 +70,7 @@ class FixHVIFEM :
   double void_work(int) const override;
 
   bool is_node(int itype) const override { return node_types[itype]; }
+  void give_masses() override;
   int copies() const override { return of_nodes.size() + of_embedded.size(); }
   void join(HVI::Components &, const std::vector<std::int64_t> &, int, bool) override;
   void copy(HVI::Components::Node *, int) override;
@@ -117,6 +118,7 @@ class FixHVIFEM :
 
   // the start of a run
 
+  void find_here();
   void find_laws();
   void start_elements();
   void keep_on_planes(bool start = false);

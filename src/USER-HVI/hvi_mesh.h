@@ -27,6 +27,10 @@ class Mesh {
   virtual ~Mesh() noexcept(false) {}
   virtual bool is_node(int itype) const = 0;
 
+  // of nodes and particles of new elements, before other fixes and computes ask LAMMPS for masses in their init()
+
+  virtual void give_masses() = 0;
+
   // between the two sweeps, when all have the sums of the first: elements are brought to the end of the
   // step, and with them state, density and pressure of the particles they hold
 

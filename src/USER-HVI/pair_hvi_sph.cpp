@@ -504,7 +504,9 @@ void PairHVISPH::init_style()
   integrator = integrators.empty() ? nullptr : dynamic_cast<FixHVISPH *>(integrators[0]);
   lists = FixHVILists::make(lmp, !integrator || integrator->relative_lists(), false);
   strength = FixHVIJohnsonCook::find(lmp);
-  if (!HVI::find_mesh(lmp)) {
+  if (HVI::Mesh *const mesh = HVI::find_mesh(lmp)) {
+    mesh->give_masses();
+  } else {
     store->fields.embedded.clear();
     store->fields.idle.clear();
   }

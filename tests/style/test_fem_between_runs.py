@@ -151,3 +151,16 @@ def test_orphans_at_a_mirror_plane(lmp, nranks):
         t = lmp(text + "thermo_style custom step f_wall f_wall[1] f_wall[6]\nrun 60\n", nranks=nranks).thermo
         found.append([t[name][-1] for name in ("f_wall", "f_wall[1]", "f_wall[6]")])
     assert found == [[2, 2, 0], [1, 1, 0]]
+
+
+@pytest.mark.parametrize("nranks, newton", [(1, "off"), (3, "on")])
+def test_masses_are_there_in_the_first_run(lmp, nranks, newton):
+    """for computes and fixes that ask for them before it begins, wherever they stand: center and gyration as in a second run, and a ball that has its momentum taken stands"""
+    mesh, strike_it = strike_plate()
+    measures = "compute center ball com\ncompute width ball gyration\nvariable z equal xcm(ball,z)\nvariable v equal vcm(ball,z)\n" \
+        "thermo_style custom step c_center[3] v_z c_width v_v\nthermo_modify format float %.15g\n"
+    text = start(mesh, newton=newton).replace("fix move all", "group ball type 1\nfix still ball momentum 1 linear 1 1 1\nfix move all") + strike_it + measures
+    first, second = lmp(text + "run 10\nrun 0\n", nranks=nranks).runs
+    assert first["c_center[3]"] == pytest.approx(first["v_z"], rel=1e-9) and abs(first["v_z"][0]) > EDGE
+    assert first["c_width"][-1] == pytest.approx(second["c_width"][0], rel=1e-12) and first["c_width"][0] > 0.5 * EDGE
+    assert first["v_v"][0] == pytest.approx(-3000) and abs(first["v_v"][-1]) < 1e-6

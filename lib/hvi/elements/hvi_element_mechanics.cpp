@@ -29,10 +29,7 @@ SolidInput ElementMechanics::input(const Element &one)
 
 bool ElementMechanics::start(Element &one, const Corners &x) const
 {
-  HexNodes y, B;
-  for (int k = 0; k < 3; k++)
-    for (int a = 0; a < CORNERS; a++) y[k][a] = Vec{} + x[a][k];
-  one.V = one.V0 = hex_gradient(y, B)[0];
+  one.V = one.V0 = hex_volume(x);
   if (!(one.V > 0.0) || !(hex_shape(x).jacobian > 0.0)) return false;
   one.rho = law(one).eos->rho0();
   one.mass = one.rho * one.V;

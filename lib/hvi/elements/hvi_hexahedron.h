@@ -259,6 +259,16 @@ inline double hex_stiffness(double K, double G)
   return 4.0 * G * (3.0 * K + G) / ((3.0 * K + 4.0 * G) * (3.0 * K + 4.0 * G));
 }
 
+// of one element
+
+inline double hex_volume(const double x[CORNERS][3])
+{
+  HexNodes y, B;
+  for (int k = 0; k < 3; k++)
+    for (int a = 0; a < CORNERS; a++) y[k][a] = Vec{} + x[a][k];
+  return hex_gradient(y, B)[0];
+}
+
 // how far from a cube one element is: the smallest scaled Jacobian of its corners, 1 for right angles,
 // and its longest over its shortest edge
 
