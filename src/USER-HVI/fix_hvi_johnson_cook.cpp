@@ -41,7 +41,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 using Solid = HVI::SolidState;
-enum { STATE, FORCES, VOIDS };
+enum { STATE, FORCES, VOIDS, IDS };
 }    // namespace
 
 constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
@@ -73,6 +73,8 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"work", VOIDS, offsetof(Solid, voids.work)},
     {"initiation", VOIDS, offsetof(Solid, initiation)},
 
+    {"first_id", IDS, offsetof(Solid, id)},    // as it was: read_data may give others
+
     // made anew when a run begins
     {nullptr, 0, offsetof(Solid, p_min)},
 };
@@ -80,7 +82,8 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
 /* ---------------------------------------------------------------------- */
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
-    FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces", "_voids"}),
+    FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS,
+                  {"", "_forces", "_voids", "_ids"}),
     store(nullptr), in_setup(true), checked(false)
 {
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
@@ -274,6 +277,8 @@ void FixHVIJohnsonCook::init()
   check_restored();
   restored.clear();    // later runs of this script may use another fix
   check_state();
+  for (int i = 0; i < atom->nlocal && options.weibull > 0.0; i++)
+    if (extra[i].id == 0.0) extra[i].id = atom->tag[i];    // commands may give others later
   checked = false;
 }
 
@@ -340,7 +345,7 @@ void FixHVIJohnsonCook::make_models()
                      "does not spall",
                      material->name, itype, HVI::spall_model(options.spall).section);
   }
-  wd_section = takes_time ? VOIDS + 1 : VOIDS;    // the last one, or without
+  wd_section = options.weibull > 0.0 ? IDS + 1 : takes_time ? VOIDS + 1 : VOIDS;
   if (!anywhere || (liquids && !here))
     error->all(FLERR,
                "Fix hvi/johnson-cook: no material {}has a section strength {} (there are: {}); "
@@ -473,7 +478,7 @@ HVI::SolidInput FixHVIJohnsonCook::input(int i) const
   HVI::SolidInput in = {};
   in.rho = atom->rho[i];
   in.e = atom->esph[i] / mass(i);
-  if (options.weibull > 0.0) in.id = atom->tag[i];
+  if (options.weibull > 0.0) in.id = extra[i].id > 0.0 ? extra[i].id : atom->tag[i];
   const HVI::SolidModel *const model = of(i);
   if (model && model->has_size()) in.size = spacing(i);
   return in;

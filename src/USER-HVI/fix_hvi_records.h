@@ -128,7 +128,8 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
   void check_restored();    // in init()
 
  private:
-  static constexpr int RESTART_FORMAT = 3;    // with the ID of the particle
+  static constexpr int RESTART_FORMAT =
+      4;    // with the ID of the particle, and the one that it began with
 
   const Record fresh;
   const Field *const fields;

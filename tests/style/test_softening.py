@@ -83,7 +83,7 @@ def test_data_file(lmp, tmp_path, material, jc):
     """30 steps, write_data, read_data, 30 more: as if not interrupted; with softening the section is there without voids, too"""
     lmp(start(state(seed=23), tmp_path, material, steps=0, jc=jc) + "run 30\nwrite_data half.data\n" + voids.OUT.format("half") + "run 30\n" + voids.OUT.format("whole"))
     assert "\njc_voids # id voids damage work initiation\n" in (tmp_path / "half.data").read_text()
-    text = reader(material, jc=jc).replace("fix jc NULL jc_forces", "fix jc NULL jc_forces fix jc NULL jc_voids")
+    text = reader(material, jc=jc).replace("fix jc NULL jc_forces", "fix jc NULL jc_forces fix jc NULL jc_voids" + " fix jc NULL jc_ids" * ("weibull" in jc))
     lmp(text + voids.OUT.format("read") + "run 30\n" + voids.OUT.format("part"), nranks=2)
     half, whole, again, part = (voids.read(tmp_path / f) for f in ("half", "whole", "read", "part"))
     assert np.array_equal(half["initiation"], again["initiation"]) and ((half["damage"] > 0) & (half["damage"] < 1)).sum() > 5
@@ -197,3 +197,38 @@ def test_restart_with_another_size(lmp, tmp_path, material):
     lmp(start(state(seed=23), tmp_path, material, steps=3, jc=JC) + "write_restart half\n")
     r = lmp("read_restart half\n" + NEIGHBOR + FIXES.format(JC.replace("size 2", "size 3")) + "run 1\n", expect_fail=True)
     assert "weibull 6 17 weibull_size 2, this run" in r.error and "weibull_size 3" in r.error, r.error
+
+
+TORN = """units si
+boundary s s s
+atom_style sph
+atom_modify map array
+lattice sc 1e-3 origin 0.5 0.5 0.5
+region bar block 0 4 0 4 0 10
+region far block 30 31 0 1 0 1
+region box block -1 40 -1 11 -1 11
+create_box 1 box
+"""
+LAWS = """pair_style hvi/sph cubic dissipation riemann
+pair_coeff * * file Al2024-T3.hvi spacing 1e-3
+fix step all hvi/dt 0.3
+compute st all hvi/atom damage spalled
+variable failed atom "c_st[1]>=1 || c_st[2]>0"
+compute many all reduce sum v_failed
+thermo_style custom step c_many
+"""
+SCATTER = "fix move all hvi/sph\nfix solid all hvi/johnson-cook spall principal weibull 2 4711 weibull_size 1e-3\n"
+
+
+@pytest.mark.parametrize("nranks", [1, 3])
+def test_thresholds_stay_with_their_particles(lmp, root, monkeypatch, nranks):
+    """whatever IDs commands give them later: delete_atoms, which closes gaps, and read_data add"""
+    monkeypatch.setenv("LAMMPS_POTENTIALS", str(root / "potentials"))
+    text = TORN + "create_atoms 1 region far\ncreate_atoms 1 region bar\ngroup far region far\ngroup bar region bar\n" + SCATTER + LAWS
+    text += "velocity bar ramp vz -120 120 z 0 10e-3 units box\nrun 25\n{}run 75\n"
+    want, _, got = (lmp(text.format(line), nranks=nranks).thermo["c_many"][-1] for line in (
+        "delete_atoms group far compress no\n", "write_data torn.data\n", "delete_atoms group far\n"))
+    assert want > 20 and got == want
+    sections = "".join(f" fix {of} NULL {of}{part}" for of, part in (("move", "_rates"), ("move", "_step"), ("solid", "_forces"), ("solid", "_voids"), ("solid", "_ids")))
+    again = TORN + "create_atoms 1 single 35.5 0.5 0.5\n" + SCATTER + f"read_data torn.data add append fix move NULL NULL fix solid NULL NULL{sections}\n" + LAWS
+    assert lmp(again + "run 75\n", nranks=nranks).thermo["c_many"][-1] == want

@@ -46,6 +46,7 @@ struct SolidState {
   double shear;         // modulus
   double rate;          // of plastic strain
   double expansion;     // -rho'/rho when it began to fail
+  double id;            // of the scatter of thresholds; 0: not known yet
 
   SpallVoids::State voids;    // with the impulse of Tuler & Butcher only D, the part of K used up
 
