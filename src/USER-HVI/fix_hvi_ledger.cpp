@@ -107,6 +107,11 @@ void FixHVILedger::init()
   for (const Fix *const other : modify->get_fix_list()) {
     if (other == this) before = false;
     if (!before && utils::strmatch(other->style, "^wall/reflect")) later = true;
+    if (utils::strmatch(other->style, "^recenter$"))
+      error->all(FLERR,
+                 "Compute hvi/energy with clamps goes by the way of particles, so it does not "
+                 "support fix {} (recenter), which shifts them without a velocity",
+                 other->id);
   }
 }
 

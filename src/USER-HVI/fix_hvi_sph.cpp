@@ -473,34 +473,53 @@ static void extrapolate(double &rho, double half, double &more)
 }
 
 /* ----------------------------------------------------------------------
-   a type that has got another material since the last run: masses are by it, densities may not be
+   A type that has got another material since the last run, or particles of other types: masses are by it, densities
+   may not be
 ------------------------------------------------------------------------- */
 
 void FixHVISPH::check_materials()
 {
   const int ntypes = atom->ntypes;
-  std::vector<double> at_rest(ntypes + 1, 0.0), off(ntypes + 1, 0.0);
+  std::vector<double> at_rest(ntypes + 1, 0.0);
   for (int itype = 1; itype <= ntypes; itype++)
     if (const HVI::Material *const material = store->materials.of(itype))
       at_rest[itype] = material->eos->rho0();
-  const auto changed = [&](int itype) {
-    return itype < (int) last_at_rest.size() && last_at_rest[itype] > 0.0 && at_rest[itype] > 0.0 &&
-        at_rest[itype] != last_at_rest[itype];
-  };
-  for (int i = 0; i < atom->nlocal; i++) {
-    const int itype = atom->type[i];
-    if (changed(itype) && std::fabs(atom->rho[i] - at_rest[itype]) > 0.2 * at_rest[itype])
-      off[itype] += 1.0;
-  }
-  MPI_Allreduce(MPI_IN_PLACE, off.data(), ntypes + 1, MPI_DOUBLE, MPI_SUM, world);
-  for (int itype = 1; itype <= ntypes; itype++)
-    if (off[itype] > 0.0 && comm->me == 0)
+  const Census now = census(at_rest);
+  const bool first = last_at_rest.empty();
+  for (int itype = 1; itype <= ntypes && !first; itype++) {
+    if (!(at_rest[itype] > 0.0) || now.off[itype] == 0 || comm->me) continue;
+    const double before = itype < (int) last_at_rest.size() ? last_at_rest[itype] : 0.0;
+    if (before > 0.0 && before != at_rest[itype])
       error->warning(FLERR,
                      "Fix hvi/sph: type {} had a material of density {} at rest in the last run "
                      "and now has one of {}, and {} of its particles have densities more than 20 % "
                      "off that: use set type {} sph/rho",
-                     itype, last_at_rest[itype], at_rest[itype], off[itype], itype);
+                     itype, before, at_rest[itype], now.off[itype], itype);
+    else if (itype < (int) last_census.all.size() && now.all[itype] > last_census.all[itype] &&
+             now.off[itype] > last_census.off[itype])
+      error->warning(FLERR,
+                     "Fix hvi/sph: type {} has {} particles more than at the end of the last run, "
+                     "and {} more whose densities are more than 20 % off that of its material at "
+                     "rest, {}: after set type use set type {} sph/rho",
+                     itype, now.all[itype] - last_census.all[itype],
+                     now.off[itype] - last_census.off[itype], at_rest[itype], itype);
+  }
   last_at_rest = at_rest;
+}
+
+// by type: particles, and those whose densities are more than 20 % off that of their material at rest
+
+FixHVISPH::Census FixHVISPH::census(const std::vector<double> &at_rest) const
+{
+  Census found = {std::vector<bigint>(at_rest.size(), 0), std::vector<bigint>(at_rest.size(), 0)};
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int itype = atom->type[i];
+    found.all[itype]++;
+    found.off[itype] += std::fabs(atom->rho[i] - at_rest[itype]) > 0.2 * at_rest[itype];
+  }
+  for (std::vector<bigint> *const list : {&found.all, &found.off})
+    MPI_Allreduce(MPI_IN_PLACE, list->data(), list->size(), MPI_LMP_BIGINT, MPI_SUM, world);
+  return found;
 }
 
 /* ----------------------------------------------------------------------
@@ -574,7 +593,7 @@ double FixHVISPH::first_half_solid(int i, double dtfm)
     v[k] += dtfm * f[k];
     atom->x[i][k] += dtv * v[k];
     e.v_work[k] = end + dtf / 3.0 * change;
-    e.old_a[k] = dtfm / dtf * f[k];
+    e.old_a[k] = dtf > 0.0 ? dtfm / dtf * f[k] : 0.0;
     atom->vest[i][k] = v[k];
   }
   const double drho = dtf * atom->drho[i], de = dtf * gain;
@@ -694,6 +713,7 @@ bool FixHVISPH::is_left_alone(int i) const
 
 void FixHVISPH::post_run()
 {
+  last_census = census(last_at_rest);
   for (int i = 0; i < atom->nlocal; i++) {
     extra[i].mark = remembers(i) ? fingerprint(i) : 0;
     extra[i].step = step_of(i);
@@ -1025,6 +1045,19 @@ void FixHVISPH::check_left_out() const
         "and energy stay, and what flows into them is missing in compute hvi/energy (walls "
         "GROUP if that is meant)",
         everywhere);
+
+  // what it does not move has the velocity of its way
+
+  if (!store->fields.settings.solid || modify->get_fix_by_style("^recenter$").empty()) return;
+  here = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    here += has_material(i) && !(atom->mask[i] & (groupbit | store->embedded));
+  MPI_Allreduce(&here, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (everywhere)
+    error->all(FLERR,
+               "Fix hvi/sph does not integrate {} particles, so fix recenter would give them a "
+               "velocity: use velocity all zero linear",
+               everywhere);
 }
 
 // a fixed step that signals, or stiff pairs of other styles, outrun

@@ -448,3 +448,16 @@ def test_bonds_after_a_command_that_takes_ghosts_away(lmp, nranks):
     assert "ghosts are not there: use run 0 first" in lmp(text.format(""), nranks=nranks, expect_fail=True).error
     lmp(text.format("run 0\n"), nranks=nranks)
     assert read_dump("now")["c_n"].sum() == 2 * (4 * 10 + 4 * 10)  # four periodic rows, ten squares
+
+
+def test_a_state_that_is_looked_at_without_a_step(lmp, root, tmp_path, monkeypatch):
+    """timestep 0: a data file of it has numbers only, and can be read"""
+    monkeypatch.setenv("LAMMPS_POTENTIALS", str(root / "potentials"))
+    text = (root / "tests/inputs/in.solid").read_text().replace("fix step all hvi/dt 0.5", "timestep 2e-8")
+    lmp(text + "timestep 0\nrun 3\nwrite_data state.data nocoeff\n")
+    assert "nan" not in (tmp_path / "state.data").read_text()
+    sections = "".join(f" fix {of} NULL {of}{part}" for of, part in (("move", "_rates"), ("move", "_step"), ("solid", "_forces"), ("solid", "_voids")))
+    begin, rest = text.split("create_atoms 1")[0], text[text.index("pair_style"):]
+    fixes = "fix move all hvi/sph\nfix solid all hvi/johnson-cook\n"
+    rest = "".join(line + "\n" for line in rest.splitlines() if not line.startswith(("fix move", "fix solid", "velocity")))
+    lmp(begin + fixes + f"read_data state.data add append fix move NULL NULL fix solid NULL NULL{sections}\n" + "group left type 1\ngroup right type 2\n" + rest)

@@ -333,7 +333,7 @@ int SolidModel::advance(int n, SolidState *const *state, const SolidInput *in, d
     s.S = scaled(plastic[k].S, left);
     s.eps += plastic[k].d_eps;
     s.heat += left * plastic[k].work / in[k].rho;
-    s.rate = plastic[k].d_eps / dt;
+    if (dt > 0.0) s.rate = plastic[k].d_eps / dt;    // else that of the last step
     if (fracture && plastic[k].d_eps > 0.0)
       grow_damage(s, in[k], c[k], yield, plastic[k].d_eps, dt);
     if (s.damage >= 1.0) {
