@@ -41,7 +41,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 using Solid = HVI::SolidState;
-enum { STATE, FORCES, VOIDS, IDS };
+enum { STATE, FORCES, VOIDS };
 }    // namespace
 
 constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
@@ -67,13 +67,12 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
     {"shear_before", FORCES, offsetof(Solid, before.shear)},
     {"shear", FORCES, offsetof(Solid, shear)},
     {"rate", FORCES, offsetof(Solid, rate)},
+    {"first_id", FORCES, offsetof(Solid, id)},    // as it was: read_data may give others
 
     {"voids", VOIDS, offsetof(Solid, voids.phi)},
     {"damage", VOIDS, offsetof(Solid, voids.D)},
     {"work", VOIDS, offsetof(Solid, voids.work)},
     {"initiation", VOIDS, offsetof(Solid, initiation)},
-
-    {"first_id", IDS, offsetof(Solid, id)},    // as it was: read_data may give others
 
     // made anew when a run begins
     {nullptr, 0, offsetof(Solid, p_min)},
@@ -82,8 +81,7 @@ constexpr FixHVIJohnsonCook::Field FixHVIJohnsonCook::FIELDS[] = {
 /* ---------------------------------------------------------------------- */
 
 FixHVIJohnsonCook::FixHVIJohnsonCook(LAMMPS *lmp, int narg, char **arg) :
-    FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS,
-                  {"", "_forces", "_voids", "_ids"}),
+    FixHVIRecords(lmp, narg, arg, HVI::SolidModel::blank(), FIELDS, {"", "_forces", "_voids"}),
     store(nullptr), in_setup(true), checked(false)
 {
   static_assert(covers<Solid>(FIELDS), "a number of the record is missing, or there twice");
@@ -345,7 +343,7 @@ void FixHVIJohnsonCook::make_models()
                      "does not spall",
                      material->name, itype, HVI::spall_model(options.spall).section);
   }
-  wd_section = options.weibull > 0.0 ? IDS + 1 : takes_time ? VOIDS + 1 : VOIDS;
+  wd_section = takes_time ? VOIDS + 1 : VOIDS;
   if (!anywhere || (liquids && !here))
     error->all(FLERR,
                "Fix hvi/johnson-cook: no material {}has a section strength {} (there are: {}); "

@@ -83,7 +83,7 @@ def test_data_file(lmp, tmp_path, material, jc):
     """30 steps, write_data, read_data, 30 more: as if not interrupted; with softening the section is there without voids, too"""
     lmp(start(state(seed=23), tmp_path, material, steps=0, jc=jc) + "run 30\nwrite_data half.data\n" + voids.OUT.format("half") + "run 30\n" + voids.OUT.format("whole"))
     assert "\njc_voids # id voids damage work initiation\n" in (tmp_path / "half.data").read_text()
-    text = reader(material, jc=jc).replace("fix jc NULL jc_forces", "fix jc NULL jc_forces fix jc NULL jc_voids" + " fix jc NULL jc_ids" * ("weibull" in jc))
+    text = reader(material, jc=jc).replace("fix jc NULL jc_forces", "fix jc NULL jc_forces fix jc NULL jc_voids")
     lmp(text + voids.OUT.format("read") + "run 30\n" + voids.OUT.format("part"), nranks=2)
     half, whole, again, part = (voids.read(tmp_path / f) for f in ("half", "whole", "read", "part"))
     assert np.array_equal(half["initiation"], again["initiation"]) and ((half["damage"] > 0) & (half["damage"] < 1)).sum() > 5
@@ -229,6 +229,6 @@ def test_thresholds_stay_with_their_particles(lmp, root, monkeypatch, nranks):
     want, _, got = (lmp(text.format(line), nranks=nranks).thermo["c_many"][-1] for line in (
         "delete_atoms group far compress no\n", "write_data torn.data\n", "delete_atoms group far\n"))
     assert want > 20 and got == want
-    sections = "".join(f" fix {of} NULL {of}{part}" for of, part in (("move", "_rates"), ("move", "_step"), ("solid", "_forces"), ("solid", "_voids"), ("solid", "_ids")))
+    sections = "".join(f" fix {of} NULL {of}{part}" for of, part in (("move", "_rates"), ("move", "_step"), ("solid", "_forces")))
     again = TORN + "create_atoms 1 single 35.5 0.5 0.5\n" + SCATTER + f"read_data torn.data add append fix move NULL NULL fix solid NULL NULL{sections}\n" + LAWS
     assert lmp(again + "run 75\n", nranks=nranks).thermo["c_many"][-1] == want
