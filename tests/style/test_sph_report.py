@@ -88,9 +88,9 @@ SCENES = [
     ("dissipation riemann", None, 160 + 96, 22, 11, 11, ["Riemann problems"], "", ""),
     ("mirror x -0.1 lo", None, 160, 22, 0, 0, ["viscosity", "mirror planes"], "", ""),
     # traction, and with bodies or rubble the record of what touches; limits and traction forward; L, H, M, nu back, and forces
-    ("", "", 160 + 192 + 128 + 4, 22 + 20, 3 + 15, 22 + 3, ["viscosity", "stress", "corrected forces"],
+    ("", "", 160 + 192 + 128 + 4, 22 + 21, 3 + 15, 22 + 3, ["viscosity", "stress", "corrected forces"],
      ", strength johnson-cook, damage johnson-cook, spall principal", ", liquid"),
-    ("dissipation riemann artstress 0.3 4", "damage no spall none", 160 + 192 + 128 + 64 + 4, 22 + 20, 3 + 6 + 15 + 6, 22 + 3,
+    ("dissipation riemann artstress 0.3 4", "damage no spall none", 160 + 192 + 128 + 64 + 4, 22 + 21, 3 + 6 + 15 + 6, 22 + 3,
      ["Riemann problems", "stress", "corrected forces", "artificial stress"], ", strength johnson-cook", ", liquid"),
 ]
 
