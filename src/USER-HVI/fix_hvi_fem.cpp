@@ -540,20 +540,36 @@ void FixHVIFEM::give_masses()
   if (!anywhere) return;
 
   find_here();
-  std::vector<double> node_mass(nodes.size(), 0.0), embedded_mass;
+  struct Mass {
+    double old, all;    // of elements that have begun, of all
+  };
+  std::vector<Mass> node_mass(nodes.size(), {0.0, 0.0});
+  std::vector<double> embedded_mass;
   for (std::size_t e = 0; e < elements.size(); e++) {
     const Element &one = elements[e];
     const HVI::Material *const material = store->materials.of(one.type);
     HVI::Corners x;
     places(e, x);
-    const double mass = one.mass == 0.0 && material ? material->eos->rho0() * HVI::hex_volume(x)
-                                                    : 0.0;
-    for (int a = 0; a < CORNERS; a++) node_mass[number(e, a)] += mass / CORNERS;
-    embedded_mass.resize(embedded_mass.size() + one.particles(), mass / one.particles());
+    const double given = one.mass == 0.0 && material ? material->eos->rho0() * HVI::hex_volume(x)
+                                                     : 0.0;
+    for (int a = 0; a < CORNERS; a++) {
+      Mass &node = node_mass[number(e, a)];
+      node.old += one.mass / CORNERS;
+      node.all += (one.mass + given) / CORNERS;
+    }
+    embedded_mass.resize(embedded_mass.size() + one.particles(), given / one.particles());
   }
-  of_nodes.scatter(node_mass, [&](int i, double mass) {
-    rmass[i] += mass;
+
+  // other masses that a node has are an error when the run begins; commands before it may come here several times
+
+  std::vector<Mass> sums(atom->nlocal, {0.0, 0.0});
+  of_nodes.scatter(node_mass, [&](int i, const Mass &mass) {
+    sums[i].old += mass.old;
+    sums[i].all += mass.all;
   });
+  for (int i = 0; i < atom->nlocal; i++)
+    if (nodal(i) && std::fabs(rmass[i] - sums[i].old) <= 1.0e-9 * sums[i].all)
+      rmass[i] = sums[i].all;
   std::vector<char> is_free(atom->nlocal, 1);
   of_embedded.scatter(embedded_mass, [&](int i, double mass) {
     is_free[i] = 0;

@@ -153,14 +153,21 @@ def test_orphans_at_a_mirror_plane(lmp, nranks):
     assert found == [[2, 2, 0], [1, 1, 0]]
 
 
-@pytest.mark.parametrize("nranks, newton", [(1, "off"), (3, "on")])
-def test_masses_are_there_in_the_first_run(lmp, nranks, newton):
+@pytest.mark.parametrize("nranks, newton, command", [
+    (1, "off", ""), (3, "on", ""), (1, "on", "balance 1.0 shift z 5 1.05\nwrite_restart before\n"), (2, "off", "delete_atoms overlap 1e-5 ball ball compress no\nwrite_restart before\n")])
+def test_masses_are_there_in_the_first_run(lmp, nranks, newton, command):
     """for computes and fixes that ask for them before it begins, wherever they stand: center and gyration as in a second run, and a ball that has its momentum taken stands"""
     mesh, strike_it = strike_plate()
     measures = "compute center ball com\ncompute width ball gyration\nvariable z equal xcm(ball,z)\nvariable v equal vcm(ball,z)\n" \
         "thermo_style custom step c_center[3] v_z c_width v_v\nthermo_modify format float %.15g\n"
     text = start(mesh, newton=newton).replace("fix move all", "group ball type 1\nfix still ball momentum 1 linear 1 1 1\nfix move all") + strike_it + measures
-    first, second = lmp(text + "run 10\nrun 0\n", nranks=nranks).runs
+    first, second = lmp(text + command + "run 10\nrun 0\n", nranks=nranks).runs
     assert first["c_center[3]"] == pytest.approx(first["v_z"], rel=1e-9) and abs(first["v_z"][0]) > EDGE
     assert first["c_width"][-1] == pytest.approx(second["c_width"][0], rel=1e-12) and first["c_width"][0] > 0.5 * EDGE
     assert first["v_v"][0] == pytest.approx(-3000) and abs(first["v_v"][-1]) < 1e-6
+    if command:  # a restart file from before the first run
+        head, rest = text.split("\n", 1)
+        again = head + "\natom_modify map yes\nread_restart before\nfix prop all property/atom rmass ghost yes\n" + text[text.index("group ball type 1"):]
+        again = "\n".join(line for line in again.splitlines() if not line.startswith(("read_data", "velocity", "group ball"))) + "\n"
+        later = lmp(again + "run 10\n", nranks=nranks).thermo
+        assert [later[name][0] for name in ("c_center[3]", "c_width", "v_v")] == pytest.approx([first[name][0] for name in ("c_center[3]", "c_width", "v_v")], rel=1e-12)
