@@ -275,8 +275,7 @@ void FixHVIJohnsonCook::init()
   check_restored();
   restored.clear();    // later runs of this script may use another fix
   check_state();
-  for (int i = 0; i < atom->nlocal && options.weibull > 0.0; i++)
-    if (extra[i].id == 0.0) extra[i].id = atom->tag[i];    // commands may give others later
+  for (int i = 0; i < atom->nlocal && update->whichflag == 1; i++) name_thresholds(i);
   checked = false;
 }
 
@@ -524,7 +523,15 @@ void FixHVIJohnsonCook::start_newcomer(int i)
         "group {}: let fix deposit have that group",
         atom->tag[i], atom->type[i], update->ntimestep, group->names[igroup]);
   start(i, true);
+  name_thresholds(i);
   in_setup = was;
+}
+
+// by the ID of the begin, for commands may give others later
+
+void FixHVIJohnsonCook::name_thresholds(int i)
+{
+  if (options.weibull > 0.0 && extra[i].id == 0.0) extra[i].id = atom->tag[i];
 }
 
 /* ---------------------------------------------------------------------- */

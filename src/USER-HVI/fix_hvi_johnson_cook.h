@@ -50,7 +50,12 @@ class FixHVIJohnsonCook :
   // for fix hvi/fem: law of a type, null: no solid; the state of an element that has the particle
 
   const HVI::SolidModel *model(int itype) const { return models[itype].get(); }
-  void embed(int i, const Solid &s) { extra[i] = s; }
+  void embed(int i, const Solid &s)
+  {
+    const double id = extra[i].id;
+    extra[i] = s;
+    extra[i].id = id;
+  }
 
   static FixHVIJohnsonCook *find(class LAMMPS *);    // of this simulation, nullptr: none
 
@@ -108,6 +113,7 @@ class FixHVIJohnsonCook :
   void read_options(int, char **);
   std::string settings() const override;
   void make_models();
+  void name_thresholds(int);
   void check_state() const;
   void count_particles();
   const HVI::SolidModel *of(int) const;    // null: no solid
