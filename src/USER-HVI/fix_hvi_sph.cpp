@@ -281,8 +281,16 @@ void FixHVISPH::reset_dt()
 /* ----------------------------------------------------------------------
    Rates belong to extrapolated values of velocity, density and energy.  A run
    that goes on where the last one or a restart file ended starts from the very
-   same rates; a particle that a command has changed in between starts anew.
+   same rates; a particle that a command has changed in between starts anew.  The lowest byte of a mark is the
+   particle's type then, and a 1: 0 is that of one that was never integrated.
 ------------------------------------------------------------------------- */
+
+static constexpr int TYPES = 128;
+
+static uint64_t low_byte(int itype)
+{
+  return (uint64_t) (itype % TYPES) << 1 | 1;
+}
 
 uint64_t FixHVISPH::fingerprint(int i) const
 {
@@ -294,7 +302,14 @@ uint64_t FixHVISPH::fingerprint(int i) const
     mark = (mark ^ bits) * 0xFF51AFD7ED558CCDull;
     mark ^= mark >> 32;
   }
-  return mark | 1;    // 0: never integrated
+  return (mark & ~(uint64_t) 255) | low_byte(atom->type[i]);
+}
+
+// another type alone is no change
+
+bool FixHVISPH::goes_on(int i) const
+{
+  return extra[i].mark && (extra[i].mark | 255) == (fingerprint(i) | 255);
 }
 
 bool FixHVISPH::has_material(int i) const
@@ -388,7 +403,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
     if (!has_material(i)) continue;
     Extra &e = extra[i];
     give_density(i);
-    const bool anew = set.is_stock() || !remembers(i) || e.mark != fingerprint(i) ||
+    const bool anew = set.is_stock() || !remembers(i) || !goes_on(i) ||
         set.solid != (e.new_rho != 0.0);
     if (anew && (integrates(i) || follow))
       for (int k = 0; k < 3; k++) atom->vest[i][k] = atom->v[i][k];
@@ -473,8 +488,8 @@ static void extrapolate(double &rho, double half, double &more)
 }
 
 /* ----------------------------------------------------------------------
-   A type that has got another material since the last run, or particles of other types: masses are by it, densities
-   may not be
+   A type that has got another material since the last run, or a particle that has got another type: masses are by it,
+   densities may not be
 ------------------------------------------------------------------------- */
 
 void FixHVISPH::check_materials()
@@ -484,42 +499,36 @@ void FixHVISPH::check_materials()
   for (int itype = 1; itype <= ntypes; itype++)
     if (const HVI::Material *const material = store->materials.of(itype))
       at_rest[itype] = material->eos->rho0();
-  const Census now = census(at_rest);
-  const bool first = last_at_rest.empty();
-  for (int itype = 1; itype <= ntypes && !first; itype++) {
-    if (!(at_rest[itype] > 0.0) || now.off[itype] == 0 || comm->me) continue;
-    const double before = itype < (int) last_at_rest.size() ? last_at_rest[itype] : 0.0;
-    if (before > 0.0 && before != at_rest[itype])
+  const auto before = [&](int itype) {
+    return itype > 0 && itype < (int) last_at_rest.size() ? last_at_rest[itype] : at_rest[itype];
+  };
+  std::vector<double> off(2 * (ntypes + 1), 0.0);    // and those that were of another type
+  double *const come = &off[ntypes + 1];
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int itype = atom->type[i], mark = extra[i].mark & 255;
+    if (!(std::fabs(atom->rho[i] - at_rest[itype]) > 0.2 * at_rest[itype])) continue;
+    if (mark && mark != (int) low_byte(itype) && before(mark >> 1) != at_rest[itype])
+      come[itype] += 1.0;
+    else if (before(itype) != at_rest[itype])
+      off[itype] += 1.0;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, off.data(), off.size(), MPI_DOUBLE, MPI_SUM, world);
+  for (int itype = 1; itype <= ntypes && !comm->me; itype++) {
+    if (!(at_rest[itype] > 0.0)) continue;
+    if (off[itype] > 0.0 && before(itype) > 0.0)
       error->warning(FLERR,
                      "Fix hvi/sph: type {} had a material of density {} at rest in the last run "
                      "and now has one of {}, and {} of its particles have densities more than 20 % "
                      "off that: use set type {} sph/rho",
-                     itype, before, at_rest[itype], now.off[itype], itype);
-    else if (itype < (int) last_census.all.size() && now.all[itype] > last_census.all[itype] &&
-             now.off[itype] > last_census.off[itype])
+                     itype, before(itype), at_rest[itype], off[itype], itype);
+    if (come[itype] > 0.0)
       error->warning(FLERR,
-                     "Fix hvi/sph: type {} has {} particles more than at the end of the last run, "
-                     "and {} more whose densities are more than 20 % off that of its material at "
-                     "rest, {}: after set type use set type {} sph/rho",
-                     itype, now.all[itype] - last_census.all[itype],
-                     now.off[itype] - last_census.off[itype], at_rest[itype], itype);
+                     "Fix hvi/sph: {} particles that were of another type in the last run have "
+                     "become type {} and have densities more than 20 % off that of its material at "
+                     "rest, {}: use set group ID sph/rho",
+                     come[itype], itype, at_rest[itype]);
   }
   last_at_rest = at_rest;
-}
-
-// by type: particles, and those whose densities are more than 20 % off that of their material at rest
-
-FixHVISPH::Census FixHVISPH::census(const std::vector<double> &at_rest) const
-{
-  Census found = {std::vector<bigint>(at_rest.size(), 0), std::vector<bigint>(at_rest.size(), 0)};
-  for (int i = 0; i < atom->nlocal; i++) {
-    const int itype = atom->type[i];
-    found.all[itype]++;
-    found.off[itype] += std::fabs(atom->rho[i] - at_rest[itype]) > 0.2 * at_rest[itype];
-  }
-  for (std::vector<bigint> *const list : {&found.all, &found.off})
-    MPI_Allreduce(MPI_IN_PLACE, list->data(), list->size(), MPI_LMP_BIGINT, MPI_SUM, world);
-  return found;
 }
 
 /* ----------------------------------------------------------------------
@@ -713,7 +722,6 @@ bool FixHVISPH::is_left_alone(int i) const
 
 void FixHVISPH::post_run()
 {
-  last_census = census(last_at_rest);
   for (int i = 0; i < atom->nlocal; i++) {
     extra[i].mark = remembers(i) ? fingerprint(i) : 0;
     extra[i].step = step_of(i);
@@ -1055,7 +1063,7 @@ void FixHVISPH::check_left_out() const
   MPI_Allreduce(&here, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (everywhere)
     error->all(FLERR,
-               "Fix hvi/sph does not integrate {} particles, so fix recenter would give them a "
+               "Fix hvi/sph does not integrate {} particles, so fix recenter may give them a "
                "velocity: use velocity all zero linear",
                everywhere);
 }

@@ -202,15 +202,11 @@ class FixHVISPH :
   double missed_kick(int) const;
   uint64_t fingerprint(int) const;
   std::vector<double> last_at_rest;    // by type: density at rest of its material in the last run
-  struct Census {
-    std::vector<bigint> all, off;
-  } last_census;    // of the end of the last run
-  Census census(const std::vector<double> &) const;
-  int moved_by_others = 0;    // bits of groups that other fixes integrate
+  int moved_by_others = 0;             // bits of groups that other fixes integrate
   bool stands(int) const;
   void check_materials();
   const double *felt_velocity(int) const;
-  bool goes_on(int i) const { return extra[i].mark == fingerprint(i); }
+  bool goes_on(int) const;
   std::string settings() const override;
   Extra stored(int) const override;
 };
