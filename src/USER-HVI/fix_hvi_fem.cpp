@@ -568,7 +568,7 @@ void FixHVIFEM::give_masses()
     sums[i].all += mass.all;
   });
   for (int i = 0; i < atom->nlocal; i++)
-    if (nodal(i) && std::fabs(rmass[i] - sums[i].old) <= 1.0e-9 * sums[i].all)
+    if (sums[i].all > sums[i].old && std::fabs(rmass[i] - sums[i].old) <= 1.0e-9 * sums[i].all)
       rmass[i] = sums[i].all;
   std::vector<char> is_free(atom->nlocal, 1);
   of_embedded.scatter(embedded_mass, [&](int i, double mass) {

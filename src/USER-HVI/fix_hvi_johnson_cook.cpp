@@ -275,7 +275,8 @@ void FixHVIJohnsonCook::init()
   check_restored();
   restored.clear();    // later runs of this script may use another fix
   check_state();
-  for (int i = 0; i < atom->nlocal && update->whichflag == 1; i++) name_thresholds(i);
+  if (update->whichflag == 1)    // not of commands before a run
+    for (int i = 0; i < atom->nlocal; i++) name_thresholds(i);
   checked = false;
 }
 
@@ -342,7 +343,7 @@ void FixHVIJohnsonCook::make_models()
                      "does not spall",
                      material->name, itype, HVI::spall_model(options.spall).section);
   }
-  wd_section = takes_time ? VOIDS + 1 : VOIDS;
+  wd_section = takes_time ? VOIDS + 1 : VOIDS;    // the last one, or without
   if (!anywhere || (liquids && !here))
     error->all(FLERR,
                "Fix hvi/johnson-cook: no material {}has a section strength {} (there are: {}); "

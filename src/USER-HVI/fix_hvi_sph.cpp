@@ -505,9 +505,9 @@ void FixHVISPH::check_materials()
   std::vector<double> off(2 * (ntypes + 1), 0.0);    // and those that were of another type
   double *const come = &off[ntypes + 1];
   for (int i = 0; i < atom->nlocal; i++) {
-    const int itype = atom->type[i], mark = extra[i].mark & 255;
+    const int itype = atom->type[i], mark = extra[i].mark & 255, old = mark >> 1;
     if (!(std::fabs(atom->rho[i] - at_rest[itype]) > 0.2 * at_rest[itype])) continue;
-    if (mark && mark != (int) low_byte(itype) && before(mark >> 1) != at_rest[itype])
+    if (old > 0 && old <= ntypes && mark != (int) low_byte(itype) && before(old) != at_rest[itype])
       come[itype] += 1.0;
     else if (before(itype) != at_rest[itype])
       off[itype] += 1.0;

@@ -90,7 +90,7 @@ void HVISphReport::count(const HVI::SphList &list, bool newton)
     }
   }
 
-  // neighbors: of a pair of the half list both have one, but for embedded particles, whose pairs are left out
+  // each pair of the half list counts for both particles, but not for embedded ones: lists leave out pairs of two of them
 
   const double *const *const x = atom->x;
   const auto is_free = [this](int i) {

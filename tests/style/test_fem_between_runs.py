@@ -166,8 +166,7 @@ def test_masses_are_there_in_the_first_run(lmp, nranks, newton, command):
     assert first["c_width"][-1] == pytest.approx(second["c_width"][0], rel=1e-12) and first["c_width"][0] > 0.5 * EDGE
     assert first["v_v"][0] == pytest.approx(-3000) and abs(first["v_v"][-1]) < 1e-6
     if command:  # a restart file from before the first run
-        head, rest = text.split("\n", 1)
-        again = head + "\natom_modify map yes\nread_restart before\nfix prop all property/atom rmass ghost yes\n" + text[text.index("group ball type 1"):]
+        again = text.split("\n", 1)[0] + "\natom_modify map yes\nread_restart before\nfix prop all property/atom rmass ghost yes\n" + text[text.index("group ball type 1"):]
         again = "\n".join(line for line in again.splitlines() if not line.startswith(("read_data", "velocity", "group ball"))) + "\n"
         later = lmp(again + "run 10\n", nranks=nranks).thermo
         assert [later[name][0] for name in ("c_center[3]", "c_width", "v_v")] == pytest.approx([first[name][0] for name in ("c_center[3]", "c_width", "v_v")], rel=1e-12)
