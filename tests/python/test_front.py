@@ -779,3 +779,15 @@ def test_the_note_of_pieces_is_told(folder, capsys, monkeypatch):
     assert front("shield") == 3
     said = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())["notes"]
     assert said == ["the largest piece that strikes wall 2 has not converged: 0.1 of the projectile's mass at 0.4 mm, 0.025 at 0.2 mm"] and said[0] in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", ["shield", "limit"])
+def test_runs_of_another_version_are_told(folder, capsys, monkeypatch, command):
+    """a newer package takes runs that are there, and says whose they are"""
+    words = ["--on", "D", "--from", "3", "--to", "6", "--step", "1"] if command == "limit" else []
+    front(command, *words)
+    monkeypatch.setattr(decision, "version", lambda: "9.9")
+    first = capsys.readouterr().out
+    front(command, *words)
+    note = "runs that were done before are of USER-HVI 0.1.0, this is 9.9: remove their folders to make them anew"
+    assert note not in first and note in capsys.readouterr().out

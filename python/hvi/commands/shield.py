@@ -13,7 +13,7 @@ from ..jobs import engine, lammps, machine, runs
 from ..places import program, typed
 from ..shield import ble, calibration, chain, script
 from ..shield import case as cases
-from ..shield.decision import STATUS, decide, finer, job, lines, member_name, members, note_of_pieces, said_of_finer, shown, verdict
+from ..shield.decision import STATUS, decide, finer, job, lines, member_name, members, note_of_pieces, note_of_versions, said_of_finer, shown, verdict
 from . import running
 
 EXAMPLES = """  python3 -m hvi shield emi.yaml --dry-run
@@ -56,7 +56,7 @@ def main(args):
         raise HVIError(f"no verdict: {len(failed)} of {len(jobs)} runs failed: {', '.join(j.name for j in failed)}")
     each = {member: verdict(j) for member, j in jobs.items()}
     said, reasons, notes = decide(case, each)
-    notes += note_of_pieces(case, jobs)
+    notes += note_of_pieces(case, jobs) + note_of_versions(jobs.values())
     further = finer(case, each, jobs) if said == "undecided" else None
     more = {name: value for name, value in (("notes", notes), ("next_finer", further)) if value}
     equations = ble.beside(ble.predictions, case)

@@ -8,6 +8,7 @@ import statistics
 
 from ..errors import HVIError
 from ..jobs import engine
+from ..version import version
 from . import chain, elements, geometry
 from . import case as cases
 
@@ -80,6 +81,12 @@ def note_of_layers(case):
     """[note] where walls do not become finer with the spacing; else []"""
     same = "layers" in case.settings and len(case.spacings_mm) > 1
     return ["settings: layers are the same with all spacings: how much they matter is not known"] if same else []
+
+
+def note_of_versions(jobs):
+    """[note] where runs that are done were made by another version of the package than this one; else []"""
+    made = sorted({said for one in jobs if (said := str(one.result()[engine.LAST])) != version()})
+    return [f"runs that were done before are of USER-HVI {', '.join(made)}, this is {version()}: remove their folders to make them anew"] if made else []
 
 
 def note_of_pieces(case, jobs):

@@ -172,4 +172,4 @@ class Limit:
                 "limit_of_spacings": {f"{dx:g} mm": round(m, 6) for dx, m in zip(self.case.spacings_mm, mean)},
                 "change_by_spacing": round(mean[-1] - mean[-2], 6) if len(mean) > 1 else None,
                 "range_over_shifts": round(max(finest) - min(finest), 6) if len(finest) > 1 else None,
-                "notes": decision.note_of_layers(self.case)}
+                "notes": decision.note_of_layers(self.case) + decision.note_of_versions(self.every())}
