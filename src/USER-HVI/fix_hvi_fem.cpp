@@ -221,6 +221,7 @@ void FixHVIFEM::setup_pre_force(int /*vflag*/)
 void FixHVIFEM::setup(int /*vflag*/)
 {
   at_end = true;
+  looked_at = false;
   find_probes();
   show_particles();
   if (every > 0) list_elements();
@@ -239,8 +240,10 @@ void FixHVIFEM::post_integrate()
   at_end = false;
   if (resumed) take_changed_forces();
   gather_middle();
+  if (looked_at) gather_changes();
   for (std::size_t e = 0; e < elements.size(); e++)
-    mechanics.first_half(elements[e], nodes_of(e), update->dt);
+    mechanics.first_half(elements[e], nodes_of(e), update->dt,
+                         looked_at ? power_on_changes(e) : 0.0);
   if (converts) release();
   coupling.place();
 }
@@ -265,6 +268,33 @@ double FixHVIFEM::kick_of(std::size_t e) const
   double kick = 0.0;
   for (const HVI::Node *const node : nodes_of(e)) kick += node->kick / CORNERS;
   return kick;
+}
+
+/* ----------------------------------------------------------------------
+   Fixes that have changed velocities at the end of the last step, as fix momentum does, are no work of pairs: what pairs
+   had was of the velocities before
+------------------------------------------------------------------------- */
+
+void FixHVIFEM::gather_changes()
+{
+  node_changes.resize(nodes.size());
+  of_nodes.gather(
+      [this](int i) {
+        const double *const change = coupling.integrator->velocity_change(i);
+        return std::array<double, 3>{change[0], change[1], change[2]};
+      },
+      [this](int k, const std::array<double, 3> &change) {
+        node_changes[k] = change;
+      });
+}
+
+double FixHVIFEM::power_on_changes(std::size_t e) const
+{
+  double power = 0.0;
+  for (int a = 0; a < CORNERS; a++)
+    for (int k = 0; k < 3; k++)
+      power += elements[e].pair_force[a][k] * node_changes[number(e, a)][k];
+  return power;
 }
 
 /* ----------------------------------------------------------------------
@@ -433,7 +463,8 @@ void FixHVIFEM::final_integrate()
   dt_last = update->dt;
   for (std::size_t e = 0; e < elements.size(); e++)
     mechanics.second_half(elements[e], steps[e], dt_last);
-  if (is_looked_at()) show_particles();
+  looked_at = is_looked_at();
+  if (looked_at) show_particles();
 }
 
 /* ----------------------------------------------------------------------

@@ -93,8 +93,11 @@ class FixHVIFEM :
   bool goes_on = false;     // at the start of a run: all is as the last one has left it
   bool resumed = false;     // until the first step of such a run
   bool at_end = false;      // of a step of a run: elements and their nodes are known
-  bigint shown = -1;        // step that output sees particles and energies of
+  bool looked_at = false;    // other fixes had their turn at the end of the last step
+  bigint shown = -1;         // step that output sees particles and energies of
   std::vector<std::array<double, 3>> node_forces;
+  std::vector<std::array<double, 3>>
+      node_changes;              // of velocity, by other fixes at the end of the last step
   std::vector<int> on_planes;    // of owned particles, bits
 
   // of this rank, from the start on: failures by reason; heat and hourglass energy of what are particles now;
@@ -130,6 +133,8 @@ class FixHVIFEM :
   void gather_middle();
   void take_changed_forces();
   double kick_of(std::size_t) const;
+  void gather_changes();
+  double power_on_changes(std::size_t) const;
   void release();
   void advance_batch(HVI::ElementBatch &, bool due) const;
   void bring_forces();

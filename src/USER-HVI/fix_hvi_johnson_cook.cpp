@@ -309,22 +309,28 @@ void FixHVIJohnsonCook::make_models()
     const HVI::Material *const material = store->materials.of(itype);
     if (!material) continue;
 
-    // a section strength none keeps a material out of the solids; with the keyword strength none there are no solids,
-    // and liquids by their files spall, too
+    // a liquid of its pair_coeff has no law here; one of its file, and all with strength none of this fix, may spall
 
-    if (options.strength == "none" ? material->liquid : material->is_liquid()) continue;
-    if (options.strength != "none" && !material->section("strength", options.strength)) {
+    if (material->liquid) continue;
+    HVI::SolidOptions own = options;
+    const bool liquid = options.strength != "none" && material->is_liquid();
+    if (liquid) {
+      if (options.spall == HVI::Spall::NONE ||
+          !material->section("spall", HVI::spall_model(options.spall).section))
+        continue;
+      own.strength = "none";
+    } else if (options.strength != "none" && !material->section("strength", options.strength)) {
       liquids = liquids || inside[itype];
       continue;
     }
-    anywhere = true;
-    here = here || inside[itype];
+    anywhere = anywhere || !liquid;
+    here = here || (!liquid && inside[itype]);
     std::string problem;
 
     // damage yes is for materials that have a law of it, one by its name for all
 
-    HVI::SolidOptions own = options;
-    own.damage = options.damage && (!options.damage_law.empty() || material->section("damage", ""));
+    own.damage = options.damage && !liquid &&
+        (!options.damage_law.empty() || material->section("damage", ""));
     models[itype] = HVI::SolidModel::make(*material, own, problem);
     if (!models[itype])
       error->all(FLERR, "Fix hvi/johnson-cook: material {} (type {}) {}", material->name, itype,
@@ -332,7 +338,7 @@ void FixHVIJohnsonCook::make_models()
     takes_time = takes_time || models[itype]->softens();
     if (warned[itype]) continue;
     warned[itype] = 1;
-    if (comm->me == 0 && options.damage && !own.damage)
+    if (comm->me == 0 && options.damage && !own.damage && !liquid)
       error->warning(FLERR,
                      "Fix hvi/johnson-cook: material {} (type {}) has no section damage and does "
                      "not fail by plastic strain",
@@ -400,11 +406,12 @@ void FixHVIJohnsonCook::setup(int /*vflag*/)
     const bool comes_later =
         inside[itype] + outside[itype] == 0 && !modify->get_fix_by_style("^deposit").empty();
     if (!models[itype] && (inside[itype] || comes_later))
-      error->warning(FLERR,
-                     "Fix hvi/johnson-cook: material {} (type {}) has no section strength {}: its "
-                     "{} particles in group {} bear no shear.  If that is meant, put strength none "
-                     "into its file",
-                     material->name, itype, options.strength, inside[itype], group->names[igroup]);
+      error->warning(
+          FLERR,
+          "Fix hvi/johnson-cook: material {} (type {}) has no section strength {}: its "
+          "{} particles in group {} bear no shear.  If that is meant, give strength none "
+          "in its file or pair_coeff",
+          material->name, itype, options.strength, inside[itype], group->names[igroup]);
     if (models[itype] && outside[itype] && options.strength != "none")
       error->warning(FLERR,
                      "Fix hvi/johnson-cook: {} particles of material {} (type {}) are not in group "

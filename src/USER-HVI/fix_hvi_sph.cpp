@@ -112,6 +112,7 @@ constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
     // 0 between steps, or made anew when a run begins
     {nullptr, 0, offsetof(Extra, drho)},
     {nullptr, 0, offsetof(Extra, de)},
+    {nullptr, 0, offsetof(Extra, beyond)},
     {nullptr, 0, offsetof(Extra, x_before[0])},
     {nullptr, 0, offsetof(Extra, x_before[1])},
     {nullptr, 0, offsetof(Extra, x_before[2])},
@@ -430,6 +431,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
     setup_rho[i] = atom->rho[i];
   }
   MPI_Allreduce(&longest, &last, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (strength) check_turned();
   due = false;
   in_setup = true;
   comm->forward_comm();
@@ -449,6 +451,7 @@ void FixHVISPH::setup(int /*vflag*/)
     checked = 1;
   }
   stepping = 1;
+  first_step = true;
   in_setup = false;
   swiftest = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -566,19 +569,22 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
       continue;
     }
     double *const v = atom->v[i], *const f = atom->f[i];
+    Extra &e = extra[i];
+    if (solid)
+      for (int k = 0; k < 3; k++) e.old_a[k] = first_step ? 0.0 : v[k] - e.v_work[k];
     for (int k = 0; k < 3; k++) {
       atom->vest[i][k] = v[k] + 2.0 * dtfm * f[k];
       v[k] += dtfm * f[k];
       atom->x[i][k] += dtv * v[k];
     }
     const double drho = dtf * atom->drho[i], de = dtf * atom->desph[i];
-    Extra &e = extra[i];
     e.drho = ahead * drho;
     e.de = ahead * de;
     extrapolate(atom->rho[i], drho, e.drho);
     atom->esph[i] += de + e.de;
   }
   last = dtv;
+  first_step = false;
   ledger->book_missed(missed);
 }
 
@@ -591,7 +597,8 @@ double FixHVISPH::first_half_solid(int i, double dtfm)
 {
   double *const v = atom->v[i], *const f = atom->f[i];
   Extra &e = extra[i];
-  const double beyond = missed_work(i), gain = atom->desph[i] - beyond, kick = missed_kick(i);
+  const double beyond = first_step ? missed_work(i) : e.beyond;
+  const double gain = atom->desph[i] - beyond, kick = missed_kick(i);
   const bool has_old = !std::isnan(e.old_drho);
   const double dtf_then = 0.5 * last;    // to the last digit as at the end of the last step
   const double per_mass =
@@ -655,17 +662,21 @@ void FixHVISPH::final_integrate()
     e.rates_esph = esph[i];
     double gain = atom->desph[i];
     if (sph.settings.solid && has_material(i)) {
-      const double beyond = missed_work(i), by_L = -sph.density(i) * sph.divergence(i);
-      gain -= beyond;
-      missed += dtf * beyond;
+      e.beyond = missed_work(i);
+      const double by_L = -sph.density(i) * sph.divergence(i);
+      gain -= e.beyond;
+      missed += dtf * e.beyond;
       e.step = may_be_still(i) ? -dtv : dtv;
 
       // what is not by L is interface density dissipation
 
       if (!HVI::SphFields::is_frozen(rho[i]))
         rho[i] = changed(e.new_rho, dtv * (atom->drho[i] - by_L));
-    } else if (!HVI::SphFields::is_frozen(rho[i]))
-      rho[i] = changed(rho[i], dtf * atom->drho[i] - e.drho);
+    } else {
+      if (sph.settings.solid) std::copy_n(atom->v[i], 3, e.v_work);
+      if (!HVI::SphFields::is_frozen(rho[i]))
+        rho[i] = changed(rho[i], dtf * atom->drho[i] - e.drho);
+    }
     note_change(i);
     esph[i] += dtf * gain - e.de;
     e.drho = e.de = 0.0;
@@ -725,6 +736,7 @@ void FixHVISPH::post_run()
   for (int i = 0; i < atom->nlocal; i++) {
     extra[i].mark = remembers(i) ? fingerprint(i) : 0;
     extra[i].step = step_of(i);
+    std::copy_n(atom->x[i], 3, extra[i].x_before);
   }
   stepping = 0;
 }
@@ -1027,6 +1039,45 @@ void FixHVISPH::check_restart() const
                  ": give pair_coeff again if the new ones are meant");
     else if (comm->me == 0)
       error->warning(FLERR, SAYS, entry.material->name, itype, "");
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Commands between runs may move a body as it is.  One that turns or deforms it does not turn its stress.
+------------------------------------------------------------------------- */
+
+void FixHVISPH::check_turned() const
+{
+  static constexpr double NO_WAY = 1.0e-6;    // in parts of the box
+  const int n = atom->ntypes + 1;
+  std::vector<double> most(6 * n, -HUGE_VAL);    // ways along and against the axes
+  for (int i = 0; i < atom->nlocal; i++) {
+    const HVI::Deviator &S = strength->state(i).S;
+    if (!has_material(i) || std::isnan(extra[i].x_before[0]) ||
+        std::max({std::fabs(S.xx), std::fabs(S.yy), std::fabs(S.zz), std::fabs(S.xy),
+                  std::fabs(S.xz), std::fabs(S.yz)}) == 0.0)
+      continue;
+    double way[3];
+    for (int k = 0; k < 3; k++) way[k] = atom->x[i][k] - extra[i].x_before[k];
+    HVI::minimum_image(domain, way[0], way[1], way[2]);
+    double *const here = &most[6 * atom->type[i]];
+    for (int k = 0; k < 3; k++) {
+      here[k] = std::max(here[k], way[k]);
+      here[3 + k] = std::max(here[3 + k], -way[k]);
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, most.data(), most.size(), MPI_DOUBLE, MPI_MAX, world);
+  for (int itype = 1; itype < n && comm->me == 0; itype++) {
+    double apart = 0.0;
+    for (int k = 0; k < 3; k++)
+      apart = std::max(apart, most[6 * itype + k] + most[6 * itype + 3 + k]);
+    if (apart > NO_WAY * std::max({domain->xprd, domain->yprd, domain->zprd}))
+      error->warning(FLERR,
+                     "Fix hvi/sph: particles of type {} that bear stress have been moved by ways "
+                     "that differ by "
+                     "up to {:.4g} since the last run: their stress has not been turned with them, "
+                     "nor changed",
+                     itype, apart);
   }
 }
 

@@ -39,13 +39,23 @@ struct HVISPHExtra {
   uint64_t mark = 0;          // fingerprint of the state at the end of the last run
   double hscale = 0.0;        // h rho^(1/dim); 0: not known yet
 
-  // of solids: rates of density and energy, and acceleration, at the begin of the last step; NaN: there were none
+  // of solids: rates of density and energy, and acceleration, at the begin of the last step; NaN: there were none.
+  // old_a of nodes: velocity_change()
 
   double old_drho = NAN, old_de = 0.0, old_a[3] = {0.0, 0.0, 0.0};
-  double v_work[3] = {0.0, 0.0, 0.0};    // velocity with which the last forces did work
-  double x_before[3] = {0.0, 0.0,
-                        0.0};    // place at the end of the last step, if another fix moves it
-  double frozen = 0.0;           // 1: takes no part any more
+
+  // velocity with which the last forces did work; of nodes, at the end of the step
+
+  double v_work[3] = {0.0, 0.0, 0.0};
+
+  // missed_work() at the end of the last step, whatever others have made of the velocity since
+
+  double beyond = 0.0;
+
+  // place at the end of the last step, of what other fixes move; of the last run
+
+  double x_before[3] = {NAN, NAN, NAN};
+  double frozen = 0.0;    // 1: takes no part any more
   double body =
       -1.0;    // of solids: label of what hangs together, and in eighths planes: see body(); -1: none yet
   double new_rho =
@@ -127,6 +137,10 @@ class FixHVISPH :
   void tighten(HVI::TimeStepBounds &bounds) override;
   bool at_hand() const override { return true; }
 
+  // of a node: by what others have changed its velocity since the end of the last step, as fix momentum does
+
+  const double *velocity_change(int i) const { return extra[i].old_a; }
+
   double sleep() const { return quiet; }    // differences that count as none; 0: nothing sleeps
   bool relative_lists() const { return relative; }
   bool is_new(int i) const { return extra[i].hscale == 0.0; }    // in no run before
@@ -172,6 +186,7 @@ class FixHVISPH :
   std::vector<double> setup_rho;       // in a setup: of the rates that forces are asked for
   bool in_setup = false;               // in it: rho and esph of particles are these
   int stepping;                        // in a run, so that the state is the one the last step left
+  bool first_step = false;             // there are forces of a setup: no step has left its end
   int wallbit;                         // groups of particles that no fix is meant to integrate
   int follow;       // particles outside the group are moved by fixes that do not know vest
   int checked;      // warned of what may be wrong: once per run, not again with pre no
@@ -190,6 +205,7 @@ class FixHVISPH :
   bool has_material(int) const;
   void check_restart() const;
   void check_left_out() const;
+  void check_turned() const;
   void check_step() const;
   bool remembers(int) const;
   void give_density(int);

@@ -51,6 +51,29 @@ def test_restart_of_a_material_with_a_blank_in_its_name(lmp, scene, root, tmp_pa
     assert r.thermo["c_book[9]"][-1] == pytest.approx(1.0, abs=1e-3)
 
 
+@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("name, velocity", [("solid", "2000 0 0"), ("elements", "0 0 6000")])
+def test_the_velocity_of_the_whole_is_taken_out(lmp, scene, name, velocity, nranks):
+    """by fix momentum, at the end of a step: energies of particles and elements do not go with it"""
+    text = scene(name) + f"velocity all set {velocity} sum yes units box\ncompute e all hvi/atom e\ncompute most all reduce max c_e\ncompute least all reduce min c_e\n" \
+        f"thermo_style custom step c_book[2] c_most c_least {'f_wall[10]' if name == 'elements' else ''}\nthermo_modify format float %.12g\n"
+    alone, taken = (lmp(text + fix + "run 30\n", nranks=nranks) for fix in ("", "fix m all momentum 7 linear 1 1 1\n"))
+    assert len(taken.warnings) > len(alone.warnings)  # of kinetic energy that has gone: it did
+    for key, values in alone.thermo.items():
+        assert np.allclose(taken.thermo[key], values, rtol=1e-6, atol=1e-6 * np.abs(values).max()), key
+
+
+@pytest.mark.each_value
+@pytest.mark.parametrize("nranks", [1, 2])
+@pytest.mark.parametrize("name, words, told", [("solid", "all rotate 4.5 3 3 0 0 1 30", True), ("elements", "all rotate 0 0 0 0 0 1 30", True), ("solid", "left ramp y 0 0.2 x 0 4", True),
+                                               ("solid", "left move -0.5 0.25 0", False), ("elements", "all move 1e-4 0 0 units box", False)])
+def test_bodies_that_are_turned(lmp, scene, name, words, told, nranks):
+    """their stress is not; moved as they are they are what they were"""
+    text = scene(name)
+    moved, fresh = (lmp(f"{text}{before}displace_atoms {words}\nrun 1\n", nranks=nranks) for before in ("run 10\n", ""))
+    assert any("their stress has not been turned with them" in w for w in moved.warnings) == told and not any("their stress" in w for w in fresh.warnings)
+
+
 @pytest.mark.parametrize("name", ["liquid", "solid"])
 def test_the_store_is_removed(lmp, scene, name):
     """it may not be: a message, no crash"""
@@ -267,6 +290,17 @@ def test_liquids_cavitate(lmp, tmp_path, section, alone):
     (tmp_path / "water.hvi").write_text(f"# UNITS: si\n# water\neos tait\nrho0 1000\nc0 1480\n{section}spall limit\nsigma_p 1e5\n")
     last = {key: of[-1] for key, of in lmp(LIQUID.replace("pair_coeff 2 2 file Al2024-T3.hvi spacing 1e-3\n", "").replace("create_box 2", "create_box 1") if alone else LIQUID).thermo.items()}
     assert last["c_p"] == 0.0 and last["c_q"] == 512 and last["f_liquid[1]"] == 1
+
+
+@pytest.mark.parametrize("law, section, spalls", [("zero", "spall limit\nsigma_p 1e5\n", True), ("voids", "spall voids\nsigma 1e6\nrate 1e6\nm 0.2\nphi_c 0.3\n", True),
+                                                  ("voids", "spall limit\nsigma_p 1e5\n", False), ("zero", "", False)])
+def test_liquids_cavitate_beside_solids(lmp, tmp_path, law, section, spalls):
+    """as their files say, by the law of the fix"""
+    (tmp_path / "water.hvi").write_text(f"# UNITS: si\n# water\neos tait\nrho0 1000\nc0 1480\nstrength none\n{section}")
+    text = LIQUID.replace("create_atoms 1 box", "create_atoms 1 box\nregion s block 0 8e-3 0 8e-3 0 2e-3\nset region s type 2")
+    text = text.replace("strength none spall zero", f"damage no spall {law}").replace("set group all", "set type 1").replace("run 5\n", "run 40\n")
+    last = {key: of[-1] for key, of in lmp(text).thermo.items()}
+    assert last["f_liquid[1]"] == spalls and (last["c_p"] > -2e6) == spalls, last
 
 
 # ---------------------------------------------------------------------- the time step

@@ -108,7 +108,7 @@ struct Body {
   void whole_step(double dt)
   {
     place(places() + dt * velocities());
-    solid.mechanics.first_half(one, list(), dt);
+    solid.mechanics.first_half(one, list(), dt, 0.0);
     ASSERT_EQ(advance(dt), ElementMechanics::NO_TROUBLE);
     ElementBatch b = batch();
     solid.mechanics.forces(b, dt);

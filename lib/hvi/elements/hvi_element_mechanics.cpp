@@ -44,14 +44,16 @@ bool ElementMechanics::start(Element &one, const Corners &x) const
    Half of a step's energy.  Forces on nodes work on the velocity v of the middle of the step, in both
    halves: that is what kinetic energy changes by, but for dt^2/8 f^2/m, which cancels between a
    step and the next if they are as long; what is left, the kick, is given back.  Of pairs particles have gained
-   de, and forces worked f.w on them at the velocity w that pairs have seen; on v it is another work.
+   de, and forces worked f.w on them at the velocity w that pairs have seen; on v it is another work.  That on what
+   others have changed v by since is none of pairs.
 ------------------------------------------------------------------------- */
 
-void ElementMechanics::first_half(Element &one, const ElementNodes &nodes, double dt) const
+void ElementMechanics::first_half(Element &one, const ElementNodes &nodes, double dt,
+                                  double power_on_changes) const
 {
   const SolidModel &solid = *law(one).solid;
   solid.begin_step(one.solid, solid.own_limit() ? input(one) : SolidInput());
-  double work = 0.0, kick = 0.0;
+  double work = -power_on_changes, kick = 0.0;
   for (int a = 0; a < CORNERS; a++) {
     for (int k = 0; k < 3; k++) work += (one.force[a][k] + one.pair_force[a][k]) * nodes[a]->v[k];
     kick += nodes[a]->kick;

@@ -112,7 +112,7 @@ class ElementMechanics {
 
   bool start(Element &, const Corners &x) const;
 
-  void first_half(Element &, const ElementNodes &, double dt) const;
+  void first_half(Element &, const ElementNodes &, double dt, double power_on_changes) const;
   void second_half(Element &, const ElementStep &, double dt) const;
 
   int shared_corners(const ElementNodes &) const;    // that other elements have, too, or the image
