@@ -221,7 +221,7 @@ void FixHVIFEM::setup_pre_force(int /*vflag*/)
 void FixHVIFEM::setup(int /*vflag*/)
 {
   at_end = true;
-  looked_at = false;
+  looked_at = goes_on;
   find_probes();
   show_particles();
   if (every > 0) list_elements();
@@ -271,8 +271,8 @@ double FixHVIFEM::kick_of(std::size_t e) const
 }
 
 /* ----------------------------------------------------------------------
-   Fixes that have changed velocities at the end of the last step, as fix momentum does, are no work of pairs: what pairs
-   had was of the velocities before
+   Changes of velocity by other fixes at the end of the last step, such as fix momentum, and the power of pair forces on
+   them, which is not work of pairs
 ------------------------------------------------------------------------- */
 
 void FixHVIFEM::gather_changes()
@@ -501,7 +501,9 @@ void FixHVIFEM::end_of_step()
 void FixHVIFEM::post_run()
 {
   at_end = false;
-  if (shown == update->ntimestep) return;
+  const bool all_seen = shown == update->ntimestep && !looked_at;
+  looked_at = true;    // a run without setup may follow commands
+  if (all_seen) return;
   show_particles();
   if (every > 0) list_elements();
 }
@@ -546,7 +548,7 @@ void FixHVIFEM::find_laws()
   for (const Element &one : elements) {
     if (!mechanics.laws[one.type].eos || is_node(one.type))
       error->one(FLERR, "Fix hvi/fem: type {} of element {} has no material", one.type, one.id);
-    if (!mechanics.laws[one.type].solid)
+    if (!mechanics.laws[one.type].solid || coupling.store->materials.of(one.type)->is_liquid())
       error->one(FLERR,
                  "Fix hvi/fem: element {} has type {}, which is no solid for fix hvi/johnson-cook",
                  one.id, one.type);
@@ -1057,6 +1059,7 @@ void FixHVIFEM::list_elements()
 
 void FixHVIFEM::write_restart(FILE *fp)
 {
+  if (at_end && looked_at) show_particles();    // with velocities as fixes have left them
   double sum[NCOUNT];
   MPI_Reduce(counts, sum, NCOUNT, MPI_DOUBLE, MPI_SUM, 0, world);
   if (comm->me) return;

@@ -93,7 +93,7 @@ class FixHVIFEM :
   bool goes_on = false;     // at the start of a run: all is as the last one has left it
   bool resumed = false;     // until the first step of such a run
   bool at_end = false;      // of a step of a run: elements and their nodes are known
-  bool looked_at = false;    // other fixes had their turn at the end of the last step
+  bool looked_at = false;    // others may have changed velocities since the end of the last step
   bigint shown = -1;         // step that output sees particles and energies of
   std::vector<std::array<double, 3>> node_forces;
   std::vector<std::array<double, 3>>

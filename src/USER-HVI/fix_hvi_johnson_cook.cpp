@@ -309,7 +309,7 @@ void FixHVIJohnsonCook::make_models()
     const HVI::Material *const material = store->materials.of(itype);
     if (!material) continue;
 
-    // a liquid of its pair_coeff has no law here; one of its file, and all with strength none of this fix, may spall
+    // pair_coeff makes liquids that do not spall; those by their files do, and all with strength none of this fix
 
     if (material->liquid) continue;
     HVI::SolidOptions own = options;
@@ -319,6 +319,7 @@ void FixHVIJohnsonCook::make_models()
           !material->section("spall", HVI::spall_model(options.spall).section))
         continue;
       own.strength = "none";
+      own.from_work = false;
     } else if (options.strength != "none" && !material->section("strength", options.strength)) {
       liquids = liquids || inside[itype];
       continue;
@@ -332,6 +333,15 @@ void FixHVIJohnsonCook::make_models()
     own.damage = options.damage && !liquid &&
         (!options.damage_law.empty() || material->section("damage", ""));
     models[itype] = HVI::SolidModel::make(*material, own, problem);
+    if (!models[itype] && liquid) {
+      if (!warned[itype] && comm->me == 0)
+        error->warning(
+            FLERR,
+            "Fix hvi/johnson-cook: material {} (type {}) is a liquid and does not spall: it {}",
+            material->name, itype, problem);
+      warned[itype] = 1;
+      continue;
+    }
     if (!models[itype])
       error->all(FLERR, "Fix hvi/johnson-cook: material {} (type {}) {}", material->name, itype,
                  problem);
@@ -410,7 +420,7 @@ void FixHVIJohnsonCook::setup(int /*vflag*/)
           FLERR,
           "Fix hvi/johnson-cook: material {} (type {}) has no section strength {}: its "
           "{} particles in group {} bear no shear.  If that is meant, give strength none "
-          "in its file or pair_coeff",
+          "in its file, or in pair_coeff, which does not spall",
           material->name, itype, options.strength, inside[itype], group->names[igroup]);
     if (models[itype] && outside[itype] && options.strength != "none")
       error->warning(FLERR,
@@ -524,7 +534,8 @@ void FixHVIJohnsonCook::start(int i, bool anew)
 void FixHVIJohnsonCook::start_newcomer(int i)
 {
   const bool was = in_setup;
-  if (models[atom->type[i]] && !of(i))
+  if (models[atom->type[i]] && !of(i) &&
+      (options.strength == "none" || !store->materials.of(atom->type[i])->is_liquid()))
     error->one(
         FLERR,
         "Fix hvi/johnson-cook: particle {} (type {}), a solid, comes at step {} and is not in "

@@ -91,6 +91,11 @@ class FixHVIJohnsonCook :
   }    // energy, from the start on
   double void_work(int i) const override { return mass(i) * extra[i].voids.work; }
   bool failed(int i) const { return extra[i].failed(); }
+  bool bears_shear(int i) const
+  {
+    const HVI::Deviator &S = extra[i].S;
+    return S.xx != 0.0 || S.yy != 0.0 || S.zz != 0.0 || S.xy != 0.0 || S.xz != 0.0 || S.yz != 0.0;
+  }
   bool can_fail() const;    // collective: has failed, or may fail in this run
   double
   compute_vector(int) override;    // of types: 1 if there is a law by which they fail in tension

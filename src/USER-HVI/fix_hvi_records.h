@@ -129,7 +129,7 @@ template <class Owner, class Record> class FixHVIRecords : public Fix {
 
  private:
   static constexpr int RESTART_FORMAT =
-      4;    // with the ID of the particle, and the one that it began with
+      5;    // with the ID of the particle, and the one that it began with; missed work
 
   const Record fresh;
   const Field *const fields;

@@ -106,13 +106,13 @@ constexpr FixHVISPH::Field FixHVISPH::FIELDS[] = {
     {"new_rho", STEP, offsetof(Extra, new_rho)},
     {"step", STEP, offsetof(Extra, step)},
     {"weight", STEP, offsetof(Extra, weight)},
+    {"beyond", STEP, offsetof(Extra, beyond)},
     {"frozen", STEP, offsetof(Extra, frozen)},
     {"body", STEP, offsetof(Extra, body), nullptr, nullptr, true},
 
     // 0 between steps, or made anew when a run begins
     {nullptr, 0, offsetof(Extra, drho)},
     {nullptr, 0, offsetof(Extra, de)},
-    {nullptr, 0, offsetof(Extra, beyond)},
     {nullptr, 0, offsetof(Extra, x_before[0])},
     {nullptr, 0, offsetof(Extra, x_before[1])},
     {nullptr, 0, offsetof(Extra, x_before[2])},
@@ -422,6 +422,7 @@ void FixHVISPH::setup_pre_force(int /*vflag*/)
       e.old_drho = NAN;
       e.weight = 1.0;
       for (int k = 0; k < 3; k++) e.v_work[k] = atom->v[i][k];
+      e.beyond = 0.0;
     }
 
     // forces are asked for with what their rates belong to; the state waits in its place
@@ -451,7 +452,6 @@ void FixHVISPH::setup(int /*vflag*/)
     checked = 1;
   }
   stepping = 1;
-  first_step = true;
   in_setup = false;
   swiftest = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -571,7 +571,7 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
     double *const v = atom->v[i], *const f = atom->f[i];
     Extra &e = extra[i];
     if (solid)
-      for (int k = 0; k < 3; k++) e.old_a[k] = first_step ? 0.0 : v[k] - e.v_work[k];
+      for (int k = 0; k < 3; k++) e.old_a[k] = v[k] - e.v_work[k];
     for (int k = 0; k < 3; k++) {
       atom->vest[i][k] = v[k] + 2.0 * dtfm * f[k];
       v[k] += dtfm * f[k];
@@ -584,7 +584,6 @@ void FixHVISPH::initial_integrate(int /*vflag*/)
     atom->esph[i] += de + e.de;
   }
   last = dtv;
-  first_step = false;
   ledger->book_missed(missed);
 }
 
@@ -597,8 +596,7 @@ double FixHVISPH::first_half_solid(int i, double dtfm)
 {
   double *const v = atom->v[i], *const f = atom->f[i];
   Extra &e = extra[i];
-  const double beyond = first_step ? missed_work(i) : e.beyond;
-  const double gain = atom->desph[i] - beyond, kick = missed_kick(i);
+  const double gain = atom->desph[i] - e.beyond, kick = missed_kick(i);
   const bool has_old = !std::isnan(e.old_drho);
   const double dtf_then = 0.5 * last;    // to the last digit as at the end of the last step
   const double per_mass =
@@ -627,7 +625,7 @@ double FixHVISPH::first_half_solid(int i, double dtfm)
   const double begin = e.new_rho;
   if (!HVI::SphFields::is_frozen(begin))
     e.weight = 1.0 + 0.5 * weight_power[atom->type[i]] * (atom->rho[i] - begin) / begin;
-  return kick + dtf * beyond;
+  return kick + dtf * e.beyond;
 }
 
 /* ----------------------------------------------------------------------
@@ -754,7 +752,10 @@ double FixHVISPH::step_of(int i) const
 FixHVISPH::Extra FixHVISPH::stored(int i) const
 {
   Extra e = extra[i];
-  if (stepping) e.mark = remembers(i) ? fingerprint(i) : 0;
+  if (stepping) {
+    e.mark = remembers(i) ? fingerprint(i) : 0;
+    std::copy_n(atom->x[i], 3, e.x_before);
+  }
   e.step = step_of(i);
   return e;
 }
@@ -1043,41 +1044,47 @@ void FixHVISPH::check_restart() const
 }
 
 /* ----------------------------------------------------------------------
-   Commands between runs may move a body as it is.  One that turns or deforms it does not turn its stress.
+   Commands between runs that turn or deform a body do not turn or change its stress
 ------------------------------------------------------------------------- */
 
-void FixHVISPH::check_turned() const
+void FixHVISPH::check_turned()
 {
-  static constexpr double NO_WAY = 1.0e-6;    // in parts of the box
-  const int n = atom->ntypes + 1;
-  std::vector<double> most(6 * n, -HUGE_VAL);    // ways along and against the axes
+  static constexpr double ROUNDED =
+      1.0e-4;                             // of the extent of what bears stress: places of dumps are
+  enum { WAY = 0, PLACE = 6, N = 12 };    // the largest along and against the axes
+  told_turned.resize(atom->ntypes + 1, 0);
+  std::vector<std::array<double, N>> most(atom->ntypes + 1);
+  for (auto &of : most) of.fill(-HUGE_VAL);
   for (int i = 0; i < atom->nlocal; i++) {
-    const HVI::Deviator &S = strength->state(i).S;
-    if (!has_material(i) || std::isnan(extra[i].x_before[0]) ||
-        std::max({std::fabs(S.xx), std::fabs(S.yy), std::fabs(S.zz), std::fabs(S.xy),
-                  std::fabs(S.xz), std::fabs(S.yz)}) == 0.0)
-      continue;
+    if (!has_material(i) || std::isnan(extra[i].x_before[0]) || !strength->bears_shear(i)) continue;
     double way[3];
     for (int k = 0; k < 3; k++) way[k] = atom->x[i][k] - extra[i].x_before[k];
     HVI::minimum_image(domain, way[0], way[1], way[2]);
-    double *const here = &most[6 * atom->type[i]];
+    std::array<double, N> &of = most[atom->type[i]];
     for (int k = 0; k < 3; k++) {
-      here[k] = std::max(here[k], way[k]);
-      here[3 + k] = std::max(here[3 + k], -way[k]);
+      of[WAY + k] = std::max(of[WAY + k], way[k]);
+      of[WAY + 3 + k] = std::max(of[WAY + 3 + k], -way[k]);
+      of[PLACE + k] = std::max(of[PLACE + k], atom->x[i][k]);
+      of[PLACE + 3 + k] = std::max(of[PLACE + 3 + k], -atom->x[i][k]);
     }
   }
-  MPI_Allreduce(MPI_IN_PLACE, most.data(), most.size(), MPI_DOUBLE, MPI_MAX, world);
-  for (int itype = 1; itype < n && comm->me == 0; itype++) {
-    double apart = 0.0;
-    for (int k = 0; k < 3; k++)
-      apart = std::max(apart, most[6 * itype + k] + most[6 * itype + 3 + k]);
-    if (apart > NO_WAY * std::max({domain->xprd, domain->yprd, domain->zprd}))
-      error->warning(FLERR,
-                     "Fix hvi/sph: particles of type {} that bear stress have been moved by ways "
-                     "that differ by "
-                     "up to {:.4g} since the last run: their stress has not been turned with them, "
-                     "nor changed",
-                     itype, apart);
+  MPI_Allreduce(MPI_IN_PLACE, most[0].data(), N * most.size(), MPI_DOUBLE, MPI_MAX, world);
+  for (int itype = 1; itype <= atom->ntypes; itype++) {
+    const std::array<double, N> &of = most[itype];
+    double apart = 0.0, extent = 0.0;
+    for (int k = 0; k < 3; k++) {
+      apart = std::max(apart, of[WAY + k] + of[WAY + 3 + k]);
+      extent = std::max(extent, of[PLACE + k] + of[PLACE + 3 + k]);
+    }
+    if (!(apart > ROUNDED * extent) || told_turned[itype]) continue;
+    told_turned[itype] = 1;
+    if (comm->me == 0)
+      error->warning(
+          FLERR,
+          "Fix hvi/sph: since the last run particles of type {} under stress have been moved "
+          "differently, by up to {:.4g} against each other: if that has turned or deformed a "
+          "body, its stress has not been turned or changed with it",
+          itype, apart);
   }
 }
 

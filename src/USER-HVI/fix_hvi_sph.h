@@ -48,11 +48,11 @@ struct HVISPHExtra {
 
   double v_work[3] = {0.0, 0.0, 0.0};
 
-  // missed_work() at the end of the last step, whatever others have made of the velocity since
+  // missed_work() at the end of the last step: other fixes may have changed the velocity since
 
   double beyond = 0.0;
 
-  // place at the end of the last step, of what other fixes move; of the last run
+  // place at the end of the last run; of particles that other fixes move, of the last step
 
   double x_before[3] = {NAN, NAN, NAN};
   double frozen = 0.0;    // 1: takes no part any more
@@ -137,7 +137,7 @@ class FixHVISPH :
   void tighten(HVI::TimeStepBounds &bounds) override;
   bool at_hand() const override { return true; }
 
-  // of a node: by what others have changed its velocity since the end of the last step, as fix momentum does
+  // of a node: by how much other fixes, such as fix momentum, have changed its velocity since the end of the last step
 
   const double *velocity_change(int i) const { return extra[i].old_a; }
 
@@ -186,12 +186,12 @@ class FixHVISPH :
   std::vector<double> setup_rho;       // in a setup: of the rates that forces are asked for
   bool in_setup = false;               // in it: rho and esph of particles are these
   int stepping;                        // in a run, so that the state is the one the last step left
-  bool first_step = false;             // there are forces of a setup: no step has left its end
   int wallbit;                         // groups of particles that no fix is meant to integrate
-  int follow;       // particles outside the group are moved by fixes that do not know vest
-  int checked;      // warned of what may be wrong: once per run, not again with pre no
-  double quiet;     // parts of the speed of sound
-  bool relative;    // lists are made anew by relative motion
+  int follow;     // particles outside the group are moved by fixes that do not know vest
+  int checked;    // warned of what may be wrong: once per run, not again with pre no
+  std::vector<char> told_turned;    // by type, likewise: once
+  double quiet;                     // parts of the speed of sound
+  bool relative;                    // lists are made anew by relative motion
 
   bigint most_frozen;    // particles that may be; 0: none
   bool deletes_frozen;
@@ -205,7 +205,7 @@ class FixHVISPH :
   bool has_material(int) const;
   void check_restart() const;
   void check_left_out() const;
-  void check_turned() const;
+  void check_turned();
   void check_step() const;
   bool remembers(int) const;
   void give_density(int);

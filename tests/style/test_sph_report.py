@@ -83,14 +83,14 @@ FLUID = "pair_style hvi/sph cubic {0}\npair_coeff 1 1 file {1}/m.hvi h 1.25 stre
 
 # words, fix hvi/johnson-cook (None: none): records, numbers kept, sent forward and back, terms, laws of both types
 SCENES = [
-    ("", None, 160, 22, 0, 0, ["viscosity"], "", ""),
-    ("interface auto h variable energy no", None, 160, 22, 0, 0, ["viscosity", "interface density dissipation", "variable h", "no energy equation"], "", ""),
-    ("dissipation riemann", None, 160 + 96, 22, 11, 11, ["Riemann problems"], "", ""),
-    ("mirror x -0.1 lo", None, 160, 22, 0, 0, ["viscosity", "mirror planes"], "", ""),
+    ("", None, 160, 23, 0, 0, ["viscosity"], "", ""),
+    ("interface auto h variable energy no", None, 160, 23, 0, 0, ["viscosity", "interface density dissipation", "variable h", "no energy equation"], "", ""),
+    ("dissipation riemann", None, 160 + 96, 23, 11, 11, ["Riemann problems"], "", ""),
+    ("mirror x -0.1 lo", None, 160, 23, 0, 0, ["viscosity", "mirror planes"], "", ""),
     # traction, and with bodies or rubble the record of what touches; limits and traction forward; L, H, M, nu back, and forces
-    ("", "", 160 + 192 + 128 + 4, 22 + 21, 3 + 15, 22 + 3, ["viscosity", "stress", "corrected forces"],
+    ("", "", 160 + 192 + 128 + 4, 23 + 21, 3 + 15, 22 + 3, ["viscosity", "stress", "corrected forces"],
      ", strength johnson-cook, damage johnson-cook, spall principal", ", liquid"),
-    ("dissipation riemann artstress 0.3 4", "damage no spall none", 160 + 192 + 128 + 64 + 4, 22 + 21, 3 + 6 + 15 + 6, 22 + 3,
+    ("dissipation riemann artstress 0.3 4", "damage no spall none", 160 + 192 + 128 + 64 + 4, 23 + 21, 3 + 6 + 15 + 6, 22 + 3,
      ["Riemann problems", "stress", "corrected forces", "artificial stress"], ", strength johnson-cook", ", liquid"),
 ]
 

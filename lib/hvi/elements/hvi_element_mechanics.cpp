@@ -44,8 +44,8 @@ bool ElementMechanics::start(Element &one, const Corners &x) const
    Half of a step's energy.  Forces on nodes work on the velocity v of the middle of the step, in both
    halves: that is what kinetic energy changes by, but for dt^2/8 f^2/m, which cancels between a
    step and the next if they are as long; what is left, the kick, is given back.  Of pairs particles have gained
-   de, and forces worked f.w on them at the velocity w that pairs have seen; on v it is another work.  That on what
-   others have changed v by since is none of pairs.
+   de, and forces worked f.w on them at the velocity w that pairs have seen; on v it is another work.  power_on_changes,
+   that of pair forces on what other fixes have added to v since, is not work of pairs.
 ------------------------------------------------------------------------- */
 
 void ElementMechanics::first_half(Element &one, const ElementNodes &nodes, double dt,
