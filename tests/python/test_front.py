@@ -271,6 +271,16 @@ def test_few_layers_are_said_beforehand(folder, capsys):
     assert front("shield") == 3 and capsys.readouterr().err == ""
 
 
+def test_materials_in_wrong_units_are_said_beforehand(folder, root, capsys):
+    """each file once; the package's own never"""
+    text = (root / "potentials" / "Al6061-T6.hvi").read_text()
+    (folder / "own.hvi").write_text(re.sub(r"(?m)^  A  .*", "  A 324", text, count=1))
+    (folder / "emi.yaml").write_text(CASE.replace("material: Al2024-T3}", "material: own}").replace("material: Al6061-T6", "material: own"))
+    assert front("shield", "--dry-run") == 0
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and said.startswith(f"hvi: warning: {folder / 'own.hvi'}: strength johnson-cook: A = 324 is far from what is usual with its eos, "), said
+
+
 def test_dry_run(folder, capsys):
     """the plan of each spacing, from geometry alone, and a sketch that shows what passes beside; nothing is run"""
     from matplotlib.image import imread

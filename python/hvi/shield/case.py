@@ -340,6 +340,8 @@ def read(path, model=True):
 
 def warn(case, reader):
     """of what is no error"""
+    for name in dict.fromkeys((case.material, *(wall.material for wall in case.walls))):
+        library.warn(library.read(library.of_case(name)))
     if "weibull" in case.setting("solid").split():
         node = reader.at["settings: solid"]
         warnings.warn(f"{reader.path}, line {node.start_mark.line + 1}: all runs have the same seed of weibull: what another would change is in no verdict", HVIWarning,
