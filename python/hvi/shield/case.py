@@ -40,7 +40,9 @@ WALL = {
     "method": Key(choice(*METHODS, hint=MODEL), None, "default: that of the case"),
     "core_mm": Key(number(least=0), None, "of elements: free particles instead up to there, default what the shot needs; of particles: half the side of the square that has spacings_mm, beyond they are twice as far apart, default: nowhere"),
     "hold_mm": Key(number(above=0), None, "and elements that hold particles up to there"),
-    "yield_ksi": Key(number(above=0, sane=(1e-3, 1e4)), None, "for ballistic-limit equations only"),
+    "yield_ksi": Key(number(above=0, sane=(1e-3, 1e4)), None, "for ballistic-limit equations only, of two walls; default: of a table (Howto_ble)"),
+    "brinell": Key(number(above=0, sane=(1, 1e4)), None, "hardness, likewise, of a single wall"),
+    "sound_km_s": Key(number(above=0, sane=(0.1, 30)), None, "speed of sound, likewise"),
 }
 
 SETTINGS = {
