@@ -681,6 +681,7 @@ def test_real_shapes(root, lmp, tmp_path, shape, number):
     ball, body = frame.select(frame["type"] == 1), case.projectile
     assert made.images == number and number * ball.m.sum() == pytest.approx(2790 * 1e-9 * body.volume_mm3, rel=5e-6)  # a dump has six digits of a mass
     assert number * len(ball) == pytest.approx(body.volume_mm3 / 0.4**3, rel=0.1)
+    assert chain.plan_of(made)["projectile_across"] == {"cylinder": 6, "cube": 10, "hollow sphere": 20}[body.shape]  # its least extent
     x = 1e3 * ball.x + [0, 0, body.radius_mm]
     c, s = math.cos(math.radians(body.pitch_deg)), math.sin(math.radians(body.pitch_deg))
     across, y, along = c * x[:, 0] - s * x[:, 2], x[:, 1], c * x[:, 2] + s * x[:, 0]
