@@ -132,7 +132,7 @@ speed_km_s: 6.7
 angle_deg: 30
 walls:
 - {thickness_mm: 1, material: Al6061-T6, radius_mm: 30, spacings_mm: [0.4, 0.3]}
-- {thickness_mm: 2, gap_mm: 30, material: Al2024-T3, method: hybrid, spacings_mm: [0.5, 0.3334], core_mm: 10, hold_mm: 12, yield_ksi: 47}
+- {thickness_mm: 2, gap_mm: 30, material: Al2024-T3, method: hybrid, spacings_mm: [0.5, 0.3334], core_mm: 10, hold_mm: 12, yield_ksi: 47, brinell: 120, sound_km_s: 5.1}
 spacings_mm: [0.4, 0.3]
 shifts: [0, 0.5]
 not_modelled: [MLI]

@@ -88,6 +88,7 @@ def test_one_wall(name, factor, rho, exponent):
     of = dataclasses.replace(ONE, projectile_density=rho)
     d = d_c(name, of, 6.0, 30.0)
     depth = 5.24 * d ** (19 / 18) * 95**-0.25 * (rho / 2.70) ** exponent * (6 * math.cos(math.radians(30)) / 5.05) ** (2 / 3)
+    assert ble.crater_depth(of, d, 6.0, 30.0) == pytest.approx(depth)
     assert factor * depth == pytest.approx(0.44)
     assert d_c(name, of, 6.0, 80.0) > d_c(name, of, 6.0, 65.0) > d  # no cap here
 
@@ -161,8 +162,9 @@ def test_ranges_are_told():
 @pytest.mark.parametrize("call, message", [
     (lambda: ble.critical_diameter("NO", T, 7), "no equation NO; there are: NNO, "), (lambda: ble.critical_diameter("NNO", ONE, 7), "NNO is for 2 walls, not 1"),
     (lambda: ble.critical_diameter("NNO", T, 0), "speed must be above 0"), (lambda: ble.critical_diameter("NNO", T, 7, 90), "below 90 degrees"),
-    (lambda: ble.critical_diameter("NNO", varied(wall_yield_ksi=None), 7), "give it as yield_ksi"),
-    (lambda: ble.critical_diameter("CP-perforation", dataclasses.replace(ONE, wall_brinell=None), 7), "needs wall_brinell")])
+    (lambda: ble.critical_diameter("NNO", varied(wall_yield_ksi=None), 7), "NNO needs yield_ksi among the keys of the last wall"),
+    (lambda: ble.critical_diameter("CP-perforation", dataclasses.replace(ONE, wall_brinell=None), 7), "needs brinell among"),
+    (lambda: ble.critical_diameter("CP-perforation", dataclasses.replace(ONE, wall_brinell=None, wall_sound_km_s=None), 7), "needs brinell and sound_km_s among")])
 def test_refused(call, message):
     with pytest.raises(HVIError, match=re.escape(message)):
         call()
@@ -208,6 +210,24 @@ def test_command(folder, capsys):
     assert (folder / "f.png").stat().st_size > 10000
     head, first, *_ = (folder / "t.csv").read_text().splitlines()
     assert head == "speed_km_s,NNO_mm,NNO_beyond,JSC_mm,JSC_beyond" and float(first.split(",")[1]) == pytest.approx(10 * d_c("NNO", of, 3))
+
+
+def test_a_single_wall(folder, capsys):
+    """of a material that the table has, with keys of its own, and without: what is missing is named; the crater of the case, too"""
+    one = re.sub(r"  - thickness_mm: 1.2.*?60\n", "", CASE, flags=re.S).replace("thickness_mm: 0.8, material: Al2024-T3}", "thickness_mm: 9, material: steel-304KEYS}")
+    (folder / "emi.yaml").write_text(one.replace("KEYS", ", brinell: 150, sound_km_s: 4.6"))
+    assert cli.main(["ble", "emi.yaml", "--speeds", "3:9:4"]) == 0
+    out = capsys.readouterr().out
+    P = 52.4 * 0.5 ** (19 / 18) * 150**-0.25 * math.sqrt(2785 / 7900) * (7.1 / 4.6) ** (2 / 3)
+    assert "9 mm steel-304 (150 Brinell, 4.6 km/s), 0 degrees\n" in out and f"\ncrater in a thick target: {P:.2f} mm deep\n" in out
+    assert re.search(rf"^ +CP-perforation +{5 * (9 / 1.8 / P) ** (18 / 19):.2f} ", out, re.M) and "  * CP-perforation: not all of it is aluminum" in out
+    for keys, needed in (("", "brinell and sound_km_s"), (", brinell: 150", "sound_km_s"), (", sound_km_s: 4.6", "brinell")):
+        (folder / "emi.yaml").write_text(one.replace("KEYS", keys))
+        assert cli.main(["ble", "emi.yaml"]) == 1
+        assert f"CP-perforation needs {needed} among the keys of the last wall" in capsys.readouterr().err, keys
+    (folder / "emi.yaml").write_text(one.replace("steel-304KEYS", "Al6061-T6, brinell: 100"))
+    found = ble.from_case(cases.read("emi.yaml"))
+    assert (found.wall_brinell, found.wall_sound_km_s) == (100, 5.05)
 
 
 @pytest.mark.parametrize("angle, told", [(65, False), (75, True)])

@@ -271,6 +271,16 @@ def test_few_layers_are_said_beforehand(folder, capsys):
     assert front("shield") == 3 and capsys.readouterr().err == ""
 
 
+def test_materials_in_wrong_units_are_said_beforehand(folder, root, capsys):
+    """each file once; the package's own never"""
+    text = (root / "potentials" / "Al6061-T6.hvi").read_text()
+    (folder / "own.hvi").write_text(re.sub(r"(?m)^  A  .*", "  A 324", text, count=1))
+    (folder / "emi.yaml").write_text(CASE.replace("material: Al2024-T3}", "material: own}").replace("material: Al6061-T6", "material: own"))
+    assert front("shield", "--dry-run") == 0
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and said.startswith(f"hvi: warning: {folder / 'own.hvi'}: strength johnson-cook: A = 324 is far from what is usual with its eos, "), said
+
+
 def test_dry_run(folder, capsys):
     """the plan of each spacing, from geometry alone, and a sketch that shows what passes beside; nothing is run"""
     from matplotlib.image import imread
@@ -325,13 +335,13 @@ def test_both_runs(folder, capsys):
 
 
 def test_notes_are_not_causes(folder, capsys, monkeypatch):
-    """what would make a run undecided if it did not fail comes after the causes, by itself, with keys of the case"""
+    """what would make a run undecided if it did not fail comes after the causes, by itself, and without a remedy, as none changes the verdict; both of all finest runs"""
     monkeypatch.setenv("FAKE_NOTE", "yes")
     assert front("shield") == 3
-    causes = ["all 4 runs say so: spacings of 0.4, 0.2 mm, 2 shifts of the lattice", "wall 2 is perforated by a hole of 5 mm (dx-0.2_shift-0.5)",
-              "wall 2 has detached spall of 4 mg (dx-0.2_shift-0.5)"]
-    notes = ["1 percent of the energy of the shot are still on their way to wall 2 at 95.9 us, the end at the latest -- take settings: {tstop: 143.8} (dx-0.2_shift-0.5)",
-             "debris of 12 percent of the projectile's mass passed beside wall 2 -- take radius_mm of 66 for it (dx-0.2_shift-0.5)"]
+    finest = "(dx-0.2_shift-0.0, dx-0.2_shift-0.5)"
+    causes = ["all 4 runs say so: spacings of 0.4, 0.2 mm, 2 shifts of the lattice", f"wall 2 is perforated by a hole of 5 mm {finest}", f"wall 2 has detached spall of 4 mg {finest}"]
+    notes = [f"1 percent of the energy of the shot are still on their way to wall 2 at 95.9 us, the end at the latest {finest}",
+             f"debris of 12 percent of the projectile's mass passed beside wall 2 {finest}"]
     assert "\n".join(["verdict: fails", *(f"  - {text}" for text in causes), "notes:", *(f"  - {text}" for text in notes), "table: "]) in capsys.readouterr().out
     saved = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())
     assert list(saved)[:3] == ["verdict", "reasons", "notes"] and saved["reasons"] == causes and saved["notes"] == notes
@@ -671,6 +681,7 @@ def test_real_shapes(root, lmp, tmp_path, shape, number):
     ball, body = frame.select(frame["type"] == 1), case.projectile
     assert made.images == number and number * ball.m.sum() == pytest.approx(2790 * 1e-9 * body.volume_mm3, rel=5e-6)  # a dump has six digits of a mass
     assert number * len(ball) == pytest.approx(body.volume_mm3 / 0.4**3, rel=0.1)
+    assert chain.plan_of(made)["projectile_across"] == {"cylinder": 6, "cube": 10, "hollow sphere": 20}[body.shape]  # its least extent
     x = 1e3 * ball.x + [0, 0, body.radius_mm]
     c, s = math.cos(math.radians(body.pitch_deg)), math.sin(math.radians(body.pitch_deg))
     across, y, along = c * x[:, 0] - s * x[:, 2], x[:, 1], c * x[:, 2] + s * x[:, 0]

@@ -167,6 +167,35 @@ def test_units(written, units, factor):
     assert one.in_si(("damage", "johnson-cook"))["epsdot0"] == 1
 
 
+METAL = ("# UNITS: {units}\neos gruneisen\nrho0 {rho0!r}\nC {C!r}\ncp {cp!r}\nS1 1.3\ng0 2\nT0 300\nstrength johnson-cook\nG {G!r}\nA {A!r}\nB {B!r}\nn 0.3\nC 0.01\nm 1.2\nepsdot0 1\n"
+         "Tref {Tref!r}\nTm 800\nspall voids\nsigma {sigma!r}\nrate {rate!r}\nm 0.2\nphi_c 0.1\n")
+IN_SI = {"rho0": 2700, "C": 5200, "cp": 900, "G": 26e9, "A": 3e8, "B": 2e8, "sigma": 1e9, "rate": 1e5, "Tref": 300}
+
+
+@pytest.mark.parametrize("units, density, speed, heat, pressure, rate", [("si", 1, 1, 1, 1, 1), ("cgs", 1e-3, 1e2, 1e4, 10, 1), ("micro", 1e-3, 1, 1, 1e-3, 1e-6), ("lj", 1, 1, 1, 1, 1)])
+@pytest.mark.parametrize("key, slip, low, high", [("rho0", 1e-3, 10, 25000), ("C", 1e-3, 100, 20000), ("Tref", 1 / 15, 100, 6000), ("rate", 1e6, 1, 1e9), ("cp", 1e-3, 27, 270000),
+                                                  ("G", 1e-9, 7.3e7, 1.5e11), ("A", 1e-6, 730000, 1.5e10), ("B", 1e-6, 730000, 1.5e10), ("sigma", 1e-9, 7.3e6, 2.2e10)])
+def test_values_in_wrong_units(written, units, density, speed, heat, pressure, rate, key, slip, low, high):
+    """of a metal, in the units of its file: the value is named, and what is usual; in units lj there are ratios only"""
+    factor = {"rho0": density, "C": speed, "cp": heat, "G": pressure, "A": pressure, "B": pressure, "sigma": pressure, "rate": rate, "Tref": 1}
+    values = {name: value * factor[name] for name, value in IN_SI.items()}
+    assert not library.doubts(library.read(written(METAL.format(units=units, **values))))
+    if units == "lj" and key in ("rho0", "C", "Tref", "rate"):
+        return
+    wrong, to = slip * values[key], factor[key]
+    (said,) = library.doubts(library.read(written(METAL.format(units=units, **{**values, key: wrong}))))
+    assert f": {key} = {wrong:g} is far from what is usual" in said and said.endswith(f", {low * to:g} to {high * to:g} in units {units}"), said
+
+
+@pytest.mark.parametrize("eos, said", [
+    ("linear\nrho0 1000\nK 2.2e9\n", ""), ("linear\nrho0 1000\nK 2.2\n", "K = 2.2 is far from what is usual with its rho0, 1e+07 to 4e+11"),
+    ("tait\nrho0 1000\nc0 1.48\n", "c0 = 1.48 is"), ("polynomial\nrho0 8900\nA1 1.4e11\nA2 290\n", "A2 = 290 is far from what is usual with its eos, 1.4e+08 to 1.4e+13"),
+    ("tillotson\nrho0 2700\na 0.5\nb 1.63\nA 75.2e9\nB 65e9\nE0 5e10\nEiv 3e6\nEcv 13.9e6\n", "E0 = 5e+10 is"), ("idealgas\ngamma 1.4\n", "")])
+def test_units_of_equations_of_state(written, capsys, eos, said):
+    assert cli.main(["material", written("# UNITS: si\neos " + eos), "Pb.hvi"]) == 0  # of several there are no curves
+    assert re.fullmatch(f"hvi: warning: x.hvi: eos .*{re.escape(said)}.*: is it in other units\\?\n" if said else "", capsys.readouterr().err)
+
+
 # ---------------------------------------------------------------------- all files
 @pytest.fixture
 def rough(monkeypatch):
@@ -176,9 +205,10 @@ def rough(monkeypatch):
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: p.stem)
 def test_all_files_pass(path, capsys, rough):
-    """each is read, has a title, a date, sources, and says of all it has not why"""
+    """each is read without a warning, has a title, a date, sources, and says of all it has not why"""
     assert cli.main(["material", str(path)]) == 0
-    one, out = library.read(path), capsys.readouterr().out
+    one, (out, err) = library.read(path), capsys.readouterr()
+    assert not err  # no value is far from what is usual
     assert one.title and one.date and one.citation
     assert all(one.lacks().values()), "a line '# No KIND: why' in the head"
     assert "does not say why" not in out

@@ -63,6 +63,8 @@ def of_case(args):
     print(f"\nthe case, {case.diameter_mm:g} mm at {case.speed_km_s:g} km/s:")
     found = ble.predictions(case)
     print("\n".join(ble.said({name: found[name] for name in names})))
+    if shield.walls == 1:
+        print(f"crater in a thick target: {10 * ble.crater_depth(shield, 0.1 * case.diameter_mm, case.speed_km_s, case.angle_deg):.2f} mm deep")
     if args.out:
         tables.write_csv(args.out, ("speed_km_s", *(f"{name}_{what}" for name in names for what in ("mm", "beyond"))),
                          [(speed, *(value for name in names for value in (points[name][k][0], "; ".join(" ".join((w, t)).strip() for w, _, t in points[name][k][1]))))
@@ -75,7 +77,7 @@ def of_case(args):
 def title(case, shield):
     """a case in a line"""
     walls = ", ".join((f"gap {wall.gap_mm:g} mm, " if wall.gap_mm else "") + f"{wall.thickness_mm:g} mm {stem(wall.material)}" for wall in case.walls)
-    strength = f" ({shield.wall_yield_ksi:g} ksi)" if shield.walls == 2 else ""
+    strength = f" ({shield.wall_yield_ksi:g} ksi)" if shield.walls == 2 else f" ({shield.wall_brinell:g} Brinell, {shield.wall_sound_km_s:g} km/s)"
     capped = f" (beyond {ble.CAP:g}: critical diameters are those of {ble.CAP:g})" if shield.walls == 2 and case.angle_deg > ble.CAP else ""
     return f"{case.name}: {stem(case.material)} on {walls}{strength}, {case.angle_deg:g} degrees{capped}"
 

@@ -17,6 +17,8 @@ def add_arguments(parser):
 
 def main(args):
     found = [library.read(name) for name in args.files]
+    for one in found:
+        library.warn(one)
     if len(found) > 1:
         if args.figure:
             raise HVIError("--figure draws one file")

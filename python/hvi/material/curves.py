@@ -7,6 +7,7 @@ All in SI, or in the units of a file in units lj. tests/python/test_material.py 
 import numpy as np
 
 from ..errors import HVIError
+from . import library
 
 STEPS = 400  # of the isentrope, per unit of compression
 
@@ -22,7 +23,7 @@ class Eos:
                                                                                 "a gas has no reference density to start from"))
         v = self.v
         self.rho0, self.cp, self.T0 = v["rho0"], v.get("cp", 0.0), v.get("T0", 300.0)
-        stiff = {"linear": "K", "polynomial": "A1", "tillotson": "A"}.get(self.law)
+        stiff = library.STIFF.get(self.law)
         self.c0 = np.sqrt(v[stiff] / v["rho0"]) if stiff else v.get("C", v.get("c0"))
 
     def pressure(self, rho, e):

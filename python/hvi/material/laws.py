@@ -30,7 +30,9 @@ def find(reader, node, key):
     known = {path.stem: path for folder in reversed(library.potentials()) for path in sorted(folder.glob("*.hvi"))}
 
     def solids():
-        return sorted(stem for stem, path in known.items() if strengths(path))
+        """those that a run can take: of which another one has a law, too, as all materials of a run have one in common"""
+        laws = {stem: set(strengths(path)) - {"none"} for stem, path in known.items()}
+        return sorted(stem for stem in laws if any(laws[stem] & laws[other] for other in laws if other != stem))
 
     own = next((path for path in (reader.path.parent / name, reader.path.parent / f"{name}.hvi") if os.path.isfile(path)), None)  # is_file() raises for a long name
     path = own or known.get(name.removesuffix(".hvi"))
@@ -44,7 +46,7 @@ def find(reader, node, key):
 
 
 COMMON = {"aluminum": "Al", "aluminium": "Al", "copper": "Cu", "steel": "steel", "iron": "Fe", "titanium": "Ti", "tantalum": "Ta", "lead": "Pb", "tungsten": "W", "nickel": "Ni",
-          "plexiglass": "PMMA", "acrylic": "PMMA", "magnesium": "Mg", "beryllium": "Be", "zinc": "Zn", "silver": "Ag", "gold": "Au"}
+          "magnesium": "Mg", "beryllium": "Be", "zinc": "Zn", "silver": "Ag", "gold": "Au"}
 
 
 def meant(name, known):

@@ -10,10 +10,11 @@ import math
 import os
 import pathlib
 import re
+import warnings
 from typing import Optional
 
 from .. import texts
-from ..errors import HVIError, reading
+from ..errors import HVIError, HVIWarning, reading
 from ..places import POTENTIALS
 
 # keys of each law as its table in src/USER-HVI has them: (key, quantity, range, value if it is not given, None: it must be);
@@ -69,6 +70,7 @@ LAWS = {
     ("spall", "grady"): _keys("eps_c number +"),
     ("thermal", "work"): _keys("chi number fraction"),
 }
+STIFF = {"linear": "K", "polynomial": "A1", "tillotson": "A"}  # what is rho0 c0^2
 KINDS = tuple(dict.fromkeys(kind for kind, _ in LAWS))
 WANTED = KINDS[:4]  # eos, strength, damage, spall
 
@@ -343,6 +345,48 @@ def uses(material):
     laws = [law for law in material.laws("strength") if law != "none"]
     own = f" strength {laws[0]}" if laws and "johnson-cook" not in laws else ""  # what fix hvi/johnson-cook takes if it is told nothing
     return [(use, words + own * bool(words), needs(material, wanted)) for use, words, wanted in USES]
+
+
+# what is usual in SI of solids and liquids; and as parts of SCALES, in any units: wide, what is beyond has mostly wrong units
+ABSOLUTE = {("eos", "density"): (10, 25e3), ("eos", "speed"): (100, 20e3), ("eos", "temperature"): (100, 1000), ("strength", "temperature"): (100, 6000),
+            ("strength", "per_temperature"): (1e-6, 0.05), ("spall", "rate"): (1, 1e9)}
+RELATIVE = {("eos", "pressure"): (1e-3, 100), ("eos", "specific_energy"): (0.01, 100), ("eos", "heat_capacity"): (3e-4, 3), ("strength", "modulus"): (1e-3, 2),
+            ("strength", "pressure"): (1e-5, 0.2), ("strength", "per_pressure"): (0.05, 50), ("damage", "pressure"): (1e-4, 0.3), ("spall", "pressure"): (1e-4, 0.3)}
+
+
+def doubts(material):
+    """[text of each value that is far from what is usual: key, value, what is usual]; 0 is no value, and without a speed of sound only ABSOLUTE is known"""
+    eos = "eos", material.laws("eos")[0]
+    v, stiff, scales, found = material.in_si(eos), STIFF.get(eos[1]), {}, {}
+    if "rho0" in v:
+        M = v[stiff] if stiff else v["rho0"] * v.get("C", v.get("c0")) ** 2
+        scales = {"pressure": M, "modulus": M, "per_pressure": 1 / M, "specific_energy": M / v["rho0"], "heat_capacity": M / v["rho0"] / 300}
+
+    def look(section, key, usual, scale=1.0, given=""):
+        value, si = material.sections[section][key], material.in_si(section)[key]
+        if value and not usual[0] * scale <= abs(si) <= usual[1] * scale:
+            low, high = (float(f"{x * scale * value / si:.2g}") for x in usual)
+            found[section, key] = f"{' '.join(section)}: {key} = {value:g} is far from what is usual{given}, {low:g} to {high:g} in units {material.units}"
+
+    keys = [(section, key, "modulus" if key in ("G", "G0") else quantity) for section in material.sections for key, quantity, _, _ in LAWS[section]
+            if key in material.notes[section]]  # those that are given
+    if material.units != "lj":
+        for section, key, quantity in keys:
+            if usual := ABSOLUTE.get((section[0], quantity)):
+                look(section, key, usual)
+        if stiff and (eos, "rho0") not in found:
+            look(eos, stiff, [speed**2 for speed in ABSOLUTE["eos", "speed"]], v["rho0"], " with its rho0")
+    if not any((eos, key) in found for key in ("rho0", "C", "c0", stiff)):
+        for section, key, quantity in keys:
+            if quantity in scales and (usual := RELATIVE.get((section[0], quantity))):
+                look(section, key, usual, scales[quantity], " with its eos")
+    return list(found.values())
+
+
+def warn(material):
+    """of doubts()"""
+    for text in doubts(material):
+        warnings.warn(f"{material.path}: {text}: is it in other units?", HVIWarning, stacklevel=2)
 
 
 def row(material):

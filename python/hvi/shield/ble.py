@@ -214,13 +214,17 @@ def _reimerdes(shield, speed, angle):
 
 # one wall
 
+def crater_depth(shield, diameter_cm, velocity_km_s, angle_deg=0.0):
+    """cm, in a target as thick as it takes: [C09] (4-1), (4-2)"""
+    ratio = shield.projectile_density / shield.wall_density
+    return 5.24 * diameter_cm ** (19 / 18) * shield.wall_brinell**-0.25 * ratio ** (2 / 3 if ratio >= 1.5 else 0.5) \
+        * (velocity_km_s * math.cos(math.radians(angle_deg)) / shield.wall_sound_km_s) ** (2 / 3)
+
+
 def _cour_palais(factor):
     def d_c(shield, speed, angle):
-        """[C09] (4-1) to (4-6); (4-2) solved for d has the exponent 2/3, too, where [RC09] (7) prints 3/2"""
-        ratio = shield.projectile_density / shield.wall_density
-        depth = 5.24 * shield.wall_brinell**-0.25 * ratio ** (2 / 3 if ratio >= 1.5 else 0.5) \
-            * (speed * math.cos(math.radians(angle)) / shield.wall_sound_km_s) ** (2 / 3)
-        return (shield.wall_thickness_cm / (factor * depth)) ** (18 / 19)
+        """[C09] (4-3) to (4-6); (4-2) solved for d has the exponent 2/3, too, where [RC09] (7) prints 3/2"""
+        return (shield.wall_thickness_cm / (factor * crater_depth(shield, 1.0, speed, angle))) ** (18 / 19)
     return d_c
 
 
@@ -287,10 +291,8 @@ def critical_diameter(name, shield, velocity_km_s, angle_deg=0.0):
         raise HVIError(f"{name} is for {equation.walls} wall{'s' * (equation.walls > 1)}, not {shield.walls}")
     if not (velocity_km_s > 0 and 0 <= angle_deg < 90):
         raise HVIError(f"{name}: speed must be above 0 and angle from 0 to below 90 degrees, not {velocity_km_s:g} km/s and {angle_deg:g}")
-    for key in ("wall_yield_ksi",) if shield.walls == 2 else ("wall_brinell", "wall_sound_km_s"):
-        if not getattr(shield, key):
-            raise HVIError(f"{name} needs {key}, and the table of standard values does not have the material of the last wall"
-                           + ("; give it as yield_ksi of the wall" if shield.walls == 2 else ""))
+    if missing := [key for key in (("yield_ksi",) if shield.walls == 2 else ("brinell", "sound_km_s")) if not getattr(shield, f"wall_{key}")]:
+        raise HVIError(f"{name} needs {' and '.join(missing)} among the keys of the last wall: the table of standard values has none for its material")
     d = equation.d_c(shield, velocity_km_s, angle_deg)
     return d, [what if value is None else f"{what} {value:.3g} is {limit}" for what, value, limit in beyond(name, shield, d, velocity_km_s, angle_deg)]
 
@@ -321,7 +323,7 @@ def _density(name):
 
 
 def from_case(case):
-    """The Shield of a case of hvi shield. Densities: of the material files; strength: yield_ksi of the last wall, or the table's"""
+    """The Shield of a case of hvi shield. Densities: of the material files; yield_ksi, brinell, sound_km_s: of the last wall, or the table's"""
     if len(case.walls) > 2:
         raise HVIError(f"ballistic-limit equations are for one or two walls, {case.name} has {len(case.walls)}")
     if case.not_modelled:
@@ -331,7 +333,7 @@ def from_case(case):
     bumper = {} if len(case.walls) == 1 else {"bumper_thickness_cm": 0.1 * case.walls[0].thickness_mm, "bumper_density": _density(case.walls[0].material),
                                               "standoff_cm": 0.1 * wall.gap_mm}
     return Shield(wall_thickness_cm=0.1 * wall.thickness_mm, wall_density=_density(wall.material), projectile_density=_density(case.material),
-                  wall_yield_ksi=wall.yield_ksi or strength, wall_brinell=brinell, wall_sound_km_s=sound,
+                  wall_yield_ksi=wall.yield_ksi or strength, wall_brinell=wall.brinell or brinell, wall_sound_km_s=wall.sound_km_s or sound,
                   aluminum=all(re.match(r"Al(?:-|[0-9]{4}|99)", name) for name in names), **bumper)
 
 

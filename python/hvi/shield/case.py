@@ -40,7 +40,9 @@ WALL = {
     "method": Key(choice(*METHODS, hint=MODEL), None, "default: that of the case"),
     "core_mm": Key(number(least=0), None, "of elements: free particles instead up to there, default what the shot needs; of particles: half the side of the square that has spacings_mm, beyond they are twice as far apart, default: nowhere"),
     "hold_mm": Key(number(above=0), None, "and elements that hold particles up to there"),
-    "yield_ksi": Key(number(above=0, sane=(1e-3, 1e4)), None, "for ballistic-limit equations only"),
+    "yield_ksi": Key(number(above=0, sane=(1e-3, 1e4)), None, "for ballistic-limit equations only, of two walls; default: of a table (Howto_ble)"),
+    "brinell": Key(number(above=0, sane=(1, 1e4)), None, "hardness, likewise, of a single wall"),
+    "sound_km_s": Key(number(above=0, sane=(0.1, 30)), None, "speed of sound, likewise"),
 }
 
 SETTINGS = {
@@ -340,6 +342,8 @@ def read(path, model=True):
 
 def warn(case, reader):
     """of what is no error"""
+    for name in dict.fromkeys((case.material, *(wall.material for wall in case.walls))):
+        library.warn(library.read(library.of_case(name)))
     if "weibull" in case.setting("solid").split():
         node = reader.at["settings: solid"]
         warnings.warn(f"{reader.path}, line {node.start_mark.line + 1}: all runs have the same seed of weibull: what another would change is in no verdict", HVIWarning,

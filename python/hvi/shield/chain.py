@@ -204,7 +204,7 @@ def size_of(shield):
 def plan_of(shield):
     """plan.yaml: what is run, as reports and pictures read it"""
     g, case = shield.geometry, shield.case
-    found = {"dx_mm": case.spacings_mm[shield.which], "projectile_particles": round(shield.in_projectile() / shield.images), "projectile_across": round(2 * g.R / g.a, 1)}
+    found = {"dx_mm": case.spacings_mm[shield.which], "projectile_particles": round(shield.in_projectile() / shield.images), "projectile_across": round(1e-3 * case.projectile.least_mm / g.a, 1)}
     for k, (wall, of) in enumerate(zip(g.walls, case.walls), 1):
         found.update({f"wall{k}_{name}": value for name, value in {
             "particles": round(sum(shield.of_walls[k - 1][:2])), "elements": int(of.method != "sph"), "layers": wall.layers,

@@ -4,6 +4,7 @@
 import dataclasses
 import itertools
 import math
+import re
 import statistics
 
 from ..errors import HVIError
@@ -14,6 +15,7 @@ from . import case as cases
 
 STATUS = {"holds": 0, "fails": 3, "undecided": 4}  # exit status of each verdict
 CHANGES = 1.5  # of the mass of the largest piece between two spacings, beyond its range over the shifts (examples/whipple-shield/limits/tables.md),
+NUMBER = re.compile(r"(?<![\w.-])(?<!wall )-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")  # in a text, that is not part of a name
 LUMP = 2  # if it is wider than so many spacings: smaller ones are as coarse as the particles
 
 
@@ -62,19 +64,27 @@ def decide(case, said):
         reasons.append("the verdict differs over the spacing: " + ", ".join(f"{' or '.join(sorted(found))} at {where(which)}" for which, found in per.items()))
     if {"holds", "fails"} <= set.union(*per.values()):
         reasons.append("so near the limit finer spacings_mm may decide; hvi limit says how near it is")
-    finest = len(case.spacings_mm) - 1, case.shifts[-1]
-    texts = {}  # why runs are undecided; if all agree on another verdict, what the finest says of it
-    for member, (verdict, why, _) in said.items():
-        for text in why:
-            if verdict == "undecided" or not reasons and member == finest:
-                texts.setdefault(text, []).append(member_name(case, member))
-    told = [f"{text} ({', '.join(names)})" for text, names in texts.items()]
     if reasons or per[0] == {"undecided"}:
-        return "undecided", reasons + told, []
+        return "undecided", reasons + said_by(case, [(member, why) for member, (verdict, why, _) in said.items() if verdict == "undecided"]), []
     (verdict,) = per[0]
-    notes = [f"{text} ({member_name(case, finest)})" for text in said[finest][2]] + note_of_layers(case)
+    finest = [(len(case.spacings_mm) - 1, shift) for shift in case.shifts]
+    causes, notes = (said_by(case, [(member, said[member][k]) for member in finest], NUMBER.split) for k in (1, 2))
     return verdict, [f"{'both' if len(said) == 2 else f'all {len(said)}'} runs say so: spacings of {', '.join(f'{dx:g}' for dx in case.spacings_mm)} mm, "
-                     f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *told], notes
+                     f"{len(case.shifts)} shift{'s' if len(case.shifts) > 1 else ''} of the lattice", *causes], notes + note_of_layers(case)
+
+
+def said_by(case, each, wording=lambda text: [text]):
+    """[text (names of the runs that say so), ...] of [(member, texts), ...]; texts of one wording as one, with the least and the largest of each of its numbers"""
+    found = {}
+    for member, texts in each:
+        for text in texts:
+            found.setdefault(tuple(wording(text)), []).append((text, member_name(case, member)))
+    lines = []
+    for same in found.values():
+        numbers = [sorted(set(of), key=float) for of in zip(*(NUMBER.findall(text) for text, _ in same))]
+        ranges = iter([of[0] if len(of) == 1 else f"{of[0]} to {of[-1]}" for of in numbers])
+        lines.append(f"{NUMBER.sub(lambda _: next(ranges), same[0][0])} ({', '.join(name for _, name in same)})")
+    return lines
 
 
 def note_of_layers(case):

@@ -95,7 +95,8 @@ class Projectile:
     @property
     def least_mm(self):
         """the least of its extents"""
-        return min(value for value in (self.diameter_mm, self.length_mm, self.side_mm, self.equivalent_mm, *(least for *_, least in self.of_files)) if value)
+        of_files = (self.equivalent_mm, *(least for *_, least in self.of_files)) if self.files else ()
+        return min(value for value in (self.diameter_mm, self.length_mm, self.side_mm, *of_files) if value)
 
     @property
     def in_data(self):

@@ -46,11 +46,12 @@ class Rule:
 
 @dataclasses.dataclass(frozen=True)
 class Finding:
-    """A rule that applies to a run: its name, sentence, and remedy as keys of the case"""
+    """A rule that applies to a run: its name, sentence, remedy as words and as keys of the case"""
 
     name: str
     effect: str
     text: str
+    advice: str
     remedy: dict
 
 
@@ -198,7 +199,7 @@ def findings(m):
         said = rule.when(m)
         for words in ([(m, k) for k in said] if rule.each else [(m,)] if said else []):
             keys, advice = rule.remedy(*words) if rule.remedy else ({}, "")
-            found.append(Finding(rule.name, rule.effect, f"{rule.says(*words)} -- {advice}" if advice else rule.says(*words), keys))
+            found.append(Finding(rule.name, rule.effect, rule.says(*words), advice, keys))
     return found
 
 
@@ -207,8 +208,8 @@ def of_run(shield, result):
     m = measured(shield, result)
     found = findings(m)
 
-    def texts(*effects):
-        return [f.text for f in found if f.effect in effects]
+    def texts(*effects, advice=True):
+        return [f"{f.text} -- {f.advice}" if advice and f.advice else f.text for f in found if f.effect in effects]
 
     if texts(ALWAYS):
         verdict = "undecided"
@@ -217,8 +218,9 @@ def of_run(shield, result):
     else:
         verdict = "undecided" if texts(UNLESS) else "holds"
     reasons = {"holds": texts(HOLDS), "fails": texts(FAILS), "undecided": texts(ALWAYS, UNLESS) + texts(FAILS, HOLDS)}[verdict]
-    notes = (texts(UNLESS) if verdict == "fails" else []) + texts(NOTE)
-    remedies = list({str(f.remedy): f.remedy for f in found if f.remedy and f.effect != NOTE}.values())
+    fails = verdict == "fails"  # whatever is done of what is doubtful: no remedies
+    notes = (texts(UNLESS, advice=False) if fails else []) + texts(NOTE)
+    remedies = [] if fails else list({str(f.remedy): f.remedy for f in found if f.remedy and f.effect != NOTE}.values())
     return {"verdict": verdict, "reasons": reasons, **({"notes": notes} if notes else {}), **({"remedies": remedies} if remedies else {}),
             "rules": [f.name for f in found], "decided_by": "none" if m.late else f"wall{m.d}",
             "margins": {"hole_mm": math.nan if m.unknown else m.hole, "apart_mass_mg": m.apart, "apart_particles": m.parts, "bulge_over_thickness": m.of("bulge_over_thickness"),
