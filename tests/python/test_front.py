@@ -222,12 +222,16 @@ def test_what_cannot_tear_in_tension(folder, capsys, D, wall, ball, verdict):
     """a wall without a law of spall is none that holds: a file of it has nothing that lets it fail"""
     text = CASE.replace("diameter_mm: 5", f"diameter_mm: {D}").replace("material: Al6061-T6", f"material: {wall}").replace("  material: Al2024-T3", f"  material: {ball}")
     (folder / "emi.yaml").write_text(text)
+    assert front("shield", "--dry-run") == 0
+    assert (f"hvi: warning: emi.yaml, line 9: wall 2 is of {wall}.hvi, whose file has no law of spall (damage yes spall voids), so it does not fail in tension: if the shield holds, "
+            "the verdict will be undecided -- give its file such a section, or take a law that it has, by settings: {solid: ...}\n" in capsys.readouterr().err) == (wall[0] == "T")
     assert front("shield", "--jobs", "3") == decision.STATUS[verdict]
     said = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())
     place = "reasons" if verdict == "undecided" else "notes"
     what = f"wall 2 is of {wall}.hvi" if wall[0] == "T" else f"the projectile is of {ball}.hvi"
     assert said["verdict"] == verdict and "next_finer" not in said
-    assert [text for text in said[place] if text.startswith(f"{what}, whose file has no law of spall (damage yes spall voids)")]
+    (why,) = [text for text in said[place] if text.startswith(f"{what}, whose file has no law of spall (damage yes spall voids)")]
+    assert (" -- give its file such a section, or take a law that it has, by settings: {solid: ...} (" in why) == (wall[0] == "T")
 
 
 @pytest.mark.parametrize("material, law, remedy", [

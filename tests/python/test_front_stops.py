@@ -252,6 +252,6 @@ def test_next_finer_of_undecided_runs(folder, capsys, monkeypatch):
 
 
 def test_one_seed(folder, capsys):
-    (folder / "emi.yaml").write_text(CASE + "settings: {solid: damage no spall voids weibull 12 4711}\n")
+    (folder / "emi.yaml").write_text(CASE + "settings: {solid: damage yes spall voids weibull 12 4711}\n")
     assert front("shield") == 3
     assert capsys.readouterr().err == "hvi: warning: emi.yaml, line 13: all runs have the same seed of weibull: what another would change is in no verdict\n"

@@ -184,6 +184,14 @@ def test_no_limit_in_the_range(folder, capsys):
     assert answer(folder)["limit"] is None
 
 
+def test_a_wall_that_never_holds_has_no_limit(folder, capsys):
+    (folder / "emi.yaml").write_text(change("material: Al6061-T6", "material: Ti-6Al-4V"))
+    for words in (("limit", "--on", "thickness2"), ("curve", "--dry-run")):
+        assert front(*words) == 1
+        assert "hvi: emi: no limit: wall 2 is of Ti-6Al-4V.hvi, whose file has no law of spall (damage yes spall voids), so it does not fail in tension, and a shield that holds is undecided -- " in capsys.readouterr().err
+    assert not (folder / "runs").exists()
+
+
 def test_limit_goes_on_after_kill(folder, capsys):
     """kill -9 amid the search: what was run counts, what still runs is waited for"""
     words = ["limit", "emi.yaml", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1", "--jobs", "2", "--mpirun", "./mpirun"]

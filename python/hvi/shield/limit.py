@@ -92,6 +92,8 @@ class Limit:
             raise HVIError(f"--from {low:.9g} --to {high:.9g} --step {step:g}: values have six digits, and some of these are the same")
         for value in self.values:  # elements do not fit any thickness
             self.at(value).check_elements(quantity.wrong(f"{on} {value:g} {self.unit}"))
+        if whole := case.whole(len(case.walls)):
+            raise HVIError(f"{case.name}: no limit: {whole[0][1]}, and a shield that holds is undecided -- {whole[0][3]}")
         self.searches, self.jobs = {}, {}
 
     def at(self, value):
