@@ -25,7 +25,7 @@ from hvi import cli
 from hvi.errors import HVIError
 from hvi.figures import sketch
 from hvi.io.data import DataFile
-from hvi.jobs import engine
+from hvi.jobs import engine, machine
 from hvi.material import laws, library
 from hvi.model import bodies, stl
 from hvi.shield import ble, chain, decision, projectile, record
@@ -281,7 +281,9 @@ def test_dry_run(folder, capsys):
 
     assert front("shield", "--dry-run", "--jobs", "2") == 0
     out = capsys.readouterr().out
-    assert "4 runs, 2 of each spacing: at most about " in out and ", 2 at a time on 2 ranks each, on idle cores" in out
+    cost = re.search(r"^ *core_s +about (\S+) +about (\S+)$", out, re.M).groups()
+    seconds = sum(map(float, cost)) / 2  # two of each spacing, on four cores
+    assert f"4 runs, 2 of each spacing: at most about {engine.duration(seconds)} if the wall fails, up to 3 times that if it does not, 2 at a time on 2 ranks each, on idle cores" in out
     count = [math.pi * (15 / dx) ** 2 * n1 / 4 + math.pi * (60 / dx) ** 2 * n2 / 4 + math.pi / 6 * (5 / dx) ** 3 / 4 for dx, n1, n2 in ((0.4, 2, 3), (0.2, 4, 6))]
     said = re.search(r"^ *particles +(\d+) +(\d+)$", out, re.M)
     assert [int(word) for word in said.groups()] == pytest.approx(count, abs=1)
@@ -311,6 +313,25 @@ def test_too_large(folder, capsys, text, message, words):
     start = time.process_time()
     assert front("shield", *words) == 1 and message in capsys.readouterr().err and not tries(folder)
     assert time.process_time() - start < 30  # seconds: it would hang else; a second of them is usual
+
+
+def test_time_of_a_plan(folder, capsys):
+    """a case that says when its runs end has no later end; no more runs at a time than there are, and none is shorter than the longest"""
+    (folder / "emi.yaml").write_text(CASE + "settings: {tstop: 40}\n")
+    assert front("shield", "--dry-run", "--jobs", "9", "--ranks", "1") == 0
+    out = capsys.readouterr().out
+    longest = float(re.search(r"^ *core_s .* about (\S+)$", out, re.M)[1])
+    assert f": at most about {engine.duration(longest)}, 4 at a time on 1 ranks each, on idle cores; a run ends when its event is over\n" in out
+
+
+def test_no_room_on_the_disk(folder, capsys, monkeypatch):
+    """all frames, and restart files of the runs at a time"""
+    plans = [chain.plan_of(chain.shield_of(cases.read("emi.yaml"), which, 0.0)) for which in (0, 1)]
+    needed = 2 * sum(plan["frames_MB"] for plan in plans) + max(plan["disk_MB"] - plan["frames_MB"] for plan in plans)
+    for free, status in ((needed - 1, 1), (needed + 1, 0)):
+        monkeypatch.setattr(machine, "free_disk", lambda path, free=free: (free, path))
+        assert front("shield", "--dry-run") == status
+    assert "MB would be written, and " in capsys.readouterr().err
 
 
 def test_undecided_runs_and_what_is_not_modelled(folder, capsys, monkeypatch):

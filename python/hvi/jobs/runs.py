@@ -83,6 +83,17 @@ def as_interrupts():
             signal.signal(ends, signal.default_int_handler)
 
 
+def left(jobs, more):
+    """those that are not done, of jobs and of what follows from the others"""
+    found, looked_at = [], list(jobs)
+    for job in looked_at:
+        if job.result() is None:
+            found.append(job)
+        else:
+            looked_at += more(job)
+    return found
+
+
 def run(place, most, jobs, what, more=lambda job: []):
     """Runs those that are not done in an engine, place, so many at a time; returns those that failed.
 
