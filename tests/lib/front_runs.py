@@ -7,7 +7,7 @@ import time
 
 import pytest
 from hvi import cli
-from hvi.jobs import runs
+from hvi.jobs import machine, runs
 from hvi.shield import brackets, chain, record
 
 CASE = """# a shield
@@ -34,6 +34,8 @@ def case_folder(tmp_path, root, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(chain, "LEG", math.inf)  # one call of LAMMPS for a run
     monkeypatch.setattr(runs, "LOOK", 0.01)  # the fake takes less than the usual time
+    monkeypatch.setattr(machine, "free_memory", lambda: 1e6)  # MB, whatever the machine has
+    monkeypatch.setattr(machine, "free_disk", lambda path: (1e6, path))
     monkeypatch.setenv("HVI_LMP", str(mpirun))
     monkeypatch.setenv("PYTHONPATH", str(root / "python"))
     return tmp_path

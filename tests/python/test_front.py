@@ -25,7 +25,7 @@ from hvi import cli
 from hvi.errors import HVIError
 from hvi.figures import sketch
 from hvi.io.data import DataFile
-from hvi.jobs import engine
+from hvi.jobs import engine, machine
 from hvi.material import laws, library
 from hvi.model import bodies, stl
 from hvi.shield import ble, chain, decision, projectile, record
@@ -222,12 +222,16 @@ def test_what_cannot_tear_in_tension(folder, capsys, D, wall, ball, verdict):
     """a wall without a law of spall is none that holds: a file of it has nothing that lets it fail"""
     text = CASE.replace("diameter_mm: 5", f"diameter_mm: {D}").replace("material: Al6061-T6", f"material: {wall}").replace("  material: Al2024-T3", f"  material: {ball}")
     (folder / "emi.yaml").write_text(text)
+    assert front("shield", "--dry-run") == 0
+    assert (f"hvi: warning: emi.yaml, line 9: wall 2 is of {wall}.hvi, whose file has no law of spall (damage yes spall voids), so it does not fail in tension: if the shield holds, "
+            "the verdict will be undecided -- give its file such a section, or take a law that it has, by settings: {solid: ...}\n" in capsys.readouterr().err) == (wall[0] == "T")
     assert front("shield", "--jobs", "3") == decision.STATUS[verdict]
     said = yaml.safe_load((folder / "runs/emi/verdict.yaml").read_text())
     place = "reasons" if verdict == "undecided" else "notes"
     what = f"wall 2 is of {wall}.hvi" if wall[0] == "T" else f"the projectile is of {ball}.hvi"
     assert said["verdict"] == verdict and "next_finer" not in said
-    assert [text for text in said[place] if text.startswith(f"{what}, whose file has no law of spall (damage yes spall voids)")]
+    (why,) = [text for text in said[place] if text.startswith(f"{what}, whose file has no law of spall (damage yes spall voids)")]
+    assert (" -- give its file such a section, or take a law that it has, by settings: {solid: ...} (" in why) == (wall[0] == "T")
 
 
 @pytest.mark.parametrize("material, law, remedy", [
@@ -287,7 +291,9 @@ def test_dry_run(folder, capsys):
 
     assert front("shield", "--dry-run", "--jobs", "2") == 0
     out = capsys.readouterr().out
-    assert "4 runs, 2 of each spacing: at most about " in out and ", 2 at a time on 2 ranks each, on idle cores" in out
+    cost = re.search(r"^ *core_s +about (\S+) +about (\S+)$", out, re.M).groups()
+    seconds = sum(map(float, cost)) / 2  # two of each spacing, on four cores
+    assert f"4 runs, 2 of each spacing: at most about {engine.duration(seconds)} if the wall fails, up to 3 times that if it does not, 2 at a time on 2 ranks each, on idle cores" in out
     count = [math.pi * (15 / dx) ** 2 * n1 / 4 + math.pi * (60 / dx) ** 2 * n2 / 4 + math.pi / 6 * (5 / dx) ** 3 / 4 for dx, n1, n2 in ((0.4, 2, 3), (0.2, 4, 6))]
     said = re.search(r"^ *particles +(\d+) +(\d+)$", out, re.M)
     assert [int(word) for word in said.groups()] == pytest.approx(count, abs=1)
@@ -317,6 +323,25 @@ def test_too_large(folder, capsys, text, message, words):
     start = time.process_time()
     assert front("shield", *words) == 1 and message in capsys.readouterr().err and not tries(folder)
     assert time.process_time() - start < 30  # seconds: it would hang else; a second of them is usual
+
+
+def test_time_of_a_plan(folder, capsys):
+    """a case that says when its runs end has no later end; no more runs at a time than there are, and none is shorter than the longest"""
+    (folder / "emi.yaml").write_text(CASE + "settings: {tstop: 40}\n")
+    assert front("shield", "--dry-run", "--jobs", "9", "--ranks", "1") == 0
+    out = capsys.readouterr().out
+    longest = float(re.search(r"^ *core_s .* about (\S+)$", out, re.M)[1])
+    assert f": at most about {engine.duration(longest)}, 4 at a time on 1 ranks each, on idle cores; a run ends when its event is over\n" in out
+
+
+def test_no_room_on_the_disk(folder, capsys, monkeypatch):
+    """all frames, and restart files of the runs at a time"""
+    plans = [chain.plan_of(chain.shield_of(cases.read("emi.yaml"), which, 0.0)) for which in (0, 1)]
+    needed = 2 * sum(plan["frames_MB"] for plan in plans) + max(plan["disk_MB"] - plan["frames_MB"] for plan in plans)
+    for free, status in ((needed - 1, 1), (needed + 1, 0)):
+        monkeypatch.setattr(machine, "free_disk", lambda path, free=free: (free, path))
+        assert front("shield", "--dry-run") == status
+    assert "MB would be written, and " in capsys.readouterr().err
 
 
 def test_undecided_runs_and_what_is_not_modelled(folder, capsys, monkeypatch):

@@ -53,10 +53,11 @@ def begin(folder, **how):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_told_to_end(folder, number):
-    """exit status 130, nothing goes on, nothing is taken for a result, and the next call does the rest"""
-    process = begin(folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    """exit status 130, nothing goes on, nothing is taken for a result, and the next call does the rest; which run has saved nothing is said"""
+    process = begin(folder, env={"FAKE_SAVE": "shift-0.5"}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    wait_for(lambda: list(folder.glob("runs/emi/*/chain.yaml")))
     process.send_signal(number)
-    assert "interrupted: call again to go on\n" in process.communicate(timeout=30)[1] and process.returncode == 130
+    assert "interrupted: call again to go on; 1 run has saved nothing and will begin anew: dx-0.4_shift-0.0\n" in process.communicate(timeout=30)[1] and process.returncode == 130
     assert not at_work(folder) and not list(folder.glob("runs/**/result.yaml")) and not (folder / "runs/emi/verdict.yaml").exists()
     assert front("shield") == 3 and len(tries(folder)) == 4
 
@@ -252,6 +253,6 @@ def test_next_finer_of_undecided_runs(folder, capsys, monkeypatch):
 
 
 def test_one_seed(folder, capsys):
-    (folder / "emi.yaml").write_text(CASE + "settings: {solid: damage no spall voids weibull 12 4711}\n")
+    (folder / "emi.yaml").write_text(CASE + "settings: {solid: damage yes spall voids weibull 12 4711}\n")
     assert front("shield") == 3
     assert capsys.readouterr().err == "hvi: warning: emi.yaml, line 13: all runs have the same seed of weibull: what another would change is in no verdict\n"

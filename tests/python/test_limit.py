@@ -9,6 +9,7 @@ import sys
 import pytest
 import yaml
 from front_runs import begun, case_folder, change, front, tries, wait_for  # noqa: F401
+from hvi.jobs import engine, machine
 from hvi.shield import limit
 
 
@@ -184,6 +185,14 @@ def test_no_limit_in_the_range(folder, capsys):
     assert answer(folder)["limit"] is None
 
 
+def test_a_wall_that_never_holds_has_no_limit(folder, capsys):
+    (folder / "emi.yaml").write_text(change("material: Al6061-T6", "material: Ti-6Al-4V"))
+    for words in (("limit", "--on", "thickness2"), ("curve", "--dry-run")):
+        assert front(*words) == 1
+        assert "hvi: emi: no limit: wall 2 is of Ti-6Al-4V.hvi, whose file has no law of spall (damage yes spall voids), so it does not fail in tension, and a shield that holds is undecided -- " in capsys.readouterr().err
+    assert not (folder / "runs").exists()
+
+
 def test_limit_goes_on_after_kill(folder, capsys):
     """kill -9 amid the search: what was run counts, what still runs is waited for"""
     words = ["limit", "emi.yaml", "--on", "D", "--from", "2", "--to", "8", "--step", "0.1", "--jobs", "2", "--mpirun", "./mpirun"]
@@ -195,6 +204,32 @@ def test_limit_goes_on_after_kill(folder, capsys):
     assert not (folder / "runs/emi/limit-D/limit.yaml").exists()
     assert front(words[0], *words[2:-2]) == 0
     assert answer(folder)["limit"] == pytest.approx(4.25) and len(begun(folder)) > len(first) and first.items() <= begun(folder).items()
+
+
+@pytest.mark.parametrize("words, over", [(("limit", "--on", "D"), []), (("curve", "--speeds", "5:7:3"), [[5], [7]])])
+def test_what_a_search_takes(folder, capsys, monkeypatch, words, over):
+    """plans at the ends of the range, for each spacing; what does not fit at one of them is refused, with a plan and without, unless all is there already"""
+    words, columns, searches = (*words, "--from", "4", "--to", "6", "--step", "0.5"), 2 + bool(over), 3 if over else 1
+    assert front(*words, "--dry-run", "--jobs", "99") == 0
+    out = capsys.readouterr().out
+    head, *rows = [line.split() for line in out.splitlines() if not line.startswith(("/", "emi", "at most", "./"))]
+    assert head == [*(["speed_km_s"] if over else []), "spacing_mm", "D_mm", "particles", "steps", "core_s", "memory_MB"]
+    assert [[float(word) for word in line[:columns]] for line in rows] == [[*at, dx, D] for at in over or [[]] for dx in (0.4, 0.2) for D in (4, 6)]
+    said = re.search(rf"^at most {searches * 32} runs, as a rule far fewer: at most about (.*) if the wall fails, up to 3 times that if it does not, {searches * 4} at a time on 2 ranks", out, re.M)
+    if not over:  # 16 of each spacing, all as at 6 mm
+        assert said[1] == engine.duration(16 * sum(float(line[-2]) for line in rows if float(line[1]) == 6) / (4 * 2))
+    memory = float(rows[-1][-1])
+    monkeypatch.setattr(machine, "free_memory", lambda: 0.9 * memory)
+    for more in ((), ("--dry-run",)):
+        assert front(*words, *more) == 1
+        assert "6 mm: spacings_mm: 0.2 mm makes some " in (err := capsys.readouterr().err) and err.endswith("or a narrower range\n") and not (folder / "runs").exists()
+    monkeypatch.setattr(machine, "free_memory", lambda: 1.5 * memory)
+    assert front(*words, "--jobs", "2") == 1 and "in each of 2 runs at a time" in capsys.readouterr().err and not tries(folder)
+    if not over:
+        assert front(*words) == 0
+        before = begun(folder)
+        monkeypatch.setattr(machine, "free_memory", lambda: 1)
+        assert front(*words) == 0 and begun(folder) == before
 
 
 @pytest.mark.parametrize("words, message", [
@@ -219,6 +254,7 @@ def search(truth, n, **words):
     while new := found.next():
         found.said.update({place: truth(place) for place in new})
     assert found.done
+    assert len(found.said) <= limit.tries(n, bool(words.get("window")))
     return found.borders(), len(found.said)
 
 

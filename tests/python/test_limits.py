@@ -6,6 +6,7 @@ import math
 import pytest
 from front_runs import HEAD, LIST, STUDY, begun, case_folder, front, mine_folder, tries  # noqa: F401
 from hvi.errors import HVIError
+from hvi.jobs import machine
 from hvi.shield import brackets, shots
 from hvi.version import ROOT
 
@@ -109,6 +110,13 @@ def test_limits(mine, capsys):
     before = begun(mine)
     assert front("limits", case="mine.yaml") == 0
     assert begun(mine) == before and rows_of(mine) == rows
+
+
+def test_what_does_not_fit_is_refused(mine, capsys, monkeypatch):
+    monkeypatch.setattr(machine, "free_memory", lambda: 50)
+    for words in ((), ("--dry-run",)):
+        assert front("limits", *words, case="mine.yaml") == 1 and not tries(mine)
+        assert "hvi: D_across-10_shift-0_diameter-" in (err := capsys.readouterr().err) and "MB of memory, and 50 are free: take " in err and err.endswith(" or more by across of the study\n")
 
 
 @pytest.mark.long

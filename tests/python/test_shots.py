@@ -9,6 +9,7 @@ import pytest
 import yaml
 from front_runs import case_folder, front, tries  # noqa: F401
 from hvi.errors import HVIError
+from hvi.jobs import machine
 from hvi.shield import ble, shots
 
 HEAD = "source,shotID,proj_mat,proj_diam,angle,velocity,bumper_mat,bumper_thick,standoff,wall_mat,wall_yield,wall_thick,result\n"
@@ -170,6 +171,14 @@ def test_only_these(mine, capsys):
     assert "2 of 3 shots are done" in (mine / "runs/mine/shots.md").read_text()
     assert front("shots", "--only", "midle", case="mine.yaml") == 1
     assert "no shot midle; did you mean middle?" in capsys.readouterr().err
+
+
+def test_what_does_not_fit_is_refused(mine, capsys, monkeypatch):
+    """of the runs that are to be made; a plan is there to choose shots by"""
+    monkeypatch.setattr(machine, "free_memory", lambda: 50)
+    assert front("shots", case="mine.yaml") == 1 and not tries(mine)
+    assert "MB of memory, and 50 are free: take " in (err := capsys.readouterr().err) and err.endswith(" or more by the study's rule, or --only other shots\n")
+    assert front("shots", "--dry-run", case="mine.yaml") == 0
 
 
 def test_equations_alone(mine, capsys):

@@ -64,16 +64,20 @@ def main(args):
     limits = {value: Limit(over.checked(case, value, f"--over {word}" if args.over else "--speeds"), folder, args.on, args.from_, args.to_, args.step_,
                            name=f"{'v' if word == 'speed' else word}-{value:g}_") for value in values}
     runner = runs.Runner(args)
-    first = [job for limit in limits.values() for job in limit.first()]
-    print(f"{case.name}: {args.on} over {len(values)} {'speeds' if word == 'speed' else f'values of {word}'}, {len(first)} runs to begin with", flush=True)
-    if args.dry_run:
-        runner.show(first)
-        return 0
-    for ending in ("yaml", "csv", "png"):  # of an earlier call
-        (folder / f"curve.{ending}").unlink(missing_ok=True)
 
     def more(job):
         return next(limit for limit in limits.values() if job.name in limit.jobs).more(job)
+
+    first = runs.left([job for limit in limits.values() for job in limit.first()], more)
+    print(f"{case.name}: {args.on} over {len(values)} {'speeds' if word == 'speed' else f'values of {word}'}, {len(first)} runs to begin with", flush=True)
+    if args.dry_run:
+        runner.show(first)
+    if args.dry_run or first:
+        running.plan_searches(case, limits, folder, runner, args.dry_run, over)
+    if args.dry_run:
+        return 0
+    for ending in ("yaml", "csv", "png"):  # of an earlier call
+        (folder / f"curve.{ending}").unlink(missing_ok=True)
 
     def every():
         return [job for limit in limits.values() for job in limit.every()]

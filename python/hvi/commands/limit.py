@@ -1,8 +1,6 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """python3 -m hvi limit: up to where does the wall hold?"""
 
-import math
-
 from .. import tables
 from ..errors import HVIError
 from ..jobs import engine, runs
@@ -29,11 +27,13 @@ def main(args):
     case, given = quantity.changed(cases.read(args.case), args.at, args.on)
     limit = Limit(case, args.runs.resolve() / case.name / f"limit-{args.on}{given}", args.on, args.from_, args.to_, args.step_)
     runner = runs.Runner(args)
-    first, values = limit.first(), limit.values
-    most = len(decision.members(case)) * 2 * (1 + math.ceil(math.log2(len(values))))
-    print(f"{case.name}: {args.on} from {values[0]:g} to {values[-1]:g} {limit.unit}, {len(values)} values, at most {most} runs", flush=True)
+    first, values = runs.left(limit.first(), limit.more), limit.values
+    print(f"{case.name}: {args.on} from {values[0]:g} to {values[-1]:g} {limit.unit}, {len(values)} values, {len(first)} runs to begin with, at most {len(limit.most())}", flush=True)
     if args.dry_run:
         runner.show(first)
+    if args.dry_run or first:
+        running.plan_searches(case, {None: limit}, limit.folder, runner, args.dry_run)
+    if args.dry_run:
         return 0
     (limit.folder / "limit.yaml").unlink(missing_ok=True)
     with engine.table_of(limit.every, limit.folder / "runs.csv"):

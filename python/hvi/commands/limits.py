@@ -4,7 +4,7 @@
 from .. import tables
 from ..errors import HVIError
 from ..jobs import runs
-from ..shield import brackets
+from ..shield import brackets, chain
 from . import running
 from .shots import markdown
 
@@ -64,8 +64,12 @@ def main(args):
     folder.mkdir(parents=True, exist_ok=True)
     found = [brackets.Found(study, one, across, shift, folder / one.name) for across in sorted(study.across) for shift in study.shifts for one in study.brackets]
     first = {job.name: (one, job) for one in found for job in one.more() if one.bracket.name in chosen}  # of the others what was run before
+    runner = runs.Runner(args)
     if args.dry_run:
-        runs.Runner(args).show([job for _, job in first.values()])
+        runner.show([job for _, job in first.values()])
+    if first:
+        running.refuse_too_large([(name, chain.plan_of(job.shield)) for name, (_, job) in first.items()], folder, runner.here(len(first)), " by across of the study")
+    if args.dry_run:
         return 0
     owner = {name: one for name, (one, _) in first.items()}
 
@@ -78,7 +82,6 @@ def main(args):
         return new
 
     print(f"{study.name}: {len(chosen)} brackets, {len(study.across)} spacings, {len(study.shifts)} shifts; {len(first)} runs to begin with", flush=True)
-    runner = runs.Runner(args)
     try:
         failed = runner.run([job for _, job in first.values()], study.name, more)
     finally:

@@ -2,16 +2,19 @@
 """What commands that run LAMMPS share: how it is run, of which case, over which values."""
 
 import argparse
+import math
 import pathlib
 import textwrap
 
 from .. import tables
-from ..errors import writing
-from ..jobs import engine
+from ..errors import HVIError, writing
+from ..jobs import engine, machine
 from ..shield import case as cases
+from ..shield import script
 from .shared import count, least0, positive
 
 MOST = 1000  # speeds
+SIZES = "particles", "steps", "core_s", "memory_MB"  # of a run, in a table
 
 
 def add_runs(parser):
@@ -104,6 +107,45 @@ def row_of(text, kind, what="value"):
 
 def evenly(first, last, n):
     return [first + (last - first) * k / (n - 1) for k in range(n)] if n > 1 else [first]
+
+
+def said_of_time(case, cores, jobs, ranks):
+    """how long runs take, so many at a time; cores: [core-seconds until tstop, ...] of all of them"""
+    jobs, longest = min(jobs, len(cores)), script.longest(case)
+    longer = f" if the wall fails, up to {longest} times that if it does not" if longest > 1 else ""
+    return f"at most about {engine.duration(max(sum(cores) / jobs, *cores) / ranks)}{longer}, {jobs} at a time on {ranks} ranks each, on idle cores; a run ends when its event is over"
+
+
+def refuse_too_large(plans, folder, jobs, instead):
+    """before anything is made: runs that the machine has no room for
+
+    plans: [(what is run, plan), ...] of all runs; jobs: runs on this machine at a time; instead: what else than coarser spacings would help
+    """
+    free, (name, most) = machine.free_memory(), max(plans, key=lambda one: one[1]["memory_MB"])
+    dx = most["dx_mm"]
+    if free is not None and most["memory_MB"] * jobs > free:
+        fit = math.ceil(100 * dx * (most["memory_MB"] * jobs / free) ** (1 / 3)) / 100
+        raise HVIError(f"{name}: spacings_mm: {dx:g} mm makes some {most['particles']:.3g} particles, {most['memory_MB']:.3g} MB of memory"
+                       f"{f' in each of {jobs} runs at a time' if jobs > 1 else ''}, and {free:.0f} are free: take {fit:g} mm or more{', or fewer jobs at a time' if jobs > 1 else ''}{instead}")
+    disk, existing = machine.free_disk(folder)
+    kept, restarts = sum(plan["frames_MB"] for _, plan in plans), sorted((plan["disk_MB"] - plan["frames_MB"] for _, plan in plans), reverse=True)  # which a run removes when it is done
+    if (needed := kept + sum(restarts[:jobs or None])) > disk:
+        raise HVIError(f"{name}: some {needed:.3g} MB would be written, and {disk:.0f} are free in {existing}: take a larger settings: film, or another --runs DIR")
+
+
+def plan_searches(case, limits, folder, runner, show, over=None):
+    """Searches for which the machine has no room are refused, show: after a table of what they take at most.
+
+    limits: {value: Limit}; over: the Quantity of these values, None if there is but one search
+    """
+    most = [(f"{case.name}, {f'{over.word} {at:g} {over.unit}, ' if over else ''}{limit.on} {value:g} {limit.unit}", plan) for at, limit in limits.items() for value, plan in limit.most()]
+    jobs = min(runner.jobs, 2 * len(case.shifts) * len(limits))  # a search asks for two runs at a time
+    if show:
+        at_ends = [at for k, at in enumerate(limits) if k in (0, len(limits) - 1)]
+        columns = [*([over.name] if over else []), "spacing_mm", limits[at_ends[0]].quantity.name, *SIZES]
+        print(tables.text(columns, [(*([at] if over else []), plan["dx_mm"], value, *(plan[key] for key in SIZES)) for at in at_ends for ends in limits[at].plans() for value, plan in ends]))
+        print(f"at most {len(most)} runs, as a rule far fewer: {said_of_time(case, [plan['core_s'] for _, plan in most], jobs, runner.ranks)}")
+    refuse_too_large(most, folder, runner.here(jobs), ", or a narrower range")
 
 
 def save(path, mapping):

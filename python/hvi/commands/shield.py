@@ -2,14 +2,13 @@
 """python3 -m hvi shield: does the wall hold?  One case at several spacings and shifts of the lattice, one verdict."""
 
 import contextlib
-import math
 import pathlib
 import shlex
 
 from .. import tables
 from ..errors import HVIError
 from ..io import packed
-from ..jobs import engine, lammps, machine, runs
+from ..jobs import engine, lammps, runs
 from ..places import program, typed
 from ..shield import ble, calibration, chain, script
 from ..shield import case as cases
@@ -19,6 +18,7 @@ from . import running
 EXAMPLES = """  python3 -m hvi shield emi.yaml --dry-run
   python3 -m hvi shield emi.yaml --jobs 2 --ranks 1
   python3 -m hvi shield emi.yaml --write emi"""
+INSTEAD = "; --write makes the input for another machine"  # of too large a run
 
 
 def add_arguments(parser):
@@ -47,7 +47,7 @@ def main(args):
     (folder / "verdict.yaml").unlink(missing_ok=True)  # that of another case, or of fewer runs
     todo = [j for j in jobs.values() if j.result() is None]
     if todo:
-        refuse_too_large(case, [chain.plan_of(j.shield) for j in todo], folder, runner.here(len(todo)))
+        running.refuse_too_large([(case.name, chain.plan_of(j.shield)) for j in todo], folder, runner.here(len(todo)), INSTEAD)
     print(f"{case.name}: {len(jobs)} runs, {len(jobs) - len(todo)} done before, {len(todo)} to run", flush=True)
     with engine.table_of(jobs.values, folder / "runs.csv"):
         failed = runner.run(todo, case.name)
@@ -74,20 +74,6 @@ def main(args):
     return STATUS[said]
 
 
-def refuse_too_large(case, plans, folder, jobs):
-    """before anything is made: runs that the machine has no room for; plans: [plan, ...] of the spacings, jobs: runs on this machine at a time"""
-    free, most = machine.free_memory(), max(plans, key=lambda plan: plan["memory_MB"])
-    dx = most["dx_mm"]
-    what = f"spacings_mm: {dx:g} mm makes some {most['particles']:.3g} particles"
-    if free is not None and most["memory_MB"] * jobs > free:
-        fit = math.ceil(100 * dx * (most["memory_MB"] * jobs / free) ** (1 / 3)) / 100
-        raise HVIError(f"{case.name}: {what}, {most['memory_MB']:.3g} MB of memory{f' in each of {jobs} runs at a time' if jobs > 1 else ''}, and {free:.0f} are free: "
-                       f"take {fit:g} mm or more{', or fewer jobs at a time' if jobs > 1 else ''}; --write makes the input for another machine")
-    disk, existing = machine.free_disk(folder)
-    if (needed := sum(plan["disk_MB"] for plan in plans) * len(case.shifts)) > disk:
-        raise HVIError(f"{case.name}: some {needed:.3g} MB would be written, and {disk:.0f} are free in {existing}: take a larger settings: film, or another --runs DIR")
-
-
 def plan(case, folder, args):
     """what would be run: particles, areal densities, steps, time and memory of each spacing, from geometry alone; and a sketch"""
     from .. import figures
@@ -101,10 +87,9 @@ def plan(case, folder, args):
             "tstop_us", "particles", *nodes, "steps", "core_s", "memory_MB", "frames", "frames_MB", "frames_in_report", "disk_MB"]
     print(tables.text(("each run", *(f"dx-{dx:g}" for dx in case.spacings_mm)), [
         (key, *(f"about {tables.number(found[key])}" if key in ("steps", "core_s", "memory_MB", "frames", "frames_MB", "disk_MB") else found[key] for found in plans)) for key in keys]))
-    core, local, ranks = sum(found["core_s"] for found in plans) * len(case.shifts), args.engine == "local", args.ranks or runs.RANKS
-    jobs = args.jobs or (1 if local else len(members(case)))
-    print(f"{len(members(case))} runs, {len(case.shifts)} of each spacing: at most about {engine.duration(core / (jobs * ranks))}, {jobs} at a time on {ranks} ranks each, "
-          "on idle cores; a run ends when its event is over")
+    every, local = plans * len(case.shifts), args.engine == "local"
+    jobs = min(args.jobs or (1 if local else len(every)), len(every))
+    print(f"{len(every)} runs, {len(case.shifts)} of each spacing: {running.said_of_time(case, [found['core_s'] for found in every], jobs, args.ranks or runs.RANKS)}")
     most = "as settings: film says" if case.setting("film") else f"at most {chain.FRAMES + 2} of a run, and {chain.BUDGET / 1e6:.0f} MB, until tstop_us and at the end"
     print(f"frames: {most}; of these the scene in 3D of the report has frames_in_report or more, in {packed.TEXT / 1e6:.0f} MB")
     finest = plans[-1]
@@ -114,8 +99,8 @@ def plan(case, folder, args):
         folder.mkdir(parents=True, exist_ok=True)
         for path in figures.save(sketch.draw(case, finest), str(folder / "sketch.png")):
             print(f"sketch: {path}")
-    refuse_too_large(case, plans, folder, jobs if local else 0)
-    runs.ask_slurm(words, len(members(case)))
+    running.refuse_too_large([(case.name, found) for found in every], folder, jobs if local else 0, INSTEAD)
+    runs.ask_slurm(words, len(every))
     return 0
 
 

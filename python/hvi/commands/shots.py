@@ -3,7 +3,7 @@
 
 from .. import tables
 from ..jobs import runs
-from ..shield import chain
+from ..shield import chain, script
 from ..shield.shots import Outcome, Study, by_equation, confusion, counts, counts_table, named, ratios_of, row, shown
 from . import running
 
@@ -48,7 +48,8 @@ def plan(outcomes, folder):
             rows.append((outcome.shot.name, dx, *(found[key] for key in keys), found["particles"] * found["steps"]))
     tables.write_csv(folder / "plans.csv", names, rows)
     print(tables.text(names, rows))
-    print(f"{len(rows)} plans, at most {sum(line[-1] for line in rows) * len(outcomes[0].case.shifts):.3g} particle-steps in all: {folder / 'plans.csv'}")
+    print(f"{len(rows)} plans, {sum(line[-1] for line in rows) * len(outcomes[0].case.shifts):.3g} particle-steps in all until tstop_us, "
+          f"at most {script.longest(outcomes[0].case)} times that: {folder / 'plans.csv'}")
 
 
 def main(args):
@@ -79,6 +80,9 @@ def main(args):
     todo = [job for job in jobs if job.result() is None]
     print(f"{study.name}: {len(shots)} shots, {len(jobs)} runs, {len(jobs) - len(todo)} done before, {len(todo)} to run", flush=True)
     runner = runs.Runner(args)
+    if todo:
+        running.refuse_too_large([(job.name, chain.plan_of(job.shield)) for job in todo], folder, runner.here(len(todo)),
+                                 " by the study's rule, or --only other shots")
     try:
         failed = runner.run(todo, study.name)
     finally:

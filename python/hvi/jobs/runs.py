@@ -1,11 +1,11 @@
 # lammps-hvi, Copyright (2026) the lammps-hvi developers. GNU General Public License, version 2: see the file LICENSE.
 """Runs many jobs as the options of the command line say, in one of two engines: processes of this machine, or Slurm.
 
-An engine has most (runs at a time where --jobs says nothing), here (whether runs are on this machine), pause (seconds between looks at how far runs are),
-interrupted() (the message after Ctrl-C) and
+An engine has most (runs at a time where --jobs says nothing), here (whether runs are on this machine), pause (seconds between looks at how far runs are) and
 
     begin(jobs, say)   takes jobs that are to be run; say(line) prints
     ended(jobs, say)   [job, ...]: which of these have ended; job.problem says what went wrong, "" if nothing
+    interrupted(jobs)  the message after Ctrl-C, of those that have begun
     stop(jobs)         the call ends before these have
 """
 
@@ -66,8 +66,9 @@ class Local:
     def stop(self, jobs):
         engine.end(jobs)
 
-    def interrupted(self):
-        return "call again to go on"
+    def interrupted(self, jobs):
+        anew = [job.name for job in jobs if job.process is not None and not job.restart_files()]
+        return "call again to go on" + (f"; {len(anew)} run{'s have' if len(anew) > 1 else ' has'} saved nothing and will begin anew: {', '.join(anew)}" if anew else "")
 
 
 def end_signals():
@@ -80,6 +81,17 @@ def as_interrupts():
     for ends in end_signals():
         if signal.getsignal(ends) != signal.SIG_IGN:
             signal.signal(ends, signal.default_int_handler)
+
+
+def left(jobs, more):
+    """those that are not done, of jobs and of what follows from the others"""
+    found, looked_at = [], list(jobs)
+    for job in looked_at:
+        if job.result() is None:
+            found.append(job)
+        else:
+            looked_at += more(job)
+    return found
 
 
 def run(place, most, jobs, what, more=lambda job: []):
@@ -128,7 +140,7 @@ def run(place, most, jobs, what, more=lambda job: []):
                     look = time.monotonic() + place.pause
                 time.sleep(LOOK)
         except KeyboardInterrupt:
-            print(f"interrupted: {place.interrupted()}", file=sys.stderr)
+            print(f"interrupted: {place.interrupted(running)}", file=sys.stderr)
             raise
         finally:
             place.stop(running)

@@ -381,6 +381,6 @@ class Slurm:
     def stop(self, jobs):
         """they run on"""
 
-    def interrupted(self):
+    def interrupted(self, jobs):
         numbers = sorted({self.numbers[name] for name, _ in self.place.values() if name in self.numbers})
         return f"what is in Slurm's queue runs on: call again to go on{', or ' + ' '.join(['scancel', *numbers]) if numbers else ''}"

@@ -27,6 +27,7 @@ LAYERS = 3  # needed in the wall that decides
 ACROSS = 4  # particles across a projectile
 MOST = 1000  # walls
 METHODS = "sph", "hybrid", "tied"
+HOW = {"spall": "in tension", "damage": "by plastic strain"}  # what fails by a law of that kind
 
 
 MODEL = ": what this package has no model for belongs into not_modelled"
@@ -166,6 +167,19 @@ class Case:
     def method(self):
         """hybrid or tied if any wall has elements, else None"""
         return next((wall.method for wall in self.walls if wall.method != "sph"), None)
+
+    def whole(self, last):
+        """[(k, sentence, {key: value}, remedy), ...] of walls up to the last one that lack a law of spall or damage, and so cannot be said to hold"""
+        found = []
+        for k, wall in enumerate(self.walls[:last], 1):
+            name = f"wall {k} is of {wall.material}"
+            for kind, why in laws.lacking(wall.material, self.setting("solid")).items():
+                own = "give its file such a section, or " if why.startswith("whose") else ""
+                found.append((k, lacks(name, kind, why), {"settings": {"solid": None}}, f"{own}take a law that it has, by settings: {{solid: ...}}"))
+            for kind in HOW if wall.method != "sph" else ():
+                if laws.last_word(self.setting("fem"), kind) in laws.NO:
+                    found.append((k, lacks(name, kind, f"with settings: {{fem: {kind} no}} of its elements"), {"settings": {"fem": None}}, "take settings: {fem: ...} without that"))
+        return found
 
     def faces(self):
         """(front, rear) of each wall in mm, the front of wall 1 at 0"""
@@ -340,10 +354,19 @@ def read(path, model=True):
     return case
 
 
+def lacks(name, kind, why):
+    return f"{name}, {why}, so it does not fail {HOW[kind]}"
+
+
 def warn(case, reader):
     """of what is no error"""
     for name in dict.fromkeys((case.material, *(wall.material for wall in case.walls))):
         library.warn(library.read(library.of_case(name)))
+    if whole := case.whole(len(case.walls)):
+        walls, texts_, _, remedies = zip(*whole)
+        node = reader.at[f"wall {walls[0]}: material"]
+        warnings.warn(f"{reader.path}, line {node.start_mark.line + 1}: {'; '.join(texts_)}: if the shield holds, the verdict will be undecided -- {'; '.join(dict.fromkeys(remedies))}",
+                      HVIWarning, stacklevel=3)
     if "weibull" in case.setting("solid").split():
         node = reader.at["settings: solid"]
         warnings.warn(f"{reader.path}, line {node.start_mark.line + 1}: all runs have the same seed of weibull: what another would change is in no verdict", HVIWarning,

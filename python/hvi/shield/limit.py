@@ -5,12 +5,20 @@ Each spacing and shift of the lattice has a search of its own; that of a finer s
 coarser one. What was run is not run again: call once more to go on.
 """
 
+import math
+
 from .. import tables
 from ..errors import HVIError
-from . import ble, decision, quantity
+from . import ble, chain, decision, quantity
 
 MOST = 1000  # steps
 ANGLES = 0.0, 75.0, 5.0  # degrees: default of a search, since an angle of 0 has no half and no double
+
+
+def tries(n, window=False):
+    """of a Search over places 0 ... n at most: its ends, and halves on the way to two borders; from a window the ends may be far"""
+    halves = math.ceil(math.log2(n + 1))
+    return max(2 + 2 * halves, 4 * halves - 4 if window else 0)
 
 
 class Search:
@@ -92,19 +100,32 @@ class Limit:
             raise HVIError(f"--from {low:.9g} --to {high:.9g} --step {step:g}: values have six digits, and some of these are the same")
         for value in self.values:  # elements do not fit any thickness
             self.at(value).check_elements(quantity.wrong(f"{on} {value:g} {self.unit}"))
+        if whole := case.whole(len(case.walls)):
+            raise HVIError(f"{case.name}: no limit: {whole[0][1]}, and a shield that holds is undecided -- {whole[0][3]}")
         self.searches, self.jobs = {}, {}
 
     def at(self, value):
         """the case with that value"""
         return self.quantity.at(self.case, value)
 
+    def job(self, member, value):
+        name = f"{self.name}{decision.member_name(self.case, member)}_{self.on}-{value:g}"
+        return decision.job(self.at(value), member, self.folder / name, name, remove=["cloud*.dump", "film.*.dump"])
+
+    def plans(self):
+        """[[(value, plan of a run) at both ends of the range] of each spacing, ...]"""
+        return [[(value, chain.plan_of(self.job((which, self.case.shifts[0]), value).shield)) for value in (self.values[0], self.values[-1])]
+                for which in range(len(self.case.spacings_mm))]
+
+    def most(self):
+        """[(value, plan), ...] of all runs that can be asked for, each as at the end of the range where it takes more"""
+        return [max(ends, key=lambda end: end[1]["core_s"]) for which, ends in enumerate(self.plans()) for _ in range(len(self.case.shifts) * tries(len(self.values) - 1, which > 0))]
+
     def _new(self, member):
         """jobs for what the search of a member asks for next; that of the next spacing, once this one is done"""
         found = []
         for place in self.searches[member].next():
-            value = self.values[place]
-            name = f"{self.name}{decision.member_name(self.case, member)}_{self.on}-{value:g}"
-            job = decision.job(self.at(value), member, self.folder / name, name, remove=["cloud*.dump", "film.*.dump"])
+            job = self.job(member, self.values[place])
             self.jobs[job.name] = member, place, job
             found.append(job)
         search, (which, shift) = self.searches[member], member

@@ -41,6 +41,11 @@ def make(path, **words):
     (projectile if pathlib.Path(path).name == BALL else elements).write(path, **words)
 
 
+def longest(case):
+    """times tstop that a run takes at most"""
+    return 1 if case.setting("tstop") else LONGER
+
+
 def number(value):
     """as short as its digits allow"""
     return f"{value:.10g}"
@@ -406,7 +411,7 @@ class Shield:
     @property
     def latest_us(self):
         """end of the run, whatever happens: what the case says, or longer than what is usually enough"""
-        return self.geometry.tstop_us * (1 if self.settings["tstop"] else LONGER)
+        return self.geometry.tstop_us * longest(self.case)
 
     def text(self, new=True):
         text = Text()

@@ -85,9 +85,7 @@ def measured(shield, result):
     m.failed = m.last and not m.plugged and (m.hole > 0 or (m.parts >= FEW and m.missed <= BESIDE and not m.slips))
     solid = shield.settings["solid"]
     m.solid = solid
-    m.whole = [(k, *lack) for k in range(1, d + 1) for lack in laws.lacking(case.walls[k - 1].material, solid).items()]
-    m.whole += [(k, kind, f"with settings: {{fem: {kind} no}} of its elements") for k in range(1, d + 1) if case.walls[k - 1].method != "sph"
-                for kind in HOW if laws.last_word(shield.settings["fem"], kind) in laws.NO]
+    m.whole = case.whole(d)
     m.ball_whole = [lack for lack in laws.lacking(case.material, solid).items() if lack[0] == "spall"]  # what breaks a projectile is tension
     m.thickness = case.walls[d - 1].thickness_mm
     m.tstop = 1.5 * max(shield.geometry.tstop_us, result["time_us"])
@@ -95,13 +93,6 @@ def measured(shield, result):
     m.ended = f" at {result['time_us']:.1f} us, the end at the latest" if result["ended_by"] == "time" else ""
     m.torn = [k for k in range(1, d + 1) if m.of("torn", k)]
     return m
-
-
-HOW = {"spall": "in tension", "damage": "by plastic strain"}  # what fails by a law of that kind
-
-
-def lacks(name, kind, why):
-    return f"{name}, {why}, so it does not fail {HOW[kind]}"
 
 
 RULES = (
@@ -153,7 +144,7 @@ RULES = (
          lambda m: f"whether wall {m.d} has a hole is unknown, for no plate in one piece is left around the place that is struck",
          lambda m: ({f"wall {m.d}: radius_mm": None}, "take a larger radius_mm for it, or smaller spacings_mm")),
     Rule("whole", UNLESS, lambda m: m.whole, "what cannot fail in tension holds whatever comes, and what cannot by plastic strain holds at two thirds of the thickness",
-         lambda m, found: lacks(f"wall {found[0]} is of {m.case.walls[found[0] - 1].material}", *found[1:]), each=True),
+         lambda m, found: found[1], lambda m, found: found[2:], each=True),
     Rule("perforated", FAILS, lambda m: m.last and not m.plugged and m.hole > 0, "light goes through",
          lambda m: f"wall {m.d} is perforated by a hole of {m.hole:.4g} mm"),
     Rule("spall", FAILS, lambda m: m.last and m.spall > 0, "as ballistic-limit equations define failure",
@@ -177,7 +168,7 @@ RULES = (
          lambda m: f"the projectile has {m.r['projectile_particles']} particles where {m.r['projectile_particles_planned']} fit: "
                    f"each has {m.r['projectile_particles_planned'] / m.r['projectile_particles']:.2g} times the mass of its cell",
          lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
-    Rule("ball", NOTE, lambda m: m.ball_whole, "what cannot fail stays in one piece", lambda m, lack: lacks(f"the projectile is of {m.case.material}", *lack), each=True),
+    Rule("ball", NOTE, lambda m: m.ball_whole, "what cannot fail stays in one piece", lambda m, lack: cases.lacks(f"the projectile is of {m.case.material}", *lack), each=True),
     Rule("coarse", NOTE, lambda m: m.coarse, "the cloud is that of this wall, too",
          lambda m, k: f"wall {k}, which does not decide, has {m.of('layers', k)} layer(s) of particles, and {NEEDED} are better for its cloud",
          lambda m, k: ({"spacings_mm": finest(m, k)}, f"take spacings_mm of {finest(m, k):.4g} or finer, or spacings and layers for this wall"), each=True),
