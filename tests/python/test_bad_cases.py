@@ -20,6 +20,7 @@ import yaml
 from front_runs import CASE, case_folder  # noqa: F401
 from hvi import cli
 from hvi.figures import style
+from hvi.jobs import machine
 from hvi.report import view
 from hvi.shield import case as cases
 
@@ -102,6 +103,8 @@ def refused(words, case):
 def scene(monkeypatch, tmp_path):
     monkeypatch.setenv("LAMMPS_POTENTIALS", str(ROOT / "potentials"))
     monkeypatch.setenv("HVI_LMP", "/bin/true")
+    monkeypatch.setattr(machine, "free_memory", lambda: 1e6)  # MB, whatever the machine has
+    monkeypatch.setattr(machine, "free_disk", lambda path: (1e6, path))
     monkeypatch.setattr(view.View, "still", functools.partialmethod(view.View.still, width=40))  # a picture of few pixels
     limits = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (6 << 30, limits[1]))  # what allocates without end meets it
