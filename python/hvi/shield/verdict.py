@@ -95,6 +95,14 @@ def measured(shield, result):
     return m
 
 
+def finer_wall(m):
+    """remedy where a wall is coarser than what strikes it: as keys of the case, and as words"""
+    if m.coarser > 1.001 * m.sieve:
+        return {"settings": {"layers": None}}, "take more layers, or let spacings_mm say how many"
+    cheap = "; with core_mm they cost little" if m.case.walls[m.d - 1].method == "sph" else ""
+    return {f"wall {m.d}: spacings_mm": None}, f"take spacings for it as fine as those of the projectile{cheap}"
+
+
 RULES = (
     Rule("not modelled", ALWAYS, lambda m: bool(m.case.not_modelled), "stuffing, MLI and honeycomb have no model",
          lambda m: f"the shield has {', '.join(m.case.not_modelled)}, which is not modelled (as stuffing, MLI and honeycomb are not)",
@@ -136,8 +144,7 @@ RULES = (
          lambda m: ({"spacings_mm": None}, "take spacings that are alike")),
     Rule("coarser", UNLESS, lambda m: m.last and m.coarser > COARSER, "a single wall struck by a fragment holds from 6 to 15 percent too early with particles 1.4 times as coarse, from 10 to 20 percent and more with twice (examples/crater)",
          lambda m: f"the particles of wall {m.d} are {m.coarser:.2g} times as far apart as those of what strikes it: it holds what a finer one does not",
-         lambda m: ({"settings": {"layers": None}}, "take more layers, or let spacings_mm say how many") if m.coarser > 1.001 * m.sieve else
-         ({f"wall {m.d}: spacings_mm": None}, "take spacings for it as fine as those of the projectile" + ("; with core_mm they cost little" if m.case.walls[m.d - 1].method == "sph" else ""))),
+         finer_wall),
     Rule("few", UNLESS, lambda m: m.few, f"with fewer than {FEW} particles apart, other shifts of the lattice say anything",
          lambda m: f"no more than {m.parts} particles are apart behind wall {m.d}, and {FEW} are needed", lambda m: ({"spacings_mm": None}, "take smaller spacings_mm")),
     Rule("no plate", UNLESS, lambda m: m.unknown, "a hole is what a plate around it has",
