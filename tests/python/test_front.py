@@ -231,7 +231,7 @@ def test_what_cannot_tear_in_tension(folder, capsys, D, wall, ball, verdict):
     what = f"wall 2 is of {wall}.hvi" if wall[0] == "T" else f"the projectile is of {ball}.hvi"
     assert said["verdict"] == verdict and "next_finer" not in said
     (why,) = [text for text in said[place] if text.startswith(f"{what}, whose file has no law of spall (damage yes spall voids)")]
-    assert (" -- give its file such a section, or take a law that it has, by settings: {solid: ...} (" in why) == (wall[0] == "T")
+    assert (" -- give its file such a section, or take a law that it has, by settings: {solid: ...} (" in why) == (verdict == "undecided")  # of failing runs there are no remedies
 
 
 @pytest.mark.parametrize("material, law, remedy", [
