@@ -741,6 +741,9 @@ void FixHVIFEM::check_state()
       one.V = volume;
     }
   }
+  for (int i = 0; i < atom->nlocal;
+       i++)    // a fix hvi/sph of another ID knows nothing of the last step
+    if (valence[i] > 0 && !coupling.integrator->knows_node(i)) here = 0;
   if (coupling.strayed()) here = 0;    // all ranks ask
   MPI_Allreduce(&here, &all, 1, MPI_INT, MPI_MIN, world);
   goes_on = all;

@@ -671,7 +671,10 @@ void FixHVISPH::final_integrate()
       if (!HVI::SphFields::is_frozen(rho[i]))
         rho[i] = changed(e.new_rho, dtv * (atom->drho[i] - by_L));
     } else {
-      if (sph.settings.solid) std::copy_n(atom->v[i], 3, e.v_work);
+      if (sph.settings.solid) {
+        std::copy_n(atom->v[i], 3, e.v_work);
+        e.old_drho = 0.0;
+      }
       if (!HVI::SphFields::is_frozen(rho[i]))
         rho[i] = changed(rho[i], dtf * atom->drho[i] - e.drho);
     }

@@ -40,7 +40,7 @@ struct HVISPHExtra {
   double hscale = 0.0;        // h rho^(1/dim); 0: not known yet
 
   // of solids: rates of density and energy, and acceleration, at the begin of the last step; NaN: there were none.
-  // old_a of nodes: velocity_change()
+  // Of nodes: old_a is velocity_change(), old_drho is NaN until there is a step whose end v_work tells
 
   double old_drho = NAN, old_de = 0.0, old_a[3] = {0.0, 0.0, 0.0};
 
@@ -140,6 +140,7 @@ class FixHVISPH :
   // of a node: by how much other fixes, such as fix momentum, have changed its velocity since the end of the last step
 
   const double *velocity_change(int i) const { return extra[i].old_a; }
+  bool knows_node(int i) const { return !std::isnan(extra[i].old_drho); }
 
   double sleep() const { return quiet; }    // differences that count as none; 0: nothing sleeps
   bool relative_lists() const { return relative; }
